@@ -1,0 +1,228 @@
+#include "core/beam/span.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace vlbeam {
+namespace {
+
+/// Basis of neighbouring elements as one pack; lanes beyond the last element repeat it with zero weight.
+FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
+  FixedBasis<Pack> basis;
+  const std::size_t count = lanes.size();
+  for (std::size_t g = 0; g < lanes.front().points.size(); ++g) {
+    FixedBasis<Pack>::Point point;
+    for (int lane = 0; lane < Pack::width; ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      const auto& from = lanes[std::min(i, count - 1)].points[g];
+      point.weight.set(lane, i < count ? from.weight : 0.0);
+      for (std::size_t c = 0; c < 3; ++c) {
+        point.s_x[c].set(lane, from.s_x[c]);
+        point.s_xx[c].set(lane, from.s_xx[c]);
+      }
+    }
+    basis.points.push_back(point);
+  }
+  return basis;
+}
+
+template <int D>
+Vec<Pack, D> load_lanes(const double* first, const std::array<int, Pack::width>& offset) {
+  Vec<Pack, D> result;
+  for (int c = 0; c < D; ++c) {
+    result[c] = Pack(first[offset[0] + c], first[offset[1] + c], first[offset[2] + c], first[offset[3] + c]);
+  }
+  return result;
+}
+
+template <int D>
+NodalCubic<Pack, D> load_elements(const double* nodes, int first, const std::array<int, Pack::width>& offset) {
+  const double* a = nodes + node_size<D> * first;
+  const double* b = a + node_size<D>;
+  return {load_lanes<D>(a, offset), load_lanes<D>(a + D, offset), load_lanes<D>(b, offset),
+          load_lanes<D>(b + D, offset)};
+}
+
+}  // namespace
+
+template <int D>
+Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
+              StrainLaw law, const QuadratureRule& rule)
+    : outer_(outer),
+      open_(open),
+      step_(outer <= open ? 1 : -1),
+      support_(support),
+      section_(section),
+      kernel_(choose_kernel(law, section)) {
+  build_packs(mesh, rule);
+  factor(mesh, rule);
+}
+
+template <int D>
+void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule) {
+  const int low = std::min(outer_, open_), high = std::max(outer_, open_);
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
+  auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
+  std::shared_ptr<const FixedBasis<Pack>> uniform;  // equal lengths and unit weights share one table
+  double uniform_length = 0;
+  for (int first = low; first < high; first += Pack::width) {
+    const int count = std::min(Pack::width, high - first);
+    bool is_uniform = count == Pack::width;
+    for (int k = first; k < first + count; ++k) {
+      is_uniform = is_uniform && mesh.weights[static_cast<std::size_t>(k)].w == unit_weights &&
+                   std::abs(length(k) - length(first)) <= rounding;
+    }
+    if (is_uniform && uniform && std::abs(length(first) - uniform_length) <= rounding) {
+      packs_.push_back({first, count, uniform});
+      continue;
+    }
+    std::vector<FixedBasis<double>> lanes;
+    for (int k = first; k < first + count; ++k) {
+      lanes.push_back(fixed_basis(length(k), mesh.weights[static_cast<std::size_t>(k)].w, rule));
+    }
+    packs_.push_back({first, count, std::make_shared<const FixedBasis<Pack>>(pack_basis(lanes))});
+    if (is_uniform) {
+      uniform = packs_.back().basis;
+      uniform_length = length(first);
+    }
+  }
+}
+
+template <int D>
+void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule) {
+  const int low = std::min(outer_, open_), count = std::abs(open_ - outer_);
+  load_.assign(static_cast<std::size_t>(count) + 1, {0, 0});
+  NodeBlock<D> block;
+  Components free_r = support_.free_position, free_s = support_.free_slope;
+  for (int k = outer_; k != open_; k += step_) {
+    const auto e = static_cast<std::size_t>(step_ > 0 ? k : k - 1);
+    FixedInertia inertia = fixed_inertia(mesh.x[e + 1] - mesh.x[e], mesh.weights[e].w, rule);
+    for (auto& row : inertia.mass) {
+      for (auto& entry : row) entry *= section_.rhoA;
+    }
+    const std::size_t node = e - static_cast<std::size_t>(low);
+    load_[node][0] += section_.rhoA * inertia.load[0];
+    load_[node][1] += section_.rhoA * inertia.load[1];
+    load_[node + 1][0] += section_.rhoA * inertia.load[2];
+    load_[node + 1][1] += section_.rhoA * inertia.load[3];
+
+    const std::size_t i = step_ > 0 ? 0 : 2, j = 2 - i;  // rows of this node and of the next one inwards
+    const auto& m = inertia.mass;
+    block.rr += m[i][i];
+    block.rs += m[i][i + 1];
+    block.ss += m[i + 1][i + 1];
+    const CouplingBlock<double> c{m[i][j], m[i][j + 1], m[i + 1][j], m[i + 1][j + 1]};
+    Pivot pivot;
+    pivot.inverse = block.inverse(free_r, free_s);
+    const auto& inv = pivot.inverse;
+    if (!inv.rr.isFinite().all() || (inv.rr < 0).any() || (inv.ss < 0).any()) {
+      throw std::invalid_argument("the mass matrix of a fixed-length element is singular: use at least 3 points");
+    }
+    pivot.next = {inv.rr * c.rr + inv.rs * c.sr, inv.rr * c.rs + inv.rs * c.ss, inv.rs * c.rr + inv.ss * c.sr,
+                  inv.rs * c.rs + inv.ss * c.ss};
+    NodeBlock<D> following;
+    following.rr = m[j][j] - (c.rr * pivot.next.rr + c.sr * pivot.next.sr);
+    following.rs = m[j][j + 1] - (c.rr * pivot.next.rs + c.sr * pivot.next.ss);
+    following.ss = m[j + 1][j + 1] - (c.rs * pivot.next.rs + c.ss * pivot.next.ss);
+    pivots_.push_back(pivot);
+    block = following;
+    free_r.setOnes();
+    free_s.setOnes();
+  }
+  open_mass_ = block;
+}
+
+template <int D>
+double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
+  const double dissipation = kernel_(packs_, section_, q, rate, force);
+  const int low = std::min(outer_, open_);
+  for (std::size_t k = 0; k < load_.size(); ++k) {
+    const int node = low + static_cast<int>(k);
+    position<D>(force, node) += load_[k][0] * gravity;
+    slope<D>(force, node) += load_[k][1] * gravity;
+  }
+  return dissipation;
+}
+
+template <int D>
+void Span<D>::reduce(double* force) const {
+  Components carry_r = Components::Zero(), carry_s = Components::Zero();
+  int node = outer_;
+  for (const Pivot& pivot : pivots_) {
+    auto f_r = position<D>(force, node);
+    auto f_s = slope<D>(force, node);
+    const Components y_r = support_.into_frame(f_r).array() - carry_r;
+    const Components y_s = support_.into_frame(f_s).array() - carry_s;
+    f_r = y_r.matrix();
+    f_s = y_s.matrix();
+    carry_r = pivot.next.rr * y_r + pivot.next.sr * y_s;
+    carry_s = pivot.next.rs * y_r + pivot.next.ss * y_s;
+    node += step_;
+  }
+  position<D>(force, open_) -= support_.out_of_frame(carry_r.matrix());
+  slope<D>(force, open_) -= support_.out_of_frame(carry_s.matrix());
+}
+
+template <int D>
+void Span<D>::substitute(double* force) const {
+  Components a_r = support_.into_frame(position<D>(force, open_)).array();
+  Components a_s = support_.into_frame(slope<D>(force, open_)).array();
+  int node = open_ - step_;
+  for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend(); ++pivot, node -= step_) {
+    auto f_r = position<D>(force, node);
+    auto f_s = slope<D>(force, node);
+    const Components y_r = f_r.array(), y_s = f_s.array();
+    const auto& inv = pivot->inverse;
+    const Components x_r = inv.rr * y_r + inv.rs * y_s - (pivot->next.rr * a_r + pivot->next.rs * a_s);
+    const Components x_s = inv.rs * y_r + inv.ss * y_s - (pivot->next.sr * a_r + pivot->next.ss * a_s);
+    f_r = support_.out_of_frame(x_r.matrix());
+    f_s = support_.out_of_frame(x_s.matrix());
+    a_r = x_r;
+    a_s = x_s;
+  }
+}
+
+template <int D>
+template <StrainLaw Law, bool Bending, bool Damped>
+double Span<D>::pack_forces(const std::vector<PackOfElements>& packs, const BeamSection& section, const double* q,
+                            const double* rate, double* force) {
+  constexpr int stride = node_size<D>;
+  double dissipation = 0;
+  for (const auto& pack : packs) {
+    std::array<int, Pack::width> offset;
+    for (int i = 0; i < Pack::width; ++i) offset[static_cast<std::size_t>(i)] = stride * std::min(i, pack.count - 1);
+    const auto e = load_elements<D>(q, pack.first, offset);
+    const auto e_rate = Damped ? load_elements<D>(rate, pack.first, offset) : e;
+    const auto f = fixed_force<Law, Bending, Damped, Pack, D>(*pack.basis, e, e_rate, section);
+    double* out = force + stride * pack.first;
+    for (int i = 0; i < pack.count; ++i, out += stride) {
+      for (int c = 0; c < D; ++c) {
+        out[c] -= f.r_b[c][i];
+        out[D + c] += f.s_a[c][i];
+        out[stride + c] += f.r_b[c][i];
+        out[stride + D + c] += f.s_b[c][i];
+      }
+      if constexpr (Damped) dissipation += f.dissipation[i];
+    }
+  }
+  return dissipation;
+}
+
+template <int D>
+typename Span<D>::ForceKernel Span<D>::choose_kernel(StrainLaw law, const BeamSection& section) {
+  auto choose = [&]<StrainLaw Law>() -> ForceKernel {
+    if (section.bends()) {
+      return section.damped() ? &Span::pack_forces<Law, true, true> : &Span::pack_forces<Law, true, false>;
+    }
+    return section.damped() ? &Span::pack_forces<Law, false, true> : &Span::pack_forces<Law, false, false>;
+  };
+  return law == StrainLaw::green ? choose.template operator()<StrainLaw::green>()
+                                 : choose.template operator()<StrainLaw::engineering>();
+}
+
+template class Span<2>;
+template class Span<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/dynamics/ode.hpp"
+#include "core/dynamics/stepper.hpp"
+
+namespace vlbeam {
+
+struct SolverCounters {
+  std::size_t steps = 0;
+  std::size_t rejected = 0;
+  std::size_t rhs_evaluations = 0;
+  double smallest_step = 0;  ///< [s], of the accepted steps that no event cut short
+};
+
+/// An ordinary differential equation whose right-hand side changes at events, with what wants to know of its solution.
+class EventedOde : public Ode {
+ public:
+  /// Guard functions at (t, y), scaled so that 1e-10 is a negligible distance.
+  virtual Guards guards(const Eigen::VectorXd& y, double t) const = 0;
+  /// Guard `index` has turned positive at (t, y): changes the equations and y.
+  virtual void handle_event(int index, Eigen::VectorXd& y, double t) = 0;
+  /// The solution at a sample time.
+  virtual void sample(const Eigen::VectorXd& y, double t) = 0;
+  /// After each step; false interrupts.
+  virtual bool proceed(double t) = 0;
+};
+
+struct IntegrationOptions {
+  IntegratorType type = IntegratorType::dopri5;
+  Tolerances tolerances;
+  double first_step = 1e-6;  ///< [s]
+};
+
+/// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start
+/// where the step across them started, so that they have its full order and neither the steps nor the results depend on
+/// the output. An event is located where its guard is zero to 1e-12.
+/// Returns false if interrupted. Throws ComputationFailed on step underflow and on a cascade of events without progress
+/// in time; `y` and `t` are then the last good state.
+bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
+               const IntegrationOptions& options, SolverCounters& counters);
+
+}  // namespace vlbeam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace vlbeam {
+
+/// y' = f(y, t) as the integrators see it. The size may change at an event, never in between.
+class Ode {
+ public:
+  virtual ~Ode() = default;
+  virtual Eigen::Index size() const = 0;
+  /// Writes f(y, t) into `dydt`, already of the right size. Allocates nothing.
+  virtual void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) = 0;
+};
+
+inline constexpr int max_guards = 4;
+/// Values of the guard functions; an event is due where one turns positive. Unused ones are negative.
+using Guards = std::array<double, max_guards>;
+
+}  // namespace vlbeam

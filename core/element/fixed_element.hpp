@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/element/quadrature.hpp"
+#include "core/element/section.hpp"
+#include "core/element/shape_functions.hpp"
+
+namespace vlbeam {
+
+/// A fixed-length element's basis at its quadrature points, tabulated once (RANCF; ANCF with unit weights).
+/// The shape functions of r_A and r_B sum to one, so r_x needs three columns only: those of r_B - r_A, s_A, s_B.
+template <class Real>
+struct FixedBasis {
+  struct Point {
+    Real weight;                  ///< quadrature weight times length [m]
+    std::array<Real, 3> s_x;      ///< first derivatives with respect to x
+    std::array<Real, 3> s_xx;     ///< second derivatives
+  };
+  std::vector<Point> points;
+};
+
+/// Basis of an element of length `l` [m] with weights `w`.
+FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const QuadratureRule& rule);
+
+/// Constant matrices of a fixed-length element: its consistent mass is rhoA times `mass` times the identity, its weight
+/// rhoA g times `load`.
+struct FixedInertia {
+  std::array<std::array<double, 4>, 4> mass;  ///< integral of s_i s_j dx, order r_A, s_A, r_B, s_B
+  std::array<double, 4> load;                 ///< integral of s_i dx
+};
+
+FixedInertia fixed_inertia(double l, const Weights<double>& w, const QuadratureRule& rule);
+
+/// Elastic and viscous forces of a fixed-length element on (r_A, s_A, r_B, s_B); that on r_B is minus that on r_A.
+template <class Real, int D>
+struct FixedForce {
+  Vec<Real, D> r_b, s_a, s_b;
+  Real dissipation;  ///< [W]
+};
+
+/// Ding & Ouyang (2022), Q_l and Q_t of Eq. 19 with the length constant. No branch on values: `Real` may be a Pack.
+template <StrainLaw Law, bool Bending, bool Damped, class Real, int D>
+FixedForce<Real, D> fixed_force(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
+                                const NodalCubic<Real, D>& rate, const BeamSection& section) {
+  using Vector = Vec<Real, D>;
+  FixedForce<Real, D> force{Vector::Zero(), Vector::Zero(), Vector::Zero(), Real(0)};
+  const Vector chord = e.r_b - e.r_a;
+  const Vector chord_rate = rate.r_b - rate.r_a;
+  for (const auto& point : basis.points) {
+    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+    const ElasticStress<Law, Bending, Real, D> elastic(r_x, r_xx, section.stiffness);
+    Vector p = elastic.p, m = elastic.m;
+    if constexpr (Damped) {
+      const Vector v_x = chord_rate * point.s_x[0] + rate.s_a * point.s_x[1] + rate.s_b * point.s_x[2];
+      const Vector v_xx = chord_rate * point.s_xx[0] + rate.s_a * point.s_xx[1] + rate.s_b * point.s_xx[2];
+      const DampingStress<Law, Bending, Real, D> viscous(r_x, r_xx, v_x, v_xx, section.stiffness, section.damping,
+                                                         section.curvature_regularization);
+      p += viscous.p;
+      m += viscous.m;
+      force.dissipation += point.weight * viscous.power;
+    }
+    p *= -point.weight;
+    force.r_b += p * point.s_x[0];
+    force.s_a += p * point.s_x[1];
+    force.s_b += p * point.s_x[2];
+    if constexpr (Bending) {
+      m *= -point.weight;
+      force.r_b += m * point.s_xx[0];
+      force.s_a += m * point.s_xx[1];
+      force.s_b += m * point.s_xx[2];
+    }
+  }
+  return force;
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,41 @@
+#include "core/element/quadrature.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cstddef>
+#include <utility>
+
+namespace vlbeam {
+namespace {
+
+template <std::size_t Points>
+QuadratureRule rule() {
+  QuadratureRule points;
+  if constexpr (Points == 1) {
+    points.push_back({0.5, 1.0});
+  } else {
+    using Gauss = boost::math::quadrature::gauss<double, Points>;
+    for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
+      const double x = Gauss::abscissa()[i], w = Gauss::weights()[i];
+      points.push_back({(1 + x) / 2, w / 2});
+      if (x != 0) points.push_back({(1 - x) / 2, w / 2});
+    }
+    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.u < b.u; });
+  }
+  return points;
+}
+
+template <std::size_t... I>
+std::array<QuadratureRule, sizeof...(I)> all_rules(std::index_sequence<I...> /*points - 1*/) {
+  return {rule<I + 1>()...};
+}
+
+}  // namespace
+
+const QuadratureRule& gauss_legendre(int points) {
+  static const auto rules = all_rules(std::make_index_sequence<max_quadrature_points>{});
+  return rules.at(static_cast<std::size_t>(points) - 1);
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/element/strain_law.hpp"
+#include "core/geometry/vec.hpp"
+
+namespace vlbeam {
+
+/// F = r_x x r_xx with half the gradients of F.F: what curvature is made of, in the plane and in space.
+template <class Real, int D>
+struct CrossProduct {
+  Real squared;            ///< F.F
+  Vec<Real, D> by_slope;   ///< (dF/dr_x)^T F
+  Vec<Real, D> by_second;  ///< (dF/dr_xx)^T F
+
+  CrossProduct(const Vec<Real, D>& rx, const Vec<Real, D>& rxx) {
+    if constexpr (D == 2) {
+      const Real f = rx[0] * rxx[1] - rx[1] * rxx[0];
+      squared = f * f;
+      by_slope << f * rxx[1], -(f * rxx[0]);
+      by_second << -(f * rx[1]), f * rx[0];
+    } else {
+      const Vec<Real, D> f = rx.cross(rxx);
+      squared = f.dot(f);
+      by_slope = rxx.cross(f);
+      by_second = f.cross(rx);
+    }
+  }
+};
+
+/// Stiffness of the section: EA [N], EI [N m^2].
+struct Stiffness {
+  double EA;
+  double EI;
+};
+
+/// Strain energy per length W = EA eps^2/2 + EI kappa^2/2 [J/m] and its gradients, the generalized stresses
+/// p = dW/dr_x [N] and m = dW/dr_xx [N m] (Ding & Ouyang 2022, Eq. 17-19).
+/// Curvature enters as kappa dkappa only, which is smooth where the beam is straight. `Bending` false is a cable.
+template <StrainLaw Law, bool Bending, class Real, int D>
+struct ElasticStress {
+  Vec<Real, D> p, m;
+  Real axial, bending;
+
+  ElasticStress(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, const Stiffness& k) {
+    using std::sqrt;
+    const Real g = rx.dot(rx);
+    Real along;
+    if constexpr (Law == StrainLaw::green) {
+      const Real eps = Real(0.5) * (g - Real(1));
+      axial = Real(0.5 * k.EA) * eps * eps;
+      along = Real(k.EA) * eps;
+    } else {
+      const Real stretch = sqrt(g);
+      const Real eps = stretch - Real(1);
+      axial = Real(0.5 * k.EA) * eps * eps;
+      along = Real(k.EA) * (Real(1) - Real(1) / stretch);
+    }
+    if constexpr (Bending) {
+      // kappa^2 = F.F / g^n, n = 3 (green) or 2 (engineering)
+      const CrossProduct<Real, D> cross(rx, rxx);
+      const Real inverse = Real(1) / g;
+      const Real scale = Real(k.EI) * (Law == StrainLaw::green ? Real(inverse * inverse * inverse)
+                                                               : Real(inverse * inverse));
+      constexpr double n = Law == StrainLaw::green ? 3 : 2;
+      bending = Real(0.5) * scale * cross.squared;
+      along -= Real(n) * scale * cross.squared * inverse;
+      p = rx * along + cross.by_slope * scale;
+      m = cross.by_second * scale;
+    } else {
+      bending = Real(0);
+      p = rx * along;
+      m.setZero();
+    }
+  }
+};
+
+/// Kelvin-Voigt stresses EA c eps' and EI c kappa' as generalized stresses, rates at a fixed material point.
+/// In space kappa' dkappa is 0/0 where the beam is straight; it is regularised as
+/// (kappa kappa')(kappa dkappa)/(kappa^2 + kappa_reg^2). In the plane the signed curvature needs no such thing.
+template <StrainLaw Law, bool Bending, class Real, int D>
+struct DampingStress {
+  Vec<Real, D> p, m;
+  Real power;  ///< dissipated power per length [W/m]
+
+  DampingStress(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, const Vec<Real, D>& vx, const Vec<Real, D>& vxx,
+                const Stiffness& k, double c, double curvature_regularization) {
+    using std::sqrt;
+    const Real g = rx.dot(rx);
+    const Vec<Real, D> strain_gradient = Law == StrainLaw::green ? rx : Vec<Real, D>(rx * Real(Real(1) / sqrt(g)));
+    const Real strain_rate = strain_gradient.dot(vx);
+    p = strain_gradient * Real(Real(c * k.EA) * strain_rate);
+    power = Real(c * k.EA) * strain_rate * strain_rate;
+    m.setZero();
+    if constexpr (Bending) {
+      constexpr double n = Law == StrainLaw::green ? 3 : 2;
+      if constexpr (D == 2) {
+        const Real f = rx[0] * rxx[1] - rx[1] * rxx[0];
+        const Real scale = Law == StrainLaw::green ? Real(Real(1) / (g * sqrt(g))) : Real(Real(1) / g);
+        Vec<Real, D> by_slope, by_second;
+        by_slope << rxx[1] * scale, -(rxx[0] * scale);
+        by_slope -= rx * Real(Real(n) * f * scale / g);
+        by_second << -(rx[1] * scale), rx[0] * scale;
+        const Real rate = by_slope.dot(vx) + by_second.dot(vxx);
+        p += by_slope * Real(Real(c * k.EI) * rate);
+        m = by_second * Real(Real(c * k.EI) * rate);
+        power += Real(c * k.EI) * rate * rate;
+      } else {
+        const CrossProduct<Real, D> cross(rx, rxx);
+        const Real inverse = Real(1) / g;
+        const Real scale = Law == StrainLaw::green ? Real(inverse * inverse * inverse) : Real(inverse * inverse);
+        const Real curvature_squared = cross.squared * scale;
+        const Vec<Real, D> by_slope =
+            cross.by_slope * scale - rx * Real(Real(n) * curvature_squared * inverse);
+        const Vec<Real, D> by_second = cross.by_second * scale;
+        const Real rate = by_slope.dot(vx) + by_second.dot(vxx);  // kappa kappa'
+        const Real over = Real(c * k.EI) /
+                          (curvature_squared + Real(curvature_regularization * curvature_regularization));
+        p += by_slope * Real(over * rate);
+        m = by_second * Real(over * rate);
+        power += over * rate * rate;
+      }
+    }
+  }
+};
+
+}  // namespace vlbeam

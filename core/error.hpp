@@ -1,0 +1,34 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace vlbeam {
+
+/// What the user asked for cannot be understood or cannot be modelled. Programs answer with exit code 2.
+class InvalidInput : public std::runtime_error {
+ public:
+  /// `field` is a JSON pointer into the scene ("/sliding_mass/position"), `value` what stands there,
+  /// `allowed` what may stand there.
+  InvalidInput(std::string field_, std::string value_, std::string allowed_)
+      : std::runtime_error(field_ + ": " + value_ + " is not allowed; " + allowed_),
+        field(std::move(field_)),
+        value(std::move(value_)),
+        allowed(std::move(allowed_)) {}
+
+  std::string field;
+  std::string value;
+  std::string allowed;
+};
+
+/// The computation broke down at time `t` [s]: tangled mesh, step underflow, degenerate curve, event cascade.
+/// Programs answer with exit code 3 and keep what was computed until then.
+class ComputationFailed : public std::runtime_error {
+ public:
+  ComputationFailed(const std::string& what, double t_) : std::runtime_error(what), t(t_) {}
+
+  double t;
+};
+
+}  // namespace vlbeam

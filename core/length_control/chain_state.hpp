@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "core/beam/mesh.hpp"
+#include "core/beam/node_map.hpp"
+
+namespace vlbeam {
+
+inline constexpr int no_joint = -1;
+
+/// A beam's mesh with its motion, and the node that moves along it, if one does.
+/// Rates at the moving node are those of the node, at all others those of the material point.
+template <int D>
+struct ChainState {
+  Mesh mesh;
+  std::vector<double> q, rate;  ///< nodal arrays
+  int joint = no_joint;         ///< index of the moving node
+  double joint_rate = 0;        ///< rate of its material coordinate mesh.x[joint] [m/s]
+
+  /// Coordinates and rates of element k, its moving ends included.
+  MovingCoordinates<double, D> coordinates(int k) const {
+    const auto i = static_cast<std::size_t>(k);
+    return {element_nodes<D>(q.data(), k), mesh.x[i], mesh.x[i + 1]};
+  }
+  MovingCoordinates<double, D> rates(int k) const {
+    return {element_nodes<D>(rate.data(), k), k == joint ? joint_rate : 0, k + 1 == joint ? joint_rate : 0};
+  }
+
+  /// Copies node `from` of `other` to node `to`.
+  void copy_node(int to, const ChainState& other, int from) {
+    mesh.x[static_cast<std::size_t>(to)] = other.mesh.x[static_cast<std::size_t>(from)];
+    position<D>(q.data(), to) = position<D>(other.q.data(), from);
+    slope<D>(q.data(), to) = slope<D>(other.q.data(), from);
+    position<D>(rate.data(), to) = position<D>(other.rate.data(), from);
+    slope<D>(rate.data(), to) = slope<D>(other.rate.data(), from);
+  }
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,74 @@
+#include "core/length_control/length_control.hpp"
+
+#include "core/length_control/segmentation.hpp"
+
+namespace vlbeam {
+namespace {
+
+template <int D>
+void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
+  chain.mesh.x[static_cast<std::size_t>(k)] = node.x;
+  position<D>(chain.q.data(), k) = node.r;
+  slope<D>(chain.q.data(), k) = node.r_x;
+  position<D>(chain.rate.data(), k) = node.v;
+  slope<D>(chain.rate.data(), k) = node.v_x;
+}
+
+/// Gives element k of `chain` the weights of one that has lost node `deleted` of the chain `before`.
+template <int D>
+MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted, MergePolicy policy) {
+  const auto q = chain.coordinates(k);
+  MergedWeights merged;
+  if (policy == MergePolicy::point_fit) {
+    const double l = q.x_b - q.x_a;
+    const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;
+    merged = point_fit<D>(q.e, l, u, position<D>(before.q.data(), deleted));
+  }
+  chain.mesh.weights[static_cast<std::size_t>(k)] = {merged.weights(), q.x_a, q.x_b};
+  return merged;
+}
+
+}  // namespace
+
+template <int D>
+MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
+                                WeightTransport transport) {
+  const ChainState<D> before = chain;
+  const bool forward = direction == Direction::forward;
+  const int j = before.joint;
+  const int cut = forward ? j - 1 : j, deleted = forward ? j + 1 : j - 1, merged = forward ? j + 1 : j - 2;
+  const auto& x = before.mesh.x;
+  const double x_new = forward ? x[static_cast<std::size_t>(cut)] + control.standard_length
+                               : x[static_cast<std::size_t>(cut) + 1] - control.standard_length;
+  const auto node = segment(before, cut, x_new, transport);
+  place_node(chain, j, node);
+  chain.copy_node(deleted, before, j);
+  chain.joint = deleted;
+  chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
+  chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
+  return merge_into(chain, merged, before, deleted, control.merge);
+}
+
+template <int D>
+MergedWeights separate(ChainState<D>& chain, Direction direction, const LengthControl& control,
+                       WeightTransport transport) {
+  const ChainState<D> before = chain;
+  const bool forward = direction == Direction::forward;
+  const int j = before.joint;
+  const int cut = forward ? j - 1 : j, merged = forward ? j : j - 1;
+  const auto& x = before.mesh.x;
+  const double x_new = forward ? x.back() - control.standard_length : x.front() + control.standard_length;
+  const auto node = segment(before, cut, x_new, transport);
+  place_node(chain, j, node);
+  chain.joint = no_joint;
+  chain.joint_rate = 0;
+  chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
+  return merge_into(chain, merged, before, j, control.merge);
+}
+
+template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
+template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
+template MergedWeights separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
+template MergedWeights separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
+
+}  // namespace vlbeam

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/scene/result.hpp"
+#include "core/scene/scene.hpp"
+
+namespace vlbeam {
+
+/// A choice of the scene or of a result, with the name users read and write.
+template <class E>
+struct Named {
+  E value;
+  std::string_view name;
+};
+
+constexpr auto names(ElementKind) {
+  using enum ElementKind;
+  return std::to_array<Named<ElementKind>>(
+      {{ale_rancf, "ALE-RANCF"}, {ale_ancf, "ALE-ANCF"}, {rancf, "RANCF"}, {ancf, "ANCF"}});
+}
+constexpr auto names(RestShape) {
+  return std::to_array<Named<RestShape>>({{RestShape::as_built, "as-built"}, {RestShape::paper, "paper"}});
+}
+constexpr auto names(StrainLaw) {
+  return std::to_array<Named<StrainLaw>>({{StrainLaw::green, "green"}, {StrainLaw::engineering, "engineering"}});
+}
+constexpr auto names(SupportType) {
+  using enum SupportType;
+  return std::to_array<Named<SupportType>>({{clamp, "clamp"}, {pin, "pin"}, {free, "free"}});
+}
+constexpr auto names(ClampType) {
+  return std::to_array<Named<ClampType>>({{ClampType::direction, "direction"}, {ClampType::full, "full"}});
+}
+constexpr auto names(JointSlopes) {
+  return std::to_array<Named<JointSlopes>>({{JointSlopes::continuous, "continuous"}});
+}
+constexpr auto names(MergePolicy) {
+  return std::to_array<Named<MergePolicy>>({{MergePolicy::point_fit, "point-fit"}, {MergePolicy::unit, "unit"}});
+}
+constexpr auto names(IntegratorType) {
+  using enum IntegratorType;
+  return std::to_array<Named<IntegratorType>>(
+      {{dopri5, "dopri5"}, {cash_karp, "cash-karp"}, {fehlberg78, "fehlberg78"}, {bulirsch_stoer, "bulirsch-stoer"}});
+}
+constexpr auto names(Section::Type) {
+  using enum Section::Type;
+  return std::to_array<Named<Section::Type>>({{circle, "circle"}, {stiffness, "stiffness"}});
+}
+constexpr auto names(Formulation) {
+  using enum Formulation;
+  return std::to_array<Named<Formulation>>({{variational, "variational"}, {virtual_work, "virtual-work"}});
+}
+constexpr auto names(WeightTransport) {
+  using enum WeightTransport;
+  return std::to_array<Named<WeightTransport>>({{frozen, "frozen"}, {transported, "transported"}});
+}
+constexpr auto names(EventType) {
+  using enum EventType;
+  return std::to_array<Named<EventType>>({{segment_merge, "segment-merge"}, {separation, "separation"}});
+}
+constexpr auto names(RunStatus) {
+  using enum RunStatus;
+  return std::to_array<Named<RunStatus>>(
+      {{completed, "completed"}, {separated, "separated"}, {failed, "failed"}, {interrupted, "interrupted"}});
+}
+
+/// A choice whose values have names.
+template <class E>
+concept NamedEnum = requires {
+  names(E{});
+};
+
+template <NamedEnum E>
+constexpr std::string_view to_string(E value) {
+  for (const auto& entry : names(value)) {
+    if (entry.value == value) return entry.name;
+  }
+  return "?";
+}
+
+/// The choice called `name`, or nothing.
+template <NamedEnum E>
+constexpr std::optional<E> from_string(std::string_view name) {
+  for (const auto& entry : names(E{})) {
+    if (entry.name == name) return entry.value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace vlbeam

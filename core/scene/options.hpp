@@ -1,0 +1,352 @@
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/scene/names.hpp"
+#include "core/scene/scene.hpp"
+
+/// The one table of everything a scene may say. Reading a scene, checking it, echoing it into a report, its JSON
+/// Schema and its documentation are all visitors of this table: a new option is one new line in visit_options().
+namespace vlbeam {
+
+/// A number as short as it can be written without losing a digit.
+inline std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+/// The finite numbers an option may take.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   ///< `low` itself is excluded
+  bool high_open = false;  ///< `high` itself is excluded
+
+  static constexpr Range positive() { return {.low = 0, .low_open = true}; }
+  static constexpr Range non_negative() { return {.low = 0}; }
+  static constexpr Range closed(double low, double high) { return {.low = low, .high = high}; }
+
+  bool contains(double x) const {
+    return std::isfinite(x) && (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
+  }
+
+  /// " > 0", " in [2, 3]", or nothing where every finite number will do.
+  std::string text() const {
+    const bool bounded_below = std::isfinite(low);
+    const bool bounded_above = std::isfinite(high);
+    if (bounded_below && bounded_above) {
+      return std::string(" in ") + (low_open ? "(" : "[") + number_text(low) + ", " + number_text(high) +
+             (high_open ? ")" : "]");
+    }
+    if (bounded_below) return (low_open ? " > " : " >= ") + number_text(low);
+    if (bounded_above) return (high_open ? " < " : " <= ") + number_text(high);
+    return "";
+  }
+};
+
+/// An option that means something only while another option has a certain value.
+struct Condition {
+  std::string_view pointer;  ///< the other option; empty: no condition
+  std::string_view value;    ///< the name it must have
+  bool holds = true;         ///< whether it has, in the scene being visited
+};
+
+template <NamedEnum E>
+constexpr Condition only_if(std::string_view pointer, E is, E must_be) {
+  return {.pointer = pointer, .value = to_string(must_be), .holds = is == must_be};
+}
+
+/// One line of the table. `pointer` is a JSON pointer; a segment `at=start` stands for that entry of a list whose key
+/// `at` is "start".
+struct Option {
+  std::string_view pointer;
+  std::string_view unit;  ///< SI; "-" for a pure number, empty for what is no number
+  std::string_view description;
+  std::string_view source = "";  ///< where the option comes from
+  Range range = {};
+  int components = 0;  ///< length of a Point as written: the scene's dimension
+  Condition when = {};
+  bool required = false;  ///< where its parent is given
+};
+
+/// What an option may be, in words: "a number > 0 [m]".
+template <class T>
+std::string allowed_text(const Option& option) {
+  const std::string unit = option.unit.empty() ? "" : " [" + std::string(option.unit) + "]";
+  if constexpr (NamedEnum<T>) {
+    std::string text;
+    for (const auto& entry : names(T{})) text += (text.empty() ? "\"" : ", \"") + std::string(entry.name) + "\"";
+    return (names(T{}).size() > 1 ? "one of " : "") + text;
+  } else if constexpr (std::same_as<T, bool>) {
+    return "true or false";
+  } else if constexpr (std::same_as<T, std::string>) {
+    return "a string";
+  } else if constexpr (std::same_as<T, int>) {
+    return "a whole number" + option.range.text();
+  } else if constexpr (std::same_as<T, Point>) {
+    return "an array of " + std::to_string(option.components) + " numbers" + unit;
+  } else if constexpr (std::same_as<T, std::array<double, 4>>) {
+    return "an array of 4 numbers" + option.range.text() + unit;
+  } else if constexpr (std::same_as<T, std::vector<double>>) {
+    return "an array of numbers" + option.range.text() + unit;
+  } else {
+    static_assert(std::same_as<T, double> || std::same_as<T, std::optional<double>>);
+    return "a number" + option.range.text() + unit;
+  }
+}
+
+/// Choices with a single value so far; each keeps the place of the ones to come.
+enum class SceneSchema { v1 };
+constexpr auto names(SceneSchema) { return std::to_array<Named<SceneSchema>>({{SceneSchema::v1, "vlbeam.scene/1"}}); }
+enum class CurveType { line };
+constexpr auto names(CurveType) { return std::to_array<Named<CurveType>>({{CurveType::line, "line"}}); }
+
+/// Calls the visitor for every option of a scene, each after the options it depends on:
+///   visitor(option, member)           for an option; `member` is a reference into the scene;
+///   visitor.present(option, optional) for a part that may be absent; the part's options follow if it says true.
+template <class Visitor, class SceneT>
+requires std::same_as<std::remove_const_t<SceneT>, Scene>
+void visit_options(Visitor&& visitor, SceneT& scene) {
+  constexpr std::string_view paper = "Ding & Ouyang 2022";
+  constexpr std::string_view example1 = "Ding & Ouyang 2022, §6.1";
+
+  SceneSchema schema = SceneSchema::v1;
+  visitor(Option{.pointer = "/schema", .unit = "", .description = "what this file is, and its version"}, schema);
+  visitor(Option{.pointer = "/title", .unit = "", .description = "what the scene shows"}, scene.title);
+  visitor(Option{.pointer = "/dimension",
+                 .unit = "-",
+                 .description = "2 for a planar scene, 3 for a spatial one",
+                 .range = Range::closed(2, 3)},
+          scene.dimension);
+  visitor(Option{.pointer = "/gravity",
+                 .unit = "m/s^2",
+                 .description = "gravitational acceleration",
+                 .source = example1,
+                 .components = scene.dimension},
+          scene.gravity);
+  visitor(Option{.pointer = "/gravity_ramp",
+                 .unit = "s",
+                 .description = "time over which gravity grows smoothly from 0; 0 applies it at once",
+                 .range = Range::non_negative()},
+          scene.gravity_ramp);
+
+  auto& beam = scene.beam;
+  CurveType curve = CurveType::line;
+  visitor(Option{.pointer = "/beam/curve/type", .unit = "", .description = "kind of the beam's initial axis"}, curve);
+  visitor(Option{.pointer = "/beam/curve/start",
+                 .unit = "m",
+                 .description = "where the beam starts",
+                 .source = example1,
+                 .components = scene.dimension},
+          beam.curve.start);
+  visitor(Option{.pointer = "/beam/curve/end",
+                 .unit = "m",
+                 .description = "where the beam ends",
+                 .source = example1,
+                 .components = scene.dimension},
+          beam.curve.end);
+
+  constexpr std::string_view section_type = "/beam/section/type";
+  visitor(Option{.pointer = section_type, .unit = "", .description = "how the section is given"}, beam.section.type);
+  const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+  const Condition stiffness = only_if(section_type, beam.section.type, Section::Type::stiffness);
+  visitor(Option{.pointer = "/beam/section/radius",
+                 .unit = "m",
+                 .description = "radius of the full circular section",
+                 .source = example1,
+                 .range = Range::positive(),
+                 .when = circle},
+          beam.section.radius);
+  visitor(Option{.pointer = "/beam/section/EA",
+                 .unit = "N",
+                 .description = "axial stiffness",
+                 .range = Range::positive(),
+                 .when = stiffness,
+                 .required = true},
+          beam.section.EA);
+  visitor(Option{.pointer = "/beam/section/EI",
+                 .unit = "N m^2",
+                 .description = "bending stiffness; 0 is a cable",
+                 .range = Range::non_negative(),
+                 .when = stiffness,
+                 .required = true},
+          beam.section.EI);
+  visitor(Option{.pointer = "/beam/section/rhoA",
+                 .unit = "kg/m",
+                 .description = "mass per unstretched length",
+                 .range = Range::positive(),
+                 .when = stiffness,
+                 .required = true},
+          beam.section.rhoA);
+
+  visitor(Option{.pointer = "/beam/material/density",
+                 .unit = "kg/m^3",
+                 .description = "density",
+                 .source = example1,
+                 .range = Range::positive(),
+                 .when = circle},
+          beam.material.density);
+  visitor(Option{.pointer = "/beam/material/youngs_modulus",
+                 .unit = "Pa",
+                 .description = "Young's modulus",
+                 .source = example1,
+                 .range = Range::positive(),
+                 .when = circle},
+          beam.material.youngs_modulus);
+  visitor(Option{.pointer = "/beam/material/damping",
+                 .unit = "s",
+                 .description = "Kelvin-Voigt time c: stresses E (strain + c strain rate)",
+                 .source = "Ding & Ouyang 2022, Eq. 19",
+                 .range = Range::non_negative()},
+          beam.material.damping);
+  visitor(Option{.pointer = "/beam/material/curvature_regularization",
+                 .unit = "1/m",
+                 .description = "kappa_reg of bending damping in 3D, which has no direction on a straight beam",
+                 .range = Range::non_negative()},
+          beam.material.curvature_regularization);
+
+  visitor(Option{.pointer = "/beam/elements",
+                 .unit = "-",
+                 .description = "number of elements N",
+                 .source = example1,
+                 .range = Range::closed(2, 1e6)},
+          beam.elements);
+  visitor(Option{.pointer = "/beam/element",
+                 .unit = "",
+                 .description = "element family; ALE elements let nodes move along the beam",
+                 .source = paper},
+          beam.element);
+  visitor(Option{.pointer = "/beam/rest_shape",
+                 .unit = "",
+                 .description = "where strains are measured from: the initial shape, or a straight beam"},
+          beam.rest_shape);
+  visitor(Option{.pointer = "/beam/strain_law", .unit = "", .description = "how stretch and curvature are measured"},
+          beam.strain_law);
+  visitor(Option{.pointer = "/beam/quadrature_points",
+                 .unit = "-",
+                 .description = "Gauss points an element, 3 to 25; 0 takes the element's default",
+                 .range = Range::closed(0, 25)},
+          beam.quadrature_points);
+  visitor(Option{.pointer = "/beam/weights",
+                 .unit = "-",
+                 .description = "initial rational weights of every element",
+                 .source = "Ding & Ouyang 2022, Eq. 5",
+                 .range = Range::positive()},
+          beam.weights);
+
+  const auto support = [&](std::string_view type_pointer, std::string_view clamp_pointer, auto& at) {
+    visitor(Option{.pointer = type_pointer, .unit = "", .description = "how the end is held", .required = true},
+            at.type);
+    visitor(Option{.pointer = clamp_pointer,
+                   .unit = "",
+                   .description = "what a clamp holds: the slope's direction, or the whole slope vector",
+                   .when = only_if(type_pointer, at.type, SupportType::clamp)},
+            at.clamp);
+  };
+  support("/supports/at=start/type", "/supports/at=start/clamp", scene.start);
+  support("/supports/at=end/type", "/supports/at=end/clamp", scene.end);
+
+  if (visitor.present(
+          Option{.pointer = "/sliding_mass", .unit = "", .description = "a lumped mass that slides along the beam"},
+          scene.sliding_mass)) {
+    auto& mass = *scene.sliding_mass;
+    visitor(Option{.pointer = "/sliding_mass/mass",
+                   .unit = "kg",
+                   .description = "mass",
+                   .source = example1,
+                   .range = Range::positive(),
+                   .required = true},
+            mass.mass);
+    visitor(Option{.pointer = "/sliding_mass/position",
+                   .unit = "m",
+                   .description = "material coordinate at t = 0, measured along the beam from its start",
+                   .source = example1,
+                   .range = Range::positive(),
+                   .required = true},
+            mass.position);
+    visitor(Option{.pointer = "/sliding_mass/velocity",
+                   .unit = "m/s",
+                   .description = "rate of the material coordinate at t = 0"},
+            mass.velocity);
+    visitor(Option{.pointer = "/sliding_mass/slopes",
+                   .unit = "",
+                   .description = "what the beam's slopes do at the mass",
+                   .source = "Ding & Ouyang 2022, Eq. 40"},
+            mass.slopes);
+    visitor(
+        Option{.pointer = "/sliding_mass/separation_distance",
+               .unit = "m",
+               .description = "distance from a free end where the mass leaves; 1e-3 of the beam's length if not given",
+               .range = Range::positive()},
+        mass.separation_distance);
+  }
+
+  visitor(Option{.pointer = "/formulation",
+                 .unit = "",
+                 .description = "equations of motion at a moving node: Lagrange's, or the paper's virtual work",
+                 .source = "Ding & Ouyang 2022, Eq. 17 is virtual-work"},
+          scene.formulation);
+  visitor(Option{.pointer = "/weights",
+                 .unit = "",
+                 .description = "how the rational weights follow the moving ends of an element",
+                 .source = "Ding & Ouyang 2022 is frozen"},
+          scene.weights);
+
+  visitor(Option{.pointer = "/length_control/enabled",
+                 .unit = "",
+                 .description = "whether elements beside the mass are segmented and merged"},
+          scene.length_control.enabled);
+  visitor(Option{.pointer = "/length_control/upper",
+                 .unit = "-",
+                 .description = "length that triggers a segmentation, over the uniform element length",
+                 .source = "Ding & Ouyang 2022, §4",
+                 .range = Range::positive()},
+          scene.length_control.upper);
+  visitor(Option{.pointer = "/length_control/hysteresis",
+                 .unit = "-",
+                 .description = "the trigger is upper (1 + hysteresis), in [1.5, 2): no event re-fires at once",
+                 .range = Range::non_negative()},
+          scene.length_control.hysteresis);
+  visitor(Option{.pointer = "/length_control/merge",
+                 .unit = "",
+                 .description = "weights of a merged element",
+                 .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
+          scene.length_control.merge);
+
+  visitor(Option{.pointer = "/integrator/type", .unit = "", .description = "time integrator"}, scene.integrator.type);
+  visitor(Option{.pointer = "/integrator/rtol",
+                 .unit = "-",
+                 .description = "relative tolerance of a step",
+                 .range = {.low = 0, .high = 1, .low_open = true}},
+          scene.integrator.rtol);
+  visitor(Option{.pointer = "/integrator/atol",
+                 .unit = "m, m/s",
+                 .description = "absolute tolerance of a step",
+                 .range = Range::positive()},
+          scene.integrator.atol);
+
+  visitor(Option{.pointer = "/duration", .unit = "s", .description = "simulated time", .range = Range::positive()},
+          scene.duration);
+  visitor(Option{.pointer = "/output/interval",
+                 .unit = "s",
+                 .description = "time between samples",
+                 .range = Range::positive()},
+          scene.output.interval);
+  visitor(Option{.pointer = "/output/configurations",
+                 .unit = "s",
+                 .description = "times, ascending, at which the whole shape is kept",
+                 .range = Range::non_negative()},
+          scene.output.configurations);
+}
+
+}  // namespace vlbeam

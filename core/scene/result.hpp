@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/integrate.hpp"
+#include "core/scene/scene.hpp"
+#include "core/system/energy.hpp"
+
+namespace vlbeam {
+
+/// The observed quantities at one instant.
+struct Sample {
+  double t = 0;
+  std::optional<double> joint_position;  ///< material coordinate x_i [m]; empty once the mass has left, or without one
+  std::optional<Point> mass_position;    ///< [m]; empty without a sliding mass
+  Point end{};                           ///< position of the beam's last node [m]
+  double beam_length = 0;                ///< current arc length [m]
+  Energy energy;                         ///< by a 25-point rule, independent of the model's own points
+  double discrete_total = 0;             ///< total energy summed over the model's own quadrature points [J]
+  Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]
+};
+
+/// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
+struct Configuration {
+  double t = 0;
+  std::vector<double> x;    ///< material coordinates [m]
+  std::vector<Point> r;     ///< positions [m]
+  std::vector<Point> r_x;   ///< slopes [-]
+  std::vector<std::array<double, 4>> weights;
+};
+
+enum class EventType { segment_merge, separation };
+
+/// A length-control event, located in time, with what it cost.
+struct Event {
+  double t = 0;
+  EventType type = EventType::segment_merge;
+  double joint_position = 0;
+  std::array<double, 3> weights{1, 1, 1};  ///< k_0, k_1, k_2 of the merged element (k_3 = 1)
+  bool unit_fallback = false;              ///< a k_i <= 0 was found and unit weights taken instead (Eq. 38)
+  Energy energy_jump;                      ///< after minus before, 25-point rule
+  double discrete_jump = 0;                ///< jump of the total over the model's own points [J]
+  Configuration before;
+  Configuration after;
+};
+
+enum class RunStatus {
+  completed,
+  separated,    ///< the mass left the beam and the run went on to its end
+  failed,       ///< the computation broke down; what was computed until then is here
+  interrupted,
+};
+
+/// Wall times [s]; never part of a committed report.
+struct RunTiming {
+  double motion = 0;
+  double length_control = 0;
+};
+
+struct RunResult {
+  RunStatus status = RunStatus::completed;
+  std::string failure;      ///< what happened, with status `failed`
+  double failure_time = 0;  ///< [s]
+  std::vector<Sample> samples;
+  std::vector<Configuration> configurations;
+  std::vector<Event> events;
+  double max_kinetic = 0;        ///< largest kinetic energy over all steps [J]
+  double max_energy_drift = 0;   ///< over all steps: max |E - E_0 - jumps|, the model's own points [J]
+  SolverCounters solver;
+  RunTiming timing;
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/stepper.hpp"
+#include "core/element/strain_law.hpp"
+#include "core/element/transport.hpp"
+#include "core/length_control/merge_policy.hpp"
+
+namespace vlbeam {
+
+/// A point or vector of the scene; planar scenes use the first two components and keep the third at 0.
+using Point = std::array<double, 3>;
+
+enum class ElementKind { ale_rancf, ale_ancf, rancf, ancf };
+enum class RestShape { as_built, paper };
+enum class SupportType { clamp, pin, free };
+enum class ClampType {
+  direction,  ///< position fixed, slope free along the initial tangent
+  full,       ///< position and slope vector fixed
+};
+enum class JointSlopes { continuous };
+
+/// The straight initial axis of the beam [m]; its length is the beam's length.
+struct Line {
+  Point start{0, 0, 0};
+  Point end{1, 0, 0};
+};
+
+struct Section {
+  enum class Type { circle, stiffness } type = Type::circle;
+  double radius = 0.01;  ///< circle [m]
+  double EA = 0;         ///< stiffness [N]
+  double EI = 0;         ///< stiffness [N m^2]; 0 is a cable
+  double rhoA = 0;       ///< stiffness [kg/m]
+};
+
+struct Material {
+  double density = 7200;               ///< [kg/m^3], used with a circle
+  double youngs_modulus = 2e7;         ///< [Pa], used with a circle
+  double damping = 0;                  ///< Kelvin-Voigt time c [s]
+  double curvature_regularization = 0; ///< kappa_reg [1/m], needed by bending damping in 3D
+};
+
+struct BeamSpec {
+  Line curve;
+  Section section;
+  Material material;
+  int elements = 20;
+  ElementKind element = ElementKind::ale_rancf;
+  RestShape rest_shape = RestShape::as_built;
+  StrainLaw strain_law = StrainLaw::green;
+  int quadrature_points = 0;  ///< Gauss points an element; 0 stands for the element's default
+  std::array<double, 4> weights{1, 1, 1, 1};  ///< initial weights of every element
+};
+
+struct SupportSpec {
+  SupportType type = SupportType::free;
+  ClampType clamp = ClampType::direction;  ///< used with a clamp
+};
+
+struct SlidingMassSpec {
+  double mass = 0.8;                          ///< [kg]
+  double position = 0.1;                      ///< material coordinate at t = 0 [m]
+  double velocity = 0;                        ///< rate of the material coordinate at t = 0 [m/s]
+  JointSlopes slopes = JointSlopes::continuous;
+  std::optional<double> separation_distance;  ///< distance from a free end where the mass leaves [m]; default 1e-3 L
+};
+
+struct LengthControlSpec {
+  bool enabled = true;
+  double upper = 1.5;        ///< trigger length over L_std
+  double hysteresis = 1e-3;  ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
+  MergePolicy merge = MergePolicy::point_fit;
+};
+
+struct IntegratorSpec {
+  IntegratorType type = IntegratorType::dopri5;
+  double rtol = 1e-9;
+  double atol = 1e-9;
+};
+
+struct OutputSpec {
+  double interval = 0.005;             ///< [s]
+  std::vector<double> configurations;  ///< times [s] at which the whole shape is kept
+};
+
+/// One beam, its supports and at most one mass that slides on it. SI units.
+struct Scene {
+  std::string title;
+  int dimension = 2;
+  Point gravity{0, -9.81, 0};  ///< [m/s^2]
+  double gravity_ramp = 0;     ///< T_r [s]: gravity grows as S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3)
+  BeamSpec beam;
+  SupportSpec start;
+  SupportSpec end;
+  std::optional<SlidingMassSpec> sliding_mass;
+  Formulation formulation = Formulation::variational;
+  WeightTransport weights = WeightTransport::frozen;
+  LengthControlSpec length_control;
+  IntegratorSpec integrator;
+  double duration = 0.5;  ///< [s]
+  OutputSpec output;
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,156 @@
+#include "core/scene/simulate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "core/scene/validate.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int ledger_points = 25;
+constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
+
+template <int D>
+Point point_of(const Vec<double, D>& v) {
+  Point point{};
+  std::copy(v.data(), v.data() + D, point.begin());
+  return point;
+}
+
+template <int D>
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
+  Configuration shape;
+  shape.t = t;
+  shape.x = chain.mesh.x;
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
+    shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));
+  }
+  for (int k = 0; k < chain.mesh.elements(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const auto& weights = chain.mesh.weights[i];
+    const bool restricted = transport == WeightTransport::transported && weights.w != unit_weights;
+    shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
+  }
+  return shape;
+}
+
+std::vector<double> sample_times(const Scene& scene) {
+  std::vector<double> times;
+  const double interval = scene.output.interval;
+  const auto count = static_cast<long>(std::floor(scene.duration / interval * (1 + 1e-12)));
+  for (long i = 0; i <= count; ++i) times.push_back(std::min(static_cast<double>(i) * interval, scene.duration));
+  if (times.back() < scene.duration * (1 - 1e-12)) times.push_back(scene.duration);
+  return times;
+}
+
+/// Runs one scene of a known dimension and fills in its result.
+template <int D>
+class Run {
+ public:
+  Run(const Scene& scene, const ProgressCallback& progress)
+      : scene_(scene), progress_(progress), system_(build_model<D>(scene), build_chain<D>(scene)) {
+    system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
+    system_.on_event = [this](const EventRecord<D>& record) { event(record); };
+    system_.on_step = [this](double t) { return !progress_ || progress_(t); };
+  }
+
+  RunResult operator()() {
+    samples_ = sample_times(scene_);
+    configurations_ = scene_.output.configurations;
+    std::sort(configurations_.begin(), configurations_.end());
+    std::vector<double> stops;
+    std::set_union(samples_.begin(), samples_.end(), configurations_.begin(), configurations_.end(),
+                   std::back_inserter(stops));
+
+    const auto& beam = system_.model().section;
+    const auto& x = build_chain<D>(scene_).mesh.x;
+    double shortest = beam_length(scene_);
+    for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
+    const double wave_time = shortest * std::sqrt(beam.rhoA / std::max(beam.stiffness.EA, beam.stiffness.EI));
+    const IntegrationOptions options{
+        scene_.integrator.type, {scene_.integrator.rtol, scene_.integrator.atol}, first_step_courant * wave_time};
+
+    Eigen::VectorXd y = system_.initial_state();
+    double t = 0;
+    const auto started = std::chrono::steady_clock::now();
+    try {
+      if (!integrate(system_, y, t, scene_.duration, stops, options, result_.solver)) {
+        result_.status = RunStatus::interrupted;
+      }
+    } catch (const ComputationFailed& failure) {
+      result_.status = RunStatus::failed;
+      result_.failure = failure.what();
+      result_.failure_time = failure.t;
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+    result_.timing.motion = elapsed.count() - result_.timing.length_control - observing_;
+    result_.solver.rhs_evaluations = system_.rhs_evaluations();
+    return std::move(result_);
+  }
+
+ private:
+  void sample(const Eigen::VectorXd& y, double t) {
+    const auto started = std::chrono::steady_clock::now();
+    if (std::binary_search(configurations_.begin(), configurations_.end(), t)) {
+      result_.configurations.push_back(configuration_of(system_.chain(y), t, scene_.weights));
+    }
+    if (std::binary_search(samples_.begin(), samples_.end(), t)) {
+      const auto seen = system_.observe(y, t, ledger_points);
+      const auto own = system_.observe(y, t, system_.model().quadrature_points);
+      Sample sample;
+      sample.t = t;
+      const auto chain = system_.chain(y);
+      if (system_.has_joint()) sample.joint_position = chain.mesh.x[static_cast<std::size_t>(chain.joint)];
+      if (const auto mass = system_.mass_position(y)) sample.mass_position = point_of<D>(*mass);
+      sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
+      sample.beam_length = seen.beam_length;
+      sample.energy = seen.energy;
+      sample.discrete_total = own.energy.total();
+      sample.momentum = point_of<D>(seen.momentum);
+      if (result_.samples.empty()) first_total_ = sample.discrete_total;
+      result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
+      result_.max_energy_drift =
+          std::max(result_.max_energy_drift, std::abs(sample.discrete_total - first_total_ - jumps_));
+      result_.samples.push_back(std::move(sample));
+    }
+    observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  void event(const EventRecord<D>& record) {
+    Event event;
+    event.t = record.t;
+    event.type = record.separation ? EventType::separation : EventType::segment_merge;
+    event.joint_position = record.joint_position;
+    event.weights = record.merged.k;
+    event.unit_fallback = record.merged.unit_fallback;
+    event.energy_jump = record.jump;
+    event.discrete_jump = record.discrete_jump;
+    event.before = configuration_of(record.before, record.t, scene_.weights);
+    event.after = configuration_of(record.after, record.t, scene_.weights);
+    if (record.separation) result_.status = RunStatus::separated;
+    jumps_ += record.discrete_jump;
+    result_.timing.length_control += record.seconds;
+    result_.events.push_back(std::move(event));
+  }
+
+  const Scene& scene_;
+  ProgressCallback progress_;
+  BeamSystem<D> system_;
+  RunResult result_;
+  std::vector<double> samples_, configurations_;
+  double first_total_ = 0, jumps_ = 0, observing_ = 0;
+};
+
+}  // namespace
+
+RunResult simulate(const Scene& scene, const ProgressCallback& progress) {
+  validate(scene);
+  return scene.dimension == 2 ? Run<2>(scene, progress)() : Run<3>(scene, progress)();
+}
+
+}  // namespace vlbeam

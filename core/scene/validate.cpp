@@ -1,0 +1,152 @@
+#include "core/scene/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "core/scene/options.hpp"
+
+namespace vlbeam {
+namespace {
+
+[[noreturn]] void refuse(std::string field, std::string value, std::string allowed) {
+  throw InvalidInput(std::move(field), std::move(value), std::move(allowed));
+}
+
+/// Checks every option against the range of its line in the option table.
+class RangeCheck {
+ public:
+  template <class T>
+  void operator()(const Option& option, const T& member) const {
+    if (option.when.holds) check<T>(option, member);
+  }
+
+  template <class T>
+  bool present(const Option&, const std::optional<T>& part) const {
+    return part.has_value();
+  }
+
+ private:
+  template <class T>
+  static void check(const Option& option, double value, const std::string& field) {
+    if (!option.range.contains(value)) refuse(field, number_text(value), "it must be " + allowed_text<T>(option));
+  }
+  template <class T>
+  static void check(const Option& option, const T& member) {
+    const std::string field(option.pointer);
+    if constexpr (std::same_as<T, double> || std::same_as<T, int>) {
+      check<T>(option, member, field);
+    } else if constexpr (std::same_as<T, std::optional<double>>) {
+      if (member) check<T>(option, *member, field);
+    } else if constexpr (!NamedEnum<T> && !std::same_as<T, bool> && !std::same_as<T, std::string>) {
+      for (std::size_t i = 0; i < member.size(); ++i) check<T>(option, member[i], field + "/" + std::to_string(i));
+    }
+  }
+};
+
+void check_plane(const Scene& scene) {
+  if (scene.dimension == 3) return;
+  const auto in_plane = [](const char* field, const Point& p) {
+    if (p[2] != 0) refuse(std::string(field) + "/2", number_text(p[2]), "a planar scene has two components");
+  };
+  in_plane("/gravity", scene.gravity);
+  in_plane("/beam/curve/start", scene.beam.curve.start);
+  in_plane("/beam/curve/end", scene.beam.curve.end);
+}
+
+void check_beam(const Scene& scene) {
+  const BeamSpec& beam = scene.beam;
+  const double length = beam_length(scene);
+  if (!(length > 0))
+    refuse("/beam/curve/end", "the same point as /beam/curve/start", "the beam needs a length > 0 [m]");
+  if (!std::isfinite(length)) refuse("/beam/curve/end", "a point infinitely far away", "the length must be finite");
+
+  if (beam.quadrature_points == 1 || beam.quadrature_points == 2) {
+    refuse("/beam/quadrature_points", std::to_string(beam.quadrature_points),
+           "it must be 0 (the element's default) or 3 to 25: the mass matrix is singular with fewer points");
+  }
+
+  const auto unequal = std::ranges::find_if(beam.weights, [](double w) { return w != 1; });
+  if (unequal != beam.weights.end()) {
+    const std::string field = "/beam/weights/" + std::to_string(unequal - beam.weights.begin());
+    if (beam.element == ElementKind::ancf || beam.element == ElementKind::ale_ancf) {
+      refuse(field, number_text(*unequal),
+             std::string(to_string(beam.element)) + " has unit weights; other weights need RANCF or ALE-RANCF");
+    }
+    if (beam.rest_shape == RestShape::as_built) {
+      refuse(field, number_text(*unequal),
+             "weights other than 1 need \"rest_shape\": \"paper\"; the as-built shape is not available with them yet");
+    }
+  }
+
+  const bool bends = beam.section.type == Section::Type::circle || beam.section.EI > 0;
+  if (scene.dimension == 3 && bends && beam.material.damping > 0 && beam.material.curvature_regularization == 0) {
+    refuse(
+        "/beam/material/curvature_regularization", "0",
+        "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], or the damping 0");
+  }
+}
+
+void check_sliding_mass(const Scene& scene) {
+  if (!scene.sliding_mass) return;
+  const SlidingMassSpec& mass = *scene.sliding_mass;
+  const double length = beam_length(scene);
+
+  if (scene.beam.element == ElementKind::rancf || scene.beam.element == ElementKind::ancf) {
+    refuse("/beam/element", "\"" + std::string(to_string(scene.beam.element)) + "\"",
+           "a sliding mass needs an element of variable length: \"ALE-RANCF\" or \"ALE-ANCF\"");
+  }
+  // A mass on a node of the support, or of the free tip, would leave an element without length.
+  const double margin = 1e-9 * length;
+  if (!(mass.position > margin && mass.position < length - margin)) {
+    refuse("/sliding_mass/position", number_text(mass.position),
+           "the mass must be inside the beam, between 0 and " + number_text(length) + " [m] and not on its ends");
+  }
+  const double half_element = standard_length(scene) / 2;
+  if (mass.separation_distance && !(*mass.separation_distance < half_element)) {
+    refuse("/sliding_mass/separation_distance", number_text(*mass.separation_distance),
+           "it must be less than half an element, " + number_text(half_element) + " [m]");
+  }
+}
+
+void check_length_control(const Scene& scene) {
+  const LengthControlSpec& control = scene.length_control;
+  const double trigger = control.upper * (1 + control.hysteresis);
+  if (!(trigger >= 1.5 && trigger < 2)) {
+    refuse("/length_control/upper", number_text(control.upper),
+           "upper (1 + hysteresis) = " + number_text(trigger) +
+               " must be in [1.5, 2): below, an event re-fires at once in the other direction; from 2 on, the element "
+               "ahead vanishes first");
+  }
+}
+
+void check_output(const Scene& scene) {
+  constexpr double most_samples = 1e7;
+  if (scene.duration / scene.output.interval > most_samples) {
+    refuse("/output/interval", number_text(scene.output.interval),
+           "it must leave at most 1e7 samples in the duration of " + number_text(scene.duration) + " s");
+  }
+  const auto& times = scene.output.configurations;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const std::string field = "/output/configurations/" + std::to_string(i);
+    if (times[i] > scene.duration) {
+      refuse(field, number_text(times[i]),
+             "it must be within the duration, [0, " + number_text(scene.duration) + "] s");
+    }
+    if (i > 0 && times[i] <= times[i - 1]) refuse(field, number_text(times[i]), "times must be ascending");
+  }
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+  visit_options(RangeCheck{}, scene);
+  check_plane(scene);
+  check_beam(scene);
+  check_sliding_mass(scene);
+  check_length_control(scene);
+  check_output(scene);
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,254 @@
+#include "core/system/beam_system.hpp"
+
+#include <chrono>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int ledger_points = 25;
+constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
+
+template <MovingEnds Ends, int D>
+MovingEquations<double, D> equations(StrainLaw strain_law, const MovingCoordinates<double, D>& q,
+                                     const MovingCoordinates<double, D>& rate, const WeightFunction& weights,
+                                     const ShapeTabulation& table, const MovingLaw<D>& law) {
+  auto measured = [&]<StrainLaw Law>() {
+    return law.section.bends() ? moving_equations<Law, true, double, D, Ends>(q, rate, weights, table, law)
+                               : moving_equations<Law, false, double, D, Ends>(q, rate, weights, table, law);
+  };
+  return strain_law == StrainLaw::green ? measured.template operator()<StrainLaw::green>()
+                                        : measured.template operator()<StrainLaw::engineering>();
+}
+
+}  // namespace
+
+double gravity_share(double t, double ramp) {
+  if (t >= ramp) return 1;
+  const double s = t / ramp;
+  return s * s * s * s * (35 + s * (-84 + s * (70 - 20 * s)));
+}
+
+template <int D>
+BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
+  adopt(chain);
+  initial_ = state_of(chain, {});
+}
+
+template <int D>
+void BeamSystem<D>::adopt(const ChainState<D>& chain) {
+  mesh_ = chain.mesh;
+  joint_ = chain.joint;
+  free_mass_ = model_.joint.has_value() && joint_ == no_joint;
+  nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
+  coordinates_ = nodal_ + (has_joint() ? 1 : 0) + (free_mass_ ? D : 0);
+  const auto& rule = gauss_legendre(model_.quadrature_points);
+  const int middle = mesh_.elements() / 2;
+  const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
+  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, model_.strain_law, rule);
+  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, model_.strain_law, rule);
+  if (has_joint()) {
+    const auto j = static_cast<std::size_t>(joint_);
+    left_table_ = ShapeTabulation(rule, mesh_.weights[j - 1].w);
+    right_table_ = ShapeTabulation(rule, mesh_.weights[j].w);
+  }
+}
+
+template <int D>
+Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
+  y.head(nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal_);
+  y.segment(coordinates_, nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), nodal_);
+  if (has_joint()) {
+    y[nodal_] = chain.mesh.x[static_cast<std::size_t>(chain.joint)];
+    y[coordinates_ + nodal_] = chain.joint_rate;
+  }
+  if (model_.section.damped() && old.size() > 0) y[y.size() - 1] = old[old.size() - 1];
+  return y;
+}
+
+template <int D>
+ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
+  ChainState<D> result;
+  result.mesh = mesh_;
+  result.q.assign(y.data(), y.data() + nodal_);
+  result.rate.assign(y.data() + coordinates_, y.data() + coordinates_ + nodal_);
+  result.joint = joint_;
+  if (has_joint()) {
+    result.mesh.x[static_cast<std::size_t>(joint_)] = y[nodal_];
+    result.joint_rate = y[coordinates_ + nodal_];
+  }
+  return result;
+}
+
+template <int D>
+std::optional<Vec<double, D>> BeamSystem<D>::mass_position(const Eigen::VectorXd& y) const {
+  if (has_joint()) return Vector(position<D>(y.data(), joint_));
+  if (free_mass_) return Vector(y.segment<D>(nodal_));
+  return std::nullopt;
+}
+
+template <int D>
+void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
+  ++rhs_evaluations_;
+  const double* q = y.data();
+  const double* rate = q + coordinates_;
+  dydt.head(coordinates_) = y.segment(coordinates_, coordinates_);
+  dydt.tail(dydt.size() - coordinates_).setZero();
+  double* force = dydt.data() + coordinates_;
+  const Vector g = gravity(t);
+  double dissipation = left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
+
+  if (has_joint()) {
+    const auto j = static_cast<std::size_t>(joint_);
+    const double x = q[nodal_], x_rate = rate[nodal_];
+    const MovingLaw<D> moving{model_.section, model_.formulation, model_.transport, g};
+    const auto left = equations<MovingEnds::b, D>(model_.strain_law, {element_nodes<D>(q, joint_ - 1), mesh_.x[j - 1], x},
+                                   {element_nodes<D>(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_,
+                                   moving);
+    const auto right = equations<MovingEnds::a, D>(model_.strain_law, {element_nodes<D>(q, joint_), x, mesh_.x[j + 1]},
+                                    {element_nodes<D>(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving);
+    position<D>(force, joint_ - 1) += left.force[0];
+    slope<D>(force, joint_ - 1) += left.force[1];
+    position<D>(force, joint_) += left.force[2] + right.force[0] + model_.joint->mass * g;
+    slope<D>(force, joint_) += left.force[3] + right.force[1];
+    position<D>(force, joint_ + 1) += right.force[2];
+    slope<D>(force, joint_ + 1) += right.force[3];
+    force[nodal_] = left.force_b + right.force_a;
+    dissipation += left.dissipation + right.dissipation;
+    if (!solve_with_joint(*left_, *right_, left, right, *model_.joint, force, force[nodal_])) {
+      dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
+      return;
+    }
+  } else {
+    solve_without_joint(*left_, *right_, force);
+    if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
+  }
+  if (model_.section.damped()) dydt[dydt.size() - 1] = dissipation;
+}
+
+template <int D>
+Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double /*t*/) const {
+  Guards value;
+  value.fill(-1);
+  if (!has_joint()) return value;
+  const auto& control = model_.length_control;
+  const auto j = static_cast<std::size_t>(joint_);
+  const double x = y[nodal_], unit = control.standard_length;
+  const double behind = x - mesh_.x[j - 1], ahead = mesh_.x[j + 1] - x;
+  const bool to_end = joint_ + 1 == mesh_.last(), to_start = joint_ == 1;
+  if (control.enabled) {
+    if (!to_end) value[0] = (behind - control.trigger_length()) / unit;
+    if (!to_start) value[1] = (ahead - control.trigger_length()) / unit;
+  }
+  auto reach = [&](bool releases, bool at_last) {
+    return releases && at_last ? model_.separation_distance / unit : contact_distance;
+  };
+  value[2] = reach(model_.end_releases, to_end) - ahead / unit;
+  value[3] = reach(model_.start_releases, to_start) - behind / unit;
+  return value;
+}
+
+template <int D>
+void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
+  const auto started = std::chrono::steady_clock::now();
+  const Direction direction = index == 0 || index == 2 ? Direction::forward : Direction::backward;
+  const bool leaving = index >= 2;
+  if (leaving) {
+    const bool forward = direction == Direction::forward;
+    const bool at_last = forward ? joint_ + 1 == mesh_.last() : joint_ == 1;
+    if (!at_last) throw ComputationFailed("tangled mesh: the sliding mass ran into a node; switch length control on", t);
+    if (!(forward ? model_.end_releases : model_.start_releases)) {
+      throw ComputationFailed(std::string("the sliding mass ran into the support at the beam's ") +
+                                  (forward ? "end" : "start"), t);
+    }
+  }
+  EventRecord<D> record;
+  record.t = t;
+  record.separation = leaving;
+  record.before = chain(y);
+  record.joint_position = y[nodal_];
+  record.after = record.before;
+  const int lowest = std::max(0, joint_ - 2), highest = std::min(mesh_.elements(), joint_ + 2);
+  auto energies = [&](const ChainState<D>& state, int points) {
+    Observation<D> seen;
+    observe_elements(state, lowest, highest, t, points, seen);
+    return seen.energy;
+  };
+  const Energy before = energies(record.before, ledger_points);
+  const double own_before = energies(record.before, model_.quadrature_points).total();
+
+  const Eigen::VectorXd old = y;
+  record.merged = leaving ? separate(record.after, direction, model_.length_control, model_.transport)
+                          : segment_and_merge(record.after, direction, model_.length_control, model_.transport);
+  const Eigen::Index joint_at = node_size<D> * joint_, old_coordinates = coordinates_;
+  adopt(record.after);
+  y = state_of(record.after, old);
+  if (leaving) {
+    y.segment<D>(nodal_) = old.segment<D>(joint_at);
+    y.segment<D>(coordinates_ + nodal_) = old.segment<D>(old_coordinates + joint_at);
+  }
+  record.jump = energies(record.after, ledger_points) - before;
+  record.discrete_jump = energies(record.after, model_.quadrature_points).total() - own_before;
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (on_event) on_event(record);
+}
+
+template <int D>
+void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
+                                     Observation<D>& seen) const {
+  const auto& rule = gauss_legendre(points);
+  const ShapeTabulation polynomial(rule, unit_weights);
+  const MovingLaw<D> moving = law(t);
+  const double rhoA = model_.section.rhoA;
+  for (int k = first; k < last; ++k) {
+    const WeightFunction& weights = chain.mesh.weights[static_cast<std::size_t>(k)];
+    const bool at_joint = chain.joint != no_joint && (k == chain.joint || k + 1 == chain.joint);
+    const auto q = chain.coordinates(k), rate = chain.rates(k);
+    const MovingKinematics<double, D> kinematics(q, rate, at_joint ? moving.transport : WeightTransport::frozen,
+                                                 weights);
+    const bool unit = weights.w == unit_weights;
+    for (std::size_t g = 0; g < rule.size(); ++g) {
+      const double u = rule[g].u;
+      const auto at = kinematics.at(u, unit ? polynomial.shape[g] : rational_shape(kinematics.weights(), u));
+      const double wl = kinematics.length() * rule[g].weight;
+      auto add_strain = [&]<StrainLaw Law>() {
+        const ElasticStress<Law, true, double, D> elastic(at.r_x, at.r_xx, model_.section.stiffness);
+        seen.energy.axial += wl * elastic.axial;
+        seen.energy.bending += wl * elastic.bending;
+      };
+      if (model_.strain_law == StrainLaw::green) {
+        add_strain.template operator()<StrainLaw::green>();
+      } else {
+        add_strain.template operator()<StrainLaw::engineering>();
+      }
+      seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
+      seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
+      seen.momentum += wl * rhoA * at.v;
+      seen.beam_length += wl * at.r_x.norm();
+    }
+  }
+}
+
+template <int D>
+Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int points) const {
+  Observation<D> seen;
+  observe_elements(chain(y), 0, mesh_.elements(), t, points, seen);
+  if (model_.joint) {
+    const double m = model_.joint->mass;
+    const Eigen::Index at = has_joint() ? Eigen::Index{node_size<D> * joint_} : nodal_;
+    const Vector v = y.segment<D>(coordinates_ + at);
+    seen.energy.kinetic += 0.5 * m * v.squaredNorm();
+    seen.energy.gravity -= m * gravity(t).dot(y.segment<D>(at));
+    seen.momentum += m * v;
+  }
+  if (model_.section.damped()) seen.energy.dissipated = y[y.size() - 1];
+  return seen;
+}
+
+template class BeamSystem<2>;
+template class BeamSystem<3>;
+
+}  // namespace vlbeam

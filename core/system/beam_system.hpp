@@ -1,0 +1,117 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/dynamics/integrate.hpp"
+#include "core/joint/sliding_joint.hpp"
+#include "core/length_control/length_control.hpp"
+#include "core/system/energy.hpp"
+
+namespace vlbeam {
+
+/// What a beam system is made of and which choices its equations follow.
+template <int D>
+struct BeamModel {
+  BeamSection section;
+  StrainLaw strain_law = StrainLaw::green;
+  Formulation formulation = Formulation::variational;
+  WeightTransport transport = WeightTransport::frozen;
+  int quadrature_points = 5;
+  Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
+  double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
+  Support<D> start, end;
+  bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
+  std::optional<SlidingJoint> joint;
+  double separation_distance = 0;  ///< [m]
+  LengthControl length_control;
+};
+
+/// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
+/// differentiable at both ends.
+double gravity_share(double t, double ramp);
+
+/// Quantities of the whole system at one instant.
+template <int D>
+struct Observation {
+  Energy energy;
+  double beam_length = 0;                                ///< [m]
+  Vec<double, D> momentum = Vec<double, D>::Zero();      ///< [kg m/s]
+};
+
+enum class GuardKind { forward, backward, at_end, at_start };
+
+/// What happened to a beam system at an event.
+template <int D>
+struct EventRecord {
+  double t;
+  bool separation;
+  double joint_position;
+  MergedWeights merged;
+  Energy jump;           ///< by a 25-point rule
+  double discrete_jump;  ///< of the total, by the model's own rule
+  ChainState<D> before, after;
+  double seconds;  ///< wall time spent
+};
+
+/// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
+/// State y = (q, q', dissipated): q holds the nodes (position and slope each) and then x_i of the joint, or the free
+/// mass's position once it has left; the dissipated energy is there only for a damped section.
+template <int D>
+class BeamSystem final : public EventedOde {
+ public:
+  using Vector = Vec<double, D>;
+
+  /// `chain` is the initial state; its joint must be an interior node where the model has a sliding mass.
+  BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
+
+  Eigen::Index size() const override { return 2 * coordinates_ + (model_.section.damped() ? 1 : 0); }
+  void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
+  Guards guards(const Eigen::VectorXd& y, double t) const override;
+  void handle_event(int index, Eigen::VectorXd& y, double t) override;
+  void sample(const Eigen::VectorXd& y, double t) override {
+    if (on_sample) on_sample(y, t);
+  }
+  bool proceed(double t) override { return !on_step || on_step(t); }
+
+  std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
+  std::function<void(const EventRecord<D>&)> on_event;
+  std::function<bool(double t)> on_step;
+
+  const BeamModel<D>& model() const { return model_; }
+  Eigen::VectorXd initial_state() const { return initial_; }
+  std::size_t rhs_evaluations() const { return rhs_evaluations_; }
+
+  /// Mesh and motion at state y.
+  ChainState<D> chain(const Eigen::VectorXd& y) const;
+  bool has_joint() const { return joint_ != no_joint; }
+  /// Position of the sliding mass, on the beam or off it; empty without one.
+  std::optional<Vector> mass_position(const Eigen::VectorXd& y) const;
+  /// Energies, momentum and length, summed with `points` Gauss points an element.
+  Observation<D> observe(const Eigen::VectorXd& y, double t, int points) const;
+
+ private:
+  void adopt(const ChainState<D>& chain);
+  Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
+  Vector gravity(double t) const { return model_.gravity * gravity_share(t, model_.gravity_ramp); }
+  MovingLaw<D> law(double t) const {
+    return {model_.section, model_.formulation, model_.transport, gravity(t)};
+  }
+  void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
+                        Observation<D>& seen) const;
+
+  BeamModel<D> model_;
+  Mesh mesh_;
+  int joint_ = no_joint;
+  bool free_mass_ = false;
+  Eigen::Index nodal_ = 0, coordinates_ = 0;
+  std::optional<Span<D>> left_, right_;
+  ShapeTabulation left_table_, right_table_;
+  Eigen::VectorXd initial_;
+  std::size_t rhs_evaluations_ = 0;
+};
+
+extern template class BeamSystem<2>;
+extern template class BeamSystem<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,29 @@
+#pragma once
+
+namespace vlbeam {
+
+/// Energies [J]. `gravity` is the potential energy, `dissipated` what damping has taken since the start.
+struct Energy {
+  double kinetic = 0;
+  double axial = 0;
+  double bending = 0;
+  double gravity = 0;
+  double dissipated = 0;
+
+  double total() const { return kinetic + axial + bending + gravity + dissipated; }
+
+  Energy& operator+=(const Energy& other) {
+    kinetic += other.kinetic;
+    axial += other.axial;
+    bending += other.bending;
+    gravity += other.gravity;
+    dissipated += other.dissipated;
+    return *this;
+  }
+  friend Energy operator-(const Energy& a, const Energy& b) {
+    return {a.kinetic - b.kinetic, a.axial - b.axial, a.bending - b.bending, a.gravity - b.gravity,
+            a.dissipated - b.dissipated};
+  }
+};
+
+}  // namespace vlbeam

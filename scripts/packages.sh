@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing, when run as root or with passwordless sudo;
+# otherwise prints the one line to type and stops.
+#   scripts/packages.sh build   what `make` needs
+#   scripts/packages.sh ci      that, and what .ci/run needs
+set -euo pipefail
+
+packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libgtest-dev libgmock-dev
+          libbenchmark-dev gnuplot-nox)
+[[ ${1:-build} == ci ]] && packages+=(clang-format-14 clang-tidy-14 python3-jsonschema)
+
+command -v dpkg-query > /dev/null || exit 0  # not Debian: CMake will name what it misses
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat '${db:Status-Status}' "$package" 2> /dev/null || true)
+  [[ $status == *installed* && $status != *not-installed* ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+install=(apt-get install --yes --no-install-recommends "${missing[@]}")
+if [[ $(id -u) -eq 0 ]]; then
+  as_root=()
+elif command -v sudo > /dev/null && sudo --non-interactive true 2> /dev/null; then
+  as_root=(sudo)
+else
+  echo "Missing packages. Type this, then repeat your command:" >&2
+  echo "  sudo apt-get update && sudo ${install[*]}" >&2
+  exit 1
+fi
+echo "Installing: ${missing[*]}" >&2
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update --quiet >&2
+"${as_root[@]}" "${install[@]}" >&2

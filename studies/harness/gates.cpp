@@ -1,0 +1,221 @@
+#include "studies/harness/gates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/scene/options.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Reads an object of a gates file and refuses what it does not know.
+class Fields {
+ public:
+  Fields(const Json& object, std::string at, std::initializer_list<std::string_view> known)
+      : object_(object), at_(std::move(at)) {
+    if (!object.is_object()) throw InvalidInput(at_, excerpt(object), "it must be an object");
+    std::string list;
+    for (const std::string_view key : known) list += (list.empty() ? "\"" : ", \"") + std::string(key) + "\"";
+    for (const auto& item : object.items()) {
+      if (std::ranges::find(known, item.key()) == known.end()) {
+        throw InvalidInput(at_ + "/" + item.key(), "an unknown key", "known here: " + list);
+      }
+    }
+  }
+
+  bool has(const char* key) const { return object_.contains(key); }
+  const Json& at(const char* key) const {
+    if (!has(key)) throw InvalidInput(at_ + "/" + key, "a missing key", "every gate needs it");
+    return object_.at(key);
+  }
+  std::string text(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_string() || value.get<std::string>().empty()) {
+      throw InvalidInput(at_ + "/" + key, excerpt(value), "it must be a string with something in it");
+    }
+    return value.get<std::string>();
+  }
+  double number(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_number()) throw InvalidInput(at_ + "/" + key, excerpt(value), "it must be a number");
+    return value.get<double>();
+  }
+  const std::string& where() const { return at_; }
+
+ private:
+  const Json& object_;
+  std::string at_;
+};
+
+double number_or_nan(const Json& value) { return value.is_number() ? value.get<double>() : nan; }
+
+/// A number of the report, or NaN where there is none.
+double quantity(const Json& report, const std::string& name) {
+  if (name.starts_with('/')) {
+    const Json::json_pointer at(name);
+    return report.contains(at) ? number_or_nan(report.at(at)) : nan;
+  }
+  return report.contains("measured") ? number_or_nan(report.at("measured").value(name, Json())) : nan;
+}
+
+void judge_bounds(const Fields& gate, const Json& report, GateVerdict& verdict) {
+  const std::string name = gate.text("quantity");
+  verdict.value = quantity(report, name);
+  bool holds = true;
+  const auto bound = [&](const std::string& text, bool kept) {
+    verdict.bound += (verdict.bound.empty() ? "" : ", ") + text;
+    holds = holds && kept;
+  };
+  // Comparisons with NaN are false: what is not there fails.
+  if (gate.has("max")) bound("<= " + number_text(gate.number("max")), verdict.value <= gate.number("max"));
+  if (gate.has("min")) bound(">= " + number_text(gate.number("min")), verdict.value >= gate.number("min"));
+  if (gate.has("equals")) {
+    const double tolerance = gate.has("tolerance") ? gate.number("tolerance") : 0;
+    bound("= " + number_text(gate.number("equals")) + (tolerance > 0 ? " ± " + number_text(tolerance) : ""),
+          std::abs(verdict.value - gate.number("equals")) <= tolerance);
+  } else if (gate.has("tolerance")) {
+    throw InvalidInput(gate.where() + "/tolerance", "a tolerance", "it belongs to \"equals\"");
+  }
+  if (verdict.bound.empty()) {
+    throw InvalidInput(gate.where(), "a quantity without bound", "give \"max\", \"min\" or \"equals\"");
+  }
+  verdict.passed = holds && std::isfinite(verdict.value);
+  if (!std::isfinite(verdict.value)) {
+    verdict.failure = "the report holds no number \"" + name + "\"";
+  } else if (!holds) {
+    verdict.failure = number_text(verdict.value) + " is not " + verdict.bound;
+  }
+}
+
+OrderFit fit_from_json(const Json& json) {
+  OrderFit fit;
+  fit.quantity = json.value("quantity", "");
+  for (const Json& level : json.at("levels")) fit.levels.push_back(number_or_nan(level));
+  for (const Json& error : json.at("errors")) fit.errors.push_back(number_or_nan(error));
+  for (const Json& order : json.at("pairwise_orders")) fit.pairwise_orders.push_back(number_or_nan(order));
+  fit.used = json.at("used").get<std::size_t>();
+  fit.fitted = json.at("fitted").get<std::size_t>();
+  fit.slope = number_or_nan(json.at("slope"));
+  return fit;
+}
+
+void judge_order(const Fields& gate, const Json& report, GateVerdict& verdict) {
+  const std::string name = gate.text("fit");
+  const Fields order(gate.at("order"), gate.where() + "/order", {"expected", "tolerance", "at_most", "finest_error"});
+  const OrderRule rule{.expected = order.number("expected"),
+                       .tolerance = order.number("tolerance"),
+                       .at_most = order.number("at_most"),
+                       .finest_error = order.number("finest_error")};
+  verdict.bound = "order in [" + number_text(rule.expected - rule.tolerance) + ", " + number_text(rule.at_most) +
+                  "], finest error <= " + number_text(rule.finest_error);
+  verdict.value = nan;
+  verdict.failure = "the report holds no fit of \"" + name + "\"";
+  for (const Json& json : report.value("fits", Json::array())) {
+    if (json.value("quantity", "") != name) continue;
+    const OrderFit fit = fit_from_json(json);
+    verdict.value = fit.slope;
+    verdict.failure = broken_order_rule(fit, rule);
+    verdict.passed = verdict.failure.empty();
+    return;
+  }
+}
+
+bool applies(const Fields& gate, const Json& report) {
+  if (!gate.has("profiles")) return true;
+  const Json& profiles = gate.at("profiles");
+  const auto known = [](const Json& profile) { return profile == "ci" || profile == "full"; };
+  if (!profiles.is_array() || profiles.empty() || !std::ranges::all_of(profiles, known)) {
+    throw InvalidInput(gate.where() + "/profiles", excerpt(profiles), "it must be an array of \"ci\" and \"full\"");
+  }
+  return std::ranges::find(profiles, report.value("profile", Json())) != profiles.end();
+}
+
+}  // namespace
+
+std::vector<GateVerdict> evaluate_gates(const Json& gates, const Json& report) {
+  const Fields file(gates, "", {"schema", "gates"});
+  if (file.text("schema") != "vlbeam.gates/1") {
+    throw InvalidInput("/schema", excerpt(gates.at("schema")), "it must be \"vlbeam.gates/1\"");
+  }
+  const Json& list = file.at("gates");
+  if (!list.is_array()) throw InvalidInput("/gates", excerpt(list), "it must be an array of gates");
+
+  std::vector<GateVerdict> verdicts;
+  const std::string status = report.value("status", "");
+  if (status != "completed") {
+    verdicts.push_back({.name = "status",
+                        .value = nan,
+                        .bound = "completed",
+                        .reason = "numbers of a study that did not complete prove nothing",
+                        .failure = "the study's status is \"" + status + "\""});
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Fields gate(list[i], "/gates/" + std::to_string(i),
+                      {"name", "reason", "profiles", "quantity", "max", "min", "equals", "tolerance", "fit", "order"});
+    GateVerdict verdict{.name = gate.text("name"), .reason = gate.text("reason")};
+    if (!names.insert(verdict.name).second) {
+      throw InvalidInput(gate.where() + "/name", "\"" + verdict.name + "\"", "two gates need two names");
+    }
+    if (gate.has("quantity") == gate.has("fit")) {
+      throw InvalidInput(gate.where(), "this gate", "it must have either \"quantity\" or \"fit\"");
+    }
+    gate.has("fit") ? judge_order(gate, report, verdict) : judge_bounds(gate, report, verdict);
+    if (applies(gate, report)) verdicts.push_back(verdict);
+  }
+  return verdicts;
+}
+
+bool all_passed(const std::vector<GateVerdict>& verdicts) {
+  return std::ranges::all_of(verdicts, [](const GateVerdict& verdict) { return verdict.passed; });
+}
+
+Json gates_to_json(const std::vector<GateVerdict>& verdicts) {
+  Json list = Json::array();
+  for (const GateVerdict& verdict : verdicts) {
+    Json gate = {{"name", verdict.name},
+                 {"value", std::isfinite(verdict.value) ? Json(verdict.value) : Json()},
+                 {"bound", verdict.bound},
+                 {"reason", verdict.reason},
+                 {"passed", verdict.passed}};
+    if (!verdict.passed) gate["failure"] = verdict.failure;
+    list.push_back(gate);
+  }
+  return list;
+}
+
+std::string gates_text(const std::string& title, const std::vector<GateVerdict>& verdicts) {
+  std::ostringstream text;
+  text.precision(6);
+  text << title << '\n';
+  std::size_t width = 0;
+  for (const GateVerdict& verdict : verdicts) width = std::max(width, verdict.name.size());
+  for (const GateVerdict& verdict : verdicts) {
+    text << (verdict.passed ? "  passed  " : "  FAILED  ") << verdict.name
+         << std::string(width - verdict.name.size() + 2, ' ');
+    if (verdict.passed) {
+      text << verdict.value << "  (" << verdict.bound << ")\n";
+    } else {
+      text << verdict.failure << "  (" << verdict.reason << ")\n";
+    }
+  }
+  const auto failed = std::ranges::count_if(verdicts, [](const GateVerdict& verdict) { return !verdict.passed; });
+  text << "  " << verdicts.size() << " gates evaluated, " << failed << " failed\n";
+  return text.str();
+}
+
+Json fit_to_json(const OrderFit& fit) {
+  return {{"quantity", fit.quantity}, {"levels", fit.levels},
+          {"errors", fit.errors},     {"pairwise_orders", fit.pairwise_orders},
+          {"slope", fit.slope},       {"used", fit.used},
+          {"fitted", fit.fitted}};
+}
+
+}  // namespace vlbeam

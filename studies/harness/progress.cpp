@@ -1,0 +1,39 @@
+#include "studies/harness/progress.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+#include <utility>
+
+namespace vlbeam {
+
+Progress::Progress(std::string title) : title_(std::move(title)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  constexpr const char* erase_line = "\r\033[K";
+  if (terminal_ && shown_ != Clock::time_point{}) std::cerr << erase_line << std::flush;
+}
+
+void Progress::update(double fraction, const std::string& detail) {
+  if (!terminal_) return;
+  const std::scoped_lock lock(mutex_);
+  const auto now = Clock::now();
+  if (now - shown_ < std::chrono::milliseconds(200)) return;
+  shown_ = now;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  std::cerr << '\r' << title_ << ": " << static_cast<int>(100 * fraction) << " %";
+  if (!detail.empty()) std::cerr << ", " << detail;
+  if (fraction > 0 && elapsed > 1)
+    std::cerr << ", about " << duration_text(elapsed * (1 - fraction) / fraction) << " left";
+  std::cerr << "\033[K" << std::flush;
+}
+
+std::string duration_text(double seconds) {
+  const auto total = std::lround(seconds);
+  if (total < 60) return std::to_string(total) + " s";
+  if (total < 3600) return std::to_string(total / 60) + " min " + std::to_string(total % 60) + " s";
+  return std::to_string(total / 3600) + " h " + std::to_string(total % 3600 / 60) + " min";
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,315 @@
+#include "studies/harness/scene_json.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "core/scene/options.hpp"
+#include "core/scene/validate.hpp"
+
+namespace vlbeam {
+namespace {
+
+Json::json_pointer pointer(std::string_view text) { return Json::json_pointer(std::string(text)); }
+
+/// Letters to insert, remove, replace or swap until one word becomes the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replace});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+/// The option table as a tree of keys; its leaves are null. A list is an object whose keys are
+/// "at=start", ...: one for each entry it may have.
+class KeyTree {
+ public:
+  KeyTree() { visit_options(*this, scene_); }
+
+  template <class T>
+  void operator()(const Option& option, const T&) {
+    tree_[pointer(option.pointer)] = nullptr;
+  }
+  template <class T>
+  bool present(const Option&, const std::optional<T>&) {
+    return true;
+  }
+
+  const Json& tree() const { return tree_; }
+
+ private:
+  const Scene scene_ = scene_with_every_part();
+  Json tree_;
+};
+
+/// The discriminating key of a list ("at"), or nothing if the tree's node is no list.
+std::string list_key(const Json& node) {
+  if (!node.is_object() || node.empty()) return "";
+  const std::string& first = node.begin().key();
+  const auto equals = first.find('=');
+  return equals == std::string::npos ? "" : first.substr(0, equals);
+}
+
+/// "a", "b", "c".
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text.append(text.empty() ? "\"" : ", \"").append(word).append("\"");
+  return text;
+}
+
+std::string unknown_key_hint(const std::string& key, const Json& node, const std::string& discriminator) {
+  std::vector<std::string> known;
+  for (const auto& item : node.items()) known.push_back(item.key());
+  if (!discriminator.empty()) known.push_back(discriminator);
+  const auto distance = [&key](const std::string& candidate) { return edit_distance(key, candidate); };
+  const auto nearest = std::ranges::min_element(known, {}, distance);
+  return "the nearest known key is \"" + *nearest + "\" (known here: " + quoted(known) + ")";
+}
+
+std::string escape(std::string key) {
+  const auto replace_all = [&key](char from, std::string_view to) {
+    for (std::size_t at = key.find(from); at != std::string::npos; at = key.find(from, at + to.size())) {
+      key.replace(at, 1, to);
+    }
+  };
+  replace_all('~', "~0");
+  replace_all('/', "~1");
+  return key;
+}
+
+/// A scene file whose lists are turned into objects with keys "at=start", so that the table's pointers reach
+/// everything. Refuses keys the table does not know. Remembers where things stood in the file, for error messages.
+class Canonical {
+ public:
+  explicit Canonical(const Json& file) : json_(object(file, KeyTree().tree(), "", "", "")) {}
+
+  const Json* find(std::string_view at) const {
+    const auto where = pointer(at);
+    return json_.contains(where) ? &json_.at(where) : nullptr;
+  }
+  bool has_parent(std::string_view at) const { return json_.contains(pointer(at).parent_pointer()); }
+
+  /// Where the table's pointer stands in the file: "/supports/at=start/type" is "/supports/0/type".
+  std::string in_file(std::string_view at) const {
+    std::string text(at);
+    for (const auto& [ours, theirs] : renamed_) {
+      if (text.starts_with(ours)) return theirs + text.substr(ours.size());
+    }
+    return text;
+  }
+
+ private:
+  /// `here` is where we are by the table's pointers, `shown` by the file's.
+  Json object(const Json& file, const Json& node, const std::string& here, const std::string& shown,
+              const std::string& discriminator) {
+    if (!file.is_object()) throw InvalidInput(shown, excerpt(file), "it must be an object");
+    Json result = Json::object();
+    for (const auto& item : file.items()) {
+      const std::string& key = item.key();
+      const std::string at = here + "/" + escape(key);
+      const std::string at_shown = shown + "/" + escape(key);
+      if (key == discriminator && !key.empty()) continue;
+      if (!node.contains(key)) {
+        throw InvalidInput(at_shown, "an unknown key", unknown_key_hint(key, node, discriminator));
+      }
+      const Json& child = node.at(key);
+      if (!list_key(child).empty()) {
+        result[key] = list(item.value(), child, at, at_shown);
+      } else if (child.is_object()) {
+        result[key] = object(item.value(), child, at, at_shown, "");
+      } else {
+        result[key] = item.value();
+      }
+    }
+    return result;
+  }
+
+  Json list(const Json& file, const Json& node, const std::string& here, const std::string& shown) {
+    if (!file.is_array()) throw InvalidInput(shown, excerpt(file), "it must be an array of objects");
+    const std::string discriminator = list_key(node);
+    std::vector<std::string> choices;
+    for (const auto& item : node.items()) choices.push_back(item.key().substr(discriminator.size() + 1));
+    const std::string allowed = "it must be one of " + quoted(choices);
+
+    Json result = Json::object();
+    for (std::size_t i = 0; i < file.size(); ++i) {
+      const Json& entry = file[i];
+      const std::string entry_shown = shown + "/" + std::to_string(i);
+      if (!entry.is_object()) throw InvalidInput(entry_shown, excerpt(entry), "it must be an object");
+
+      const std::string key_shown = entry_shown + "/" + discriminator;
+      if (!entry.contains(discriminator)) throw InvalidInput(key_shown, "a missing key", allowed);
+      const Json& value = entry.at(discriminator);
+      const std::string key = discriminator + "=" + (value.is_string() ? value.get<std::string>() : "");
+      if (!node.contains(key)) throw InvalidInput(key_shown, excerpt(value), allowed);
+      if (result.contains(key)) throw InvalidInput(key_shown, excerpt(value), "it stands in the list already");
+
+      const std::string at = here + "/" + key;
+      renamed_.emplace_back(at, entry_shown);
+      result[key] = object(entry, node.at(key), at, entry_shown, discriminator);
+    }
+    return result;
+  }
+
+  std::vector<std::pair<std::string, std::string>> renamed_;
+  Json json_;
+};
+
+/// Fills a scene from a file, option by option.
+class Reader {
+ public:
+  explicit Reader(const Json& file) : file_(file) {}
+
+  template <class T>
+  void operator()(const Option& option, T& member) const {
+    const Json* const value = file_.find(option.pointer);
+    const std::string field = file_.in_file(option.pointer);
+    if (value == nullptr) {
+      if (option.required && option.when.holds && file_.has_parent(option.pointer)) {
+        throw InvalidInput(field, "a missing key", "it must be " + allowed_text<T>(option));
+      }
+    } else if (!option.when.holds) {
+      throw InvalidInput(field, "this key",
+                         "it is used only where " + file_.in_file(option.when.pointer) + " is \"" +
+                             std::string(option.when.value) + "\"");
+    } else if (!read(*value, option, member)) {
+      throw InvalidInput(field, excerpt(*value), "it must be " + allowed_text<T>(option));
+    }
+  }
+
+  template <class T>
+  bool present(const Option& option, std::optional<T>& part) const {
+    if (file_.find(option.pointer) != nullptr) part.emplace();
+    return part.has_value();
+  }
+
+ private:
+  template <class T>
+  static bool read(const Json& value, const Option& option, T& member) {
+    if constexpr (NamedEnum<T>) {
+      const auto choice = value.is_string() ? from_string<T>(value.get_ref<const std::string&>()) : std::nullopt;
+      if (choice) member = *choice;
+      return choice.has_value();
+    } else if constexpr (std::same_as<T, bool>) {
+      if (value.is_boolean()) member = value.get<bool>();
+      return value.is_boolean();
+    } else if constexpr (std::same_as<T, std::string>) {
+      if (value.is_string()) member = value.get<std::string>();
+      return value.is_string();
+    } else if constexpr (std::same_as<T, int>) {
+      // Out of int's range the value could wrap into the allowed one.
+      if (!value.is_number_integer() || !option.range.contains(value.get<double>())) return false;
+      member = value.get<int>();
+      return true;
+    } else if constexpr (std::same_as<T, std::vector<double>>) {
+      if (!value.is_array() || !all_numbers(value)) return false;
+      member = value.get<std::vector<double>>();
+      return true;
+    } else if constexpr (std::same_as<T, Point> || std::same_as<T, std::array<double, 4>>) {
+      const std::size_t size = option.components > 0 ? static_cast<std::size_t>(option.components) : member.size();
+      if (!value.is_array() || value.size() != size || !all_numbers(value)) return false;
+      member = {};
+      for (std::size_t i = 0; i < size; ++i) member[i] = value[i].get<double>();
+      return true;
+    } else {
+      if (value.is_number()) member = value.get<double>();
+      return value.is_number();
+    }
+  }
+
+  static bool all_numbers(const Json& array) {
+    return std::ranges::all_of(array, [](const Json& item) { return item.is_number(); });
+  }
+
+  Canonical file_;
+};
+
+/// Writes every option that applies.
+class Writer {
+ public:
+  template <class T>
+  void operator()(const Option& option, const T& member) {
+    if (option.when.holds) json_[pointer(option.pointer)] = value(option, member);
+  }
+  template <class T>
+  bool present(const Option&, const std::optional<T>& part) {
+    return part.has_value();
+  }
+
+  Json json() const { return with_lists(json_); }
+
+ private:
+  template <class T>
+  static Json value(const Option& option, const T& member) {
+    if constexpr (NamedEnum<T>) {
+      return to_string(member);
+    } else if constexpr (std::same_as<T, Point>) {
+      Json array = Json::array();
+      for (std::size_t i = 0; i < static_cast<std::size_t>(option.components); ++i) array.push_back(member[i]);
+      return array;
+    } else if constexpr (std::same_as<T, std::optional<double>>) {
+      return member ? Json(*member) : Json();
+    } else {
+      return member;
+    }
+  }
+
+  static Json with_lists(const Json& node) {
+    if (!node.is_object()) return node;
+    const std::string discriminator = list_key(node);
+    Json result = discriminator.empty() ? Json::object() : Json::array();
+    for (const auto& item : node.items()) {
+      if (discriminator.empty()) {
+        result[item.key()] = with_lists(item.value());
+      } else {
+        Json entry = {{discriminator, item.key().substr(discriminator.size() + 1)}};
+        entry.update(with_lists(item.value()));
+        result.push_back(entry);
+      }
+    }
+    return result;
+  }
+
+  Json json_;
+};
+
+}  // namespace
+
+Scene scene_with_every_part() {
+  Scene scene;
+  scene.sliding_mass.emplace();
+  return scene;
+}
+
+Scene scene_from_json(const Json& json) {
+  Scene scene;
+  visit_options(Reader(json), scene);
+  validate(scene);
+  return scene;
+}
+
+Scene parse_scene(std::string_view text) { return scene_from_json(parse_json(text)); }
+
+Json scene_to_json(const Scene& scene) {
+  Scene filled = scene;
+  filled.beam.quadrature_points = quadrature_points(scene);
+  if (auto& mass = filled.sliding_mass; mass && !mass->separation_distance) {
+    mass->separation_distance = 1e-3 * beam_length(scene);
+  }
+  Writer writer;
+  visit_options(writer, std::as_const(filled));
+  return writer.json();
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/scene/scene.hpp"
+#include "studies/harness/json.hpp"
+
+namespace vlbeam {
+
+/// Reads a scene and checks it. Throws InvalidInput naming the key by JSON pointer, its value and what is allowed;
+/// an unknown key comes with the nearest known one.
+Scene scene_from_json(const Json& json);
+Scene parse_scene(std::string_view text);
+
+/// The scene as understood, every default filled in. Reads back as the same scene.
+Json scene_to_json(const Scene& scene);
+
+/// A scene on which every option of the table is visited.
+Scene scene_with_every_part();
+
+}  // namespace vlbeam

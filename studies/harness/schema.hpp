@@ -1,0 +1,13 @@
+#pragma once
+
+#include "studies/harness/json.hpp"
+
+namespace vlbeam {
+
+/// JSON Schemas (draft 2020-12) of what users write and read. The scene's is made from the option table.
+Json scene_schema();
+Json run_schema();
+Json study_schema();
+Json gates_schema();
+
+}  // namespace vlbeam

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene/names.hpp"
+#include "core/scene/simulate.hpp"
+#include "studies/harness/gates.hpp"
+#include "studies/harness/report.hpp"
+#include "studies/harness/sweep.hpp"
+
+namespace vlbeam {
+
+enum class Profile { ci, full };
+constexpr auto names(Profile) { return std::to_array<Named<Profile>>({{Profile::ci, "ci"}, {Profile::full, "full"}}); }
+
+/// What a study is given: its data, its folder, and the threads it may use.
+struct StudyContext {
+  std::string study;
+  Profile profile = Profile::full;
+  std::filesystem::path folder;  ///< the study's sources: study.cpp, study.<profile>.json, gates.json, *.gp
+  Json config;                   ///< study.<profile>.json: the sweep as data
+  int jobs = 1;
+
+  /// Runs independent cases on the study's threads; see harness/sweep.hpp. Results do not depend on the threads.
+  template <class Case, class Run, class Cost>
+  auto sweep(const std::vector<Case>& cases, const Run& run, const Cost& cost) const {
+    return vlbeam::sweep(study, cases, jobs, run, cost);
+  }
+  template <class Case, class Run>
+  auto sweep(const std::vector<Case>& cases, const Run& run) const {
+    return sweep(cases, run, [](const Case&) { return 1; });
+  }
+
+  /// Pass to simulate(): a run ends early once the user interrupts the study.
+  static ProgressCallback until_interrupted();
+
+  /// simulate(), where a run that broke down or was interrupted throws std::runtime_error: a case of a sweep then
+  /// fails.
+  static RunResult simulate_to_the_end(const Scene& scene);
+};
+
+/// One study: a question answered by a sweep of runs.
+struct Study {
+  std::string name;   ///< its folder under studies/ and the stem of its files
+  std::string title;  ///< its question in a line
+  StudyReport (*run)(const StudyContext&) = nullptr;
+  bool measures_time = false;  ///< runs on one thread, after the others
+};
+
+/// What became of a study.
+struct StudyVerdict {
+  std::string status;  ///< completed | failed | interrupted
+  std::string failure = {};
+  std::vector<GateVerdict> gates = {};
+};
+
+/// Runs a study and writes its files into `out`: tables, then figures, then the report. A computation that fails is
+/// reported; only data that is not understood throws (InvalidInput), and then no report is written.
+/// `sources` holds the study's folder.
+StudyVerdict run_study(const Study& study, Profile profile, const std::filesystem::path& out, int jobs,
+                       const std::filesystem::path& sources);
+
+/// Judges a written report anew by the gates that stand in the study's folder now.
+std::vector<GateVerdict> judge_report(const Json& report, const std::filesystem::path& sources);
+
+/// The folder studies/ of the source tree this program was built from.
+std::filesystem::path studies_folder();
+
+}  // namespace vlbeam

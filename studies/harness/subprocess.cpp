@@ -1,0 +1,94 @@
+#include "studies/harness/subprocess.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace vlbeam {
+namespace {
+
+struct Pipe {
+  Pipe() {
+    std::array<int, 2> ends{};
+    // Closed on exec, so that a process started by another thread does not hold it open.
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("cannot create a pipe");
+    read = ends[0];
+    write = ends[1];
+  }
+  ~Pipe() {
+    ::close(read);
+    close_write();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  void close_write() {
+    if (write >= 0) ::close(write);
+    write = -1;
+  }
+
+  int read = -1;
+  int write = -1;
+};
+
+/// Reads both pipes to their ends.
+void drain(const Pipe& out, const Pipe& err, ProcessResult& result) {
+  std::array<pollfd, 2> sources{{{out.read, POLLIN, 0}, {err.read, POLLIN, 0}}};
+  const std::array<std::string*, 2> sinks{&result.output, &result.error};
+  std::array<char, 4096> buffer{};
+  for (int open = 2; open > 0;) {
+    if (::poll(sources.data(), sources.size(), -1) < 0 && errno != EINTR) return;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (sources[i].fd < 0 || sources[i].revents == 0) continue;
+      const ssize_t count = ::read(sources[i].fd, buffer.data(), buffer.size());
+      if (count > 0) {
+        sinks[i]->append(buffer.data(), static_cast<std::size_t>(count));
+      } else if (count == 0 || errno != EINTR) {
+        sources[i].fd = -1;
+        --open;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& arguments) {
+  std::vector<std::string> owned = arguments;
+  std::vector<char*> argv;
+  argv.reserve(owned.size() + 1);
+  for (std::string& argument : owned) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+
+  Pipe out;
+  Pipe err;
+  posix_spawn_file_actions_t actions{};
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, out.write, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, err.write, STDERR_FILENO);
+  pid_t child = 0;
+  const int spawned = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (spawned != 0) return {.exit_code = 127, .output = "", .error = "cannot start " + arguments.front()};
+
+  out.close_write();
+  err.close_write();
+  ProcessResult result;
+  drain(out, err, result);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+}  // namespace vlbeam

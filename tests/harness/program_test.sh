@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# The program as users meet it: exit codes, and output files that only appear once they are whole.
+#   program_test.sh PROGRAM
+set -u
+vlbeam=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+check() {  # check WHAT EXPECTED ACTUAL
+  [[ $2 == "$3" ]] || { echo "FAILED: $1: expected '$2', got '$3'"; failures=$((failures + 1)); }
+}
+exit_of() { "$@" > out.txt 2> err.txt; echo $?; }
+
+cat > scene.json << 'SCENE'
+{"schema": "vlbeam.scene/1", "supports": [{"at": "start", "type": "clamp"}], "beam": {"elements": 4},
+ "duration": 0.01, "output": {"interval": 0.005}}
+SCENE
+
+check "a run" 0 "$(exit_of "$vlbeam" run scene.json --report r.json --csv r.csv)"
+check "its report" 1 "$(grep -c '"status": "completed"' r.json)"
+check "its samples" 4 "$(wc -l < r.csv)"
+check "summary without --report" 0 "$(exit_of "$vlbeam" run scene.json)"
+check "summary says the status" 1 "$(grep -c 'status *completed' out.txt)"
+"$vlbeam" run - --report - < scene.json > piped.json
+check "standard input and output" 1 "$(grep -c '"status": "completed"' piped.json)"
+
+sed 's/"elements": 4/"elemnts": 4/' scene.json > bad.json
+check "bad input" 2 "$(exit_of "$vlbeam" run bad.json --report bad.out --csv bad.csv)"
+check "its message" 1 "$(grep -c '/beam/elemnts.*"elements"' err.txt)"
+check "no report of it" no "$([[ -e bad.out || -e bad.csv ]] && echo yes || echo no)"
+check "a file that is not there" 2 "$(exit_of "$vlbeam" run missing.json)"
+echo 'not json' > bad.json
+check "not JSON" 2 "$(exit_of "$vlbeam" run bad.json)"
+
+# Interrupted: the report is kept, and says so.
+sed 's/"duration": 0.01/"duration": 1000/' scene.json > long.json
+"$vlbeam" run long.json --report long.out 2> /dev/null &
+sleep 0.5
+kill -INT $!
+wait $!
+check "an interrupted run" 3 $?
+check "its report" 1 "$(grep -c '"status": "interrupted"' long.out)"
+
+check "no command" 2 "$(exit_of "$vlbeam")"
+check "an unknown command" 2 "$(exit_of "$vlbeam" dance)"
+check "help" 0 "$(exit_of "$vlbeam" --help)"
+check "list" 0 "$(exit_of "$vlbeam" list)"
+check "an unknown study" 2 "$(exit_of "$vlbeam" study no-such-study)"
+check "gate of a missing report" 2 "$(exit_of "$vlbeam" gate missing.json)"
+for schema in scene run study gates; do check "schema $schema" 0 "$(exit_of "$vlbeam" schema $schema)"; done
+check "an unknown schema" 2 "$(exit_of "$vlbeam" schema beam)"
+check "nothing half-written" "" "$(find . -name '*.part')"
+
+[[ $failures -eq 0 ]] && echo "all checks passed"
+exit "$((failures > 0))"

@@ -1,0 +1,181 @@
+#include "studies/harness/scene_json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/harness/example_scene.hpp"
+
+namespace vlbeam {
+namespace {
+
+using testing::HasSubstr;
+
+std::optional<InvalidInput> error_of(const Json& json) {
+  try {
+    scene_from_json(json);
+  } catch (const InvalidInput& error) {
+    return error;
+  }
+  return std::nullopt;
+}
+
+/// The example with one value changed (or added) at a JSON pointer.
+struct BadScene {
+  const char* pointer;
+  const char* value;  ///< JSON
+  const char* field = pointer;
+  const char* message = "";
+
+  friend void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.pointer << " = " << bad.value; }
+};
+
+TEST(SceneJson, ReadsEveryKey) {
+  const Scene scene = scene_from_json(example_scene());
+  EXPECT_EQ(scene.title, "Falling beam with a sliding mass");
+  EXPECT_EQ(scene.dimension, 2);
+  EXPECT_EQ(scene.gravity, (Point{0, -9.81, 0}));
+  EXPECT_EQ(scene.gravity_ramp, 0.1);
+  EXPECT_EQ(scene.beam.curve.end, (Point{1, 0, 0}));
+  EXPECT_EQ(scene.beam.quadrature_points, 5);
+  EXPECT_EQ(scene.start.type, SupportType::clamp);
+  EXPECT_EQ(scene.start.clamp, ClampType::full);
+  EXPECT_EQ(scene.end.type, SupportType::free);
+  EXPECT_EQ(scene.sliding_mass->velocity, 0.5);
+  EXPECT_EQ(scene.sliding_mass->separation_distance, 0.002);
+  EXPECT_EQ(scene.formulation, Formulation::virtual_work);
+  EXPECT_EQ(scene.integrator.type, IntegratorType::cash_karp);
+  EXPECT_EQ(scene.integrator.atol, 1e-8);
+  EXPECT_EQ(scene.output.configurations, (std::vector<double>{0, 0.25, 0.5}));
+}
+
+TEST(SceneJson, DefaultsMayBeLeftOut) {
+  const Scene scene = parse_scene("{}");
+  EXPECT_FALSE(scene.sliding_mass.has_value());
+  EXPECT_EQ(scene.beam.elements, Scene{}.beam.elements);
+  EXPECT_EQ(scene_to_json(scene), scene_to_json(Scene{}));
+}
+
+TEST(SceneJson, EchoReadsBackAsTheSameScene) {
+  const Json echo = scene_to_json(scene_from_json(example_scene()));
+  EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo);
+  EXPECT_EQ(echo["supports"][0]["at"], "start");
+  EXPECT_EQ(echo["supports"][1], (Json{{"at", "end"}, {"type", "free"}}));
+}
+
+TEST(SceneJson, EchoHoldsWhatTheFileLeftOut) {
+  const Json echo = scene_to_json(parse_scene(R"({"sliding_mass": {"mass": 1, "position": 0.3},
+                                                  "beam": {"curve": {"end": [2, 0]}}})"));
+  EXPECT_EQ(echo["integrator"]["type"], "dopri5");
+  EXPECT_EQ(echo["sliding_mass"]["separation_distance"], 2e-3);
+  EXPECT_GE(echo["beam"]["quadrature_points"], 3) << "the element's default, not its placeholder 0";
+  EXPECT_FALSE(echo["beam"]["section"].contains("EA"));
+}
+
+TEST(SceneJson, SectionByStiffness) {
+  Json json = example_scene();
+  json["beam"]["section"] = {{"type", "stiffness"}, {"EA", 100}, {"EI", 0}, {"rhoA", 2}};
+  json["beam"]["material"] = {{"damping", 0.01}};
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene.beam.section.type, Section::Type::stiffness);
+  EXPECT_EQ(scene.beam.section.EA, 100);
+  EXPECT_FALSE(scene_to_json(scene)["beam"]["material"].contains("density"));
+}
+
+TEST(SceneJson, SpatialScenesHaveThreeComponents) {
+  Json json = example_scene();
+  json["dimension"] = 3;
+  EXPECT_EQ(error_of(json)->field, "/gravity");
+  json["gravity"] = {0, 0, -9.81};
+  json["beam"]["curve"] = {{"start", {0, 0, 0}}, {"end", {0, 1, 0}}};
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene.gravity[2], -9.81);
+  EXPECT_EQ(scene_to_json(scene)["gravity"].size(), 3U);
+}
+
+class BadInput : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadInput, NamesTheFieldTheValueAndWhatIsAllowed) {
+  const BadScene& bad = GetParam();
+  Json json = example_scene();
+  json[Json::json_pointer(bad.pointer)] = parse_json(bad.value);
+  const auto error = error_of(json);
+  ASSERT_TRUE(error.has_value()) << bad.pointer << " = " << bad.value << " was accepted";
+  EXPECT_EQ(error->field, bad.field);
+  EXPECT_FALSE(error->value.empty());
+  EXPECT_FALSE(error->allowed.empty());
+  EXPECT_THAT(error->what(), HasSubstr(bad.message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    UnknownKeys, BadInput,
+    testing::Values(BadScene{"/gravty", "[0, 0]", "/gravty", "nearest known key is \"gravity\""},
+                    BadScene{"/beam/elemnets", "5", "/beam/elemnets", "nearest known key is \"elements\""},
+                    BadScene{"/beam/material/youngs modulus", "5", "/beam/material/youngs modulus",
+                             "\"youngs_modulus\""},
+                    BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/constraints", "\"eliminated\""},
+                    BadScene{"/integrator/step", "0.1"},
+                    BadScene{"/supports/0/clmap", "\"full\"", "/supports/0/clmap", "\"clamp\""}, BadScene{"/a~1b", "1"},
+                    BadScene{"/beam/curve/radius", "1"}, BadScene{"/supports/0/at=start", "1"}));
+
+INSTANTIATE_TEST_SUITE_P(MistypedValues, BadInput,
+                         testing::Values(BadScene{"/dimension", "\"2\""}, BadScene{"/dimension", "2.5"},
+                                         BadScene{"/dimension", "4"}, BadScene{"/dimension", "4294967298"},
+                                         BadScene{"/title", "5"}, BadScene{"/schema", "\"vlbeam.scene/2\""},
+                                         BadScene{"/gravity", "-9.81"}, BadScene{"/gravity", "[0, 0, -9.81]"},
+                                         BadScene{"/gravity", "[0, \"g\"]"}, BadScene{"/gravity", "[0, null]"},
+                                         BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
+                                         BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""},
+                                         BadScene{"/beam/weights", "[1, 1, 1]"}, BadScene{"/beam/elements", "20.0"},
+                                         BadScene{"/length_control/enabled", "1"}, BadScene{"/supports", "{}"},
+                                         BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
+                                         BadScene{"/output/configurations", "0.5"},
+                                         BadScene{"/output/configurations", "[0, true]"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    UnknownChoices, BadInput,
+    testing::Values(BadScene{"/beam/element", "\"ALE_RANCF\"", "/beam/element", "\"ALE-RANCF\", \"ALE-ANCF\""},
+                    BadScene{"/beam/curve/type", "\"spiral\"", "/beam/curve/type", "\"line\""},
+                    BadScene{"/beam/section/type", "\"square\"", "/beam/section/type", "\"circle\", \"stiffness\""},
+                    BadScene{"/beam/rest_shape", "\"as_built\""}, BadScene{"/beam/strain_law", "\"seed\""},
+                    BadScene{"/formulation", "\"virtual work\""}, BadScene{"/weights", "\"moving\""},
+                    BadScene{"/integrator/type", "\"rk4\"", "/integrator/type", "\"bulirsch-stoer\""},
+                    BadScene{"/length_control/merge", "\"none\""}, BadScene{"/sliding_mass/slopes", "\"free\""},
+                    BadScene{"/supports/0/at", "\"middle\"", "/supports/0/at", "\"start\", \"end\""},
+                    BadScene{"/supports/0/type", "\"weld\""}, BadScene{"/supports/0/clamp", "\"half\""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    WrongCompany, BadInput,
+    testing::Values(BadScene{"/beam/section/EA", "5", "/beam/section/EA", "/beam/section/type is \"stiffness\""},
+                    BadScene{"/supports/0/type", "\"pin\"", "/supports/0/clamp", "/supports/0/type is \"clamp\""},
+                    BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1, "rhoA": 1})",
+                             "/beam/material/density"},
+                    BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1, "rhoA": 1, "radius": 1})",
+                             "/beam/section/radius"},
+                    BadScene{"/supports/1", R"({"at": "start", "type": "pin"})", "/supports/1/at"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    MissingKeys, BadInput,
+    testing::Values(BadScene{"/sliding_mass", R"({"position": 0.1})", "/sliding_mass/mass", "missing"},
+                    BadScene{"/sliding_mass", R"({"mass": 0.1})", "/sliding_mass/position", "missing"},
+                    BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1})", "/beam/section/rhoA",
+                             "missing"},
+                    BadScene{"/supports/0", R"({"at": "start"})", "/supports/0/type", "missing"},
+                    BadScene{"/supports/0", R"({"type": "pin"})", "/supports/0/at", "missing"}));
+
+TEST(SceneJson, WhatIsNotJsonIsRefused) {
+  EXPECT_THROW(parse_scene(""), InvalidInput);
+  EXPECT_THROW(parse_scene("{\"dimension\": 2"), InvalidInput);
+  EXPECT_THROW(parse_scene("{\"duration\": NaN}"), InvalidInput);
+  EXPECT_THROW(parse_scene("{\"duration\": 1e999}"), InvalidInput);
+  EXPECT_THROW(parse_scene("[]"), InvalidInput);
+  EXPECT_THROW(parse_scene("3"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vlbeam

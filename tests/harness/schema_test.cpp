@@ -1,0 +1,45 @@
+#include "studies/harness/schema.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam {
+namespace {
+
+/// Counts the keys of an echoed scene that the schema does not describe.
+std::size_t undescribed(const Json& value, const Json& schema, const std::string& at) {
+  std::size_t count = 0;
+  for (const auto& item : value.items()) {
+    if (value.is_array()) {
+      if (item.value().is_object()) count += undescribed(item.value(), schema.at("items"), at);
+      continue;
+    }
+    if (!schema.at("properties").contains(item.key())) {
+      ADD_FAILURE() << at << "/" << item.key();
+      ++count;
+    } else if (item.value().is_structured()) {
+      count += undescribed(item.value(), schema.at("properties").at(item.key()), at + "/" + item.key());
+    }
+  }
+  return count;
+}
+
+TEST(SceneSchema, DescribesEveryKeyOfAScene) {
+  EXPECT_EQ(undescribed(scene_to_json(scene_with_every_part()), scene_schema(), ""), 0U);
+}
+
+TEST(SceneSchema, ComesFromTheOptionTable) {
+  const Json schema = scene_schema();
+  const auto at = [&schema](const char* pointer) { return schema.at(Json::json_pointer(pointer)); };
+  EXPECT_EQ(at("/properties/beam/properties/elements/minimum"), 2.0);
+  EXPECT_EQ(at("/properties/beam/properties/element/enum"), (Json{"ALE-RANCF", "ALE-ANCF", "RANCF", "ANCF"}));
+  EXPECT_EQ(at("/properties/sliding_mass/required"), (Json{"mass", "position"}));
+  EXPECT_EQ(at("/properties/supports/items/properties/at/enum"), (Json{"start", "end"}));
+  EXPECT_EQ(at("/properties/integrator/properties/rtol/exclusiveMinimum"), 0.0);
+}
+
+}  // namespace
+}  // namespace vlbeam

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""What the program prints as JSON Schema is one, accepts what it should and refuses what it should not.
+
+schema_test.py PROGRAM SOURCE_DIR
+"""
+import copy
+import glob
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+from jsonschema import Draft202012Validator
+
+program, source = sys.argv[1:3]
+checks = 0
+
+
+def schema(name):
+    text = subprocess.run([program, "schema", name], check=True, capture_output=True, text=True).stdout
+    Draft202012Validator.check_schema(json.loads(text))
+    return Draft202012Validator(json.loads(text))
+
+
+def expect(validator, instance, valid, what):
+    global checks
+    checks += 1
+    errors = [f"{error.json_path}: {error.message}" for error in validator.iter_errors(instance)]
+    if valid == bool(errors):
+        sys.exit(f"{what} should {'' if valid else 'not '}be valid: {errors}")
+
+
+scene, run, study, gates = (schema(name) for name in ("scene", "run", "study", "gates"))
+
+example = {
+    "schema": "vlbeam.scene/1",
+    "dimension": 2,
+    "gravity": [0, -9.81],
+    "beam": {"section": {"type": "circle", "radius": 0.01}, "elements": 4},
+    "supports": [{"at": "start", "type": "clamp", "clamp": "direction"}, {"at": "end", "type": "free"}],
+    "sliding_mass": {"mass": 0.8, "position": 0.1},
+    "duration": 0.01,
+    "output": {"interval": 0.005},
+}
+expect(scene, example, True, "the example")
+expect(scene, {}, True, "the empty scene")
+
+
+def changed(**changes):
+    result = copy.deepcopy(example)
+    for path, value in changes.items():
+        *parents, key = path.split("__")
+        node = result
+        for parent in parents:
+            node = node[parent]
+        node[key] = value
+    return result
+
+
+stiffness = {"type": "stiffness", "EA": 1, "EI": 0, "rhoA": 1}
+expect(scene, changed(beam__section=stiffness), True, "stiffnesses")
+expect(scene, changed(beam__section={"radius": 0.1}), True, "a circle by default")
+expect(scene, changed(beam__section={**stiffness, "radius": 0.1}), False, "a radius with stiffnesses")
+expect(scene, changed(beam__section={"type": "stiffness", "EA": 1, "EI": 0}), False, "stiffnesses without rhoA")
+expect(scene, changed(beam__section={"EA": 1}), False, "EA of a circle")
+expect(scene, changed(beam__section=stiffness, beam__material={"density": 1}), False, "density with stiffnesses")
+expect(scene, changed(supports=[{"at": "start", "type": "pin", "clamp": "full"}]), False, "the clamp of a pin")
+expect(scene, changed(supports=[{"at": "middle", "type": "pin"}]), False, "a support in the middle")
+expect(scene, changed(sliding_mass={"mass": 1}), False, "a mass without position")
+expect(scene, changed(beam__elemnts=4), False, "an unknown key")
+expect(scene, changed(duration=0), False, "no duration")
+expect(scene, changed(beam__elements=2.5), False, "half an element")
+
+# What the program itself writes.
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "scene.json")
+    with open(path, "w") as file:
+        json.dump(example, file)
+    done = subprocess.run([program, "run", path, "--report", "-"], capture_output=True, text=True)
+    report = json.loads(done.stdout)
+    expect(run, report, True, "a run's report")
+    expect(scene, report["scene"], True, "the echoed scene")
+
+for path in glob.glob(os.path.join(source, "studies/*/gates.json")):
+    with open(path) as file:
+        expect(gates, json.load(file), True, path)
+for path in glob.glob(os.path.join(source, "reports/*.json")):
+    if not path.endswith(".timing.json"):
+        with open(path) as file:
+            expect(study, json.load(file), True, path)
+rule = {"name": "a", "reason": "b", "quantity": "c", "max": 1}
+expect(gates, {"schema": "vlbeam.gates/1", "gates": [rule]}, True, "a gate")
+expect(gates, {"schema": "vlbeam.gates/1", "gates": [{**rule, "fit": "d"}]}, False, "a gate on two things")
+expect(gates, {"schema": "vlbeam.gates/1", "gates": [{"name": "a", "reason": "b", "quantity": "c"}]}, False, "no bound")
+
+print(f"{checks} checks passed")

@@ -1,0 +1,157 @@
+#include "core/scene/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+Scene example() {
+  Scene scene;
+  scene.start.type = SupportType::clamp;
+  scene.sliding_mass.emplace();
+  return scene;
+}
+
+struct Rule {
+  const char* field;
+  std::function<void(Scene&)> breach;
+
+  friend void PrintTo(const Rule& rule, std::ostream* out) { *out << rule.field; }
+};
+
+class BrokenRule : public testing::TestWithParam<Rule> {};
+
+TEST_P(BrokenRule, IsNamed) {
+  Scene scene = example();
+  GetParam().breach(scene);
+  try {
+    validate(scene);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, GetParam().field) << error.what();
+  }
+}
+
+const Rule ranges[] = {
+    {"/dimension", [](Scene& s) { s.dimension = 1; }},
+    {"/gravity/1", [](Scene& s) { s.gravity[1] = nan; }},
+    {"/gravity/2", [](Scene& s) { s.gravity[2] = 1; }},
+    {"/gravity_ramp", [](Scene& s) { s.gravity_ramp = -1; }},
+    {"/beam/curve/end/0", [](Scene& s) { s.beam.curve.end[0] = inf; }},
+    {"/beam/curve/start/2", [](Scene& s) { s.beam.curve.start[2] = 0.5; }},
+    {"/beam/section/radius", [](Scene& s) { s.beam.section.radius = 0; }},
+    {"/beam/section/EA",
+     [](Scene& s) {
+       s.beam.section = {Section::Type::stiffness, 0, 0, 1, 1};
+     }},
+    {"/beam/section/EI",
+     [](Scene& s) {
+       s.beam.section = {Section::Type::stiffness, 0, 1, -1, 1};
+     }},
+    {"/beam/section/rhoA",
+     [](Scene& s) {
+       s.beam.section = {Section::Type::stiffness, 0, 1, 1, 0};
+     }},
+    {"/beam/material/density", [](Scene& s) { s.beam.material.density = -1; }},
+    {"/beam/material/youngs_modulus", [](Scene& s) { s.beam.material.youngs_modulus = nan; }},
+    {"/beam/material/damping", [](Scene& s) { s.beam.material.damping = -1e-9; }},
+    {"/beam/elements", [](Scene& s) { s.beam.elements = 1; }},
+    {"/beam/quadrature_points", [](Scene& s) { s.beam.quadrature_points = 26; }},
+    {"/beam/weights/2", [](Scene& s) { s.beam.weights[2] = 0; }},
+    {"/sliding_mass/mass", [](Scene& s) { s.sliding_mass->mass = 0; }},
+    {"/sliding_mass/velocity", [](Scene& s) { s.sliding_mass->velocity = -inf; }},
+    {"/length_control/hysteresis", [](Scene& s) { s.length_control.hysteresis = -0.1; }},
+    {"/integrator/rtol", [](Scene& s) { s.integrator.rtol = 0; }},
+    {"/integrator/atol", [](Scene& s) { s.integrator.atol = nan; }},
+    {"/duration", [](Scene& s) { s.duration = 0; }},
+    {"/output/interval", [](Scene& s) { s.output.interval = 0; }},
+    {"/output/configurations/1",
+     [](Scene& s) {
+       s.output.configurations = {0, nan};
+     }},
+};
+INSTANTIATE_TEST_SUITE_P(Ranges, BrokenRule, testing::ValuesIn(ranges));
+
+const Rule rules[] = {
+    {"/beam/curve/end", [](Scene& s) { s.beam.curve.end = s.beam.curve.start; }},
+    {"/beam/quadrature_points", [](Scene& s) { s.beam.quadrature_points = 2; }},
+    {"/beam/weights/1",
+     [](Scene& s) {
+       s.beam.weights = {1, 1.2, 1.2, 1};
+     }},  // as-built
+    {"/beam/weights/1",
+     [](Scene& s) {
+       s.beam.weights = {1, 1.2, 1.2, 1};
+       s.beam.rest_shape = RestShape::paper;
+       s.beam.element = ElementKind::ale_ancf;
+     }},
+    {"/beam/material/curvature_regularization",
+     [](Scene& s) {
+       s.dimension = 3;
+       s.beam.material.damping = 0.01;
+     }},
+    {"/beam/element", [](Scene& s) { s.beam.element = ElementKind::rancf; }},
+    {"/beam/element", [](Scene& s) { s.beam.element = ElementKind::ancf; }},
+    {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = 0; }},
+    {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = 1e-10; }},
+    {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = 1; }},
+    {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = 1.5; }},
+    {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = -0.5; }},
+    {"/sliding_mass/separation_distance", [](Scene& s) { s.sliding_mass->separation_distance = 0.025; }},
+    {"/sliding_mass/separation_distance", [](Scene& s) { s.sliding_mass->separation_distance = 0; }},
+    {"/length_control/upper", [](Scene& s) { s.length_control.upper = 1.49; }},
+    {"/length_control/upper", [](Scene& s) { s.length_control.upper = 2; }},
+    {"/length_control/upper",
+     [](Scene& s) {
+       s.length_control.upper = 1.9;
+       s.length_control.hysteresis = 0.1;
+     }},
+    {"/output/interval", [](Scene& s) { s.output.interval = 1e-12; }},
+    {"/output/configurations/1",
+     [](Scene& s) {
+       s.output.configurations = {0, 0.6};
+     }},
+    {"/output/configurations/1",
+     [](Scene& s) {
+       s.output.configurations = {0.2, 0.1};
+     }},
+};
+INSTANTIATE_TEST_SUITE_P(CrossField, BrokenRule, testing::ValuesIn(rules));
+
+TEST(Validate, AcceptsTheExample) { EXPECT_NO_THROW(validate(example())); }
+
+TEST(Validate, AcceptsTheLimits) {
+  Scene scene = example();
+  scene.beam.elements = 2;
+  scene.length_control = {.enabled = true, .upper = 1.5, .hysteresis = 0};
+  scene.output.configurations = {0, scene.duration};
+  scene.beam.quadrature_points = 3;
+  EXPECT_NO_THROW(validate(scene));
+}
+
+TEST(Validate, DampingOfACableNeedsNoCurvatureRegularization) {
+  Scene scene = example();
+  scene.dimension = 3;
+  scene.beam.section = {Section::Type::stiffness, 0, 100, 0, 1};
+  scene.beam.material.damping = 0.1;
+  EXPECT_NO_THROW(validate(scene));
+}
+
+TEST(Validate, OptionsThatDoNotApplyAreNotChecked) {
+  Scene scene = example();
+  scene.beam.section = {Section::Type::stiffness, -1, 100, 1, 1};  // no radius with stiffnesses
+  EXPECT_NO_THROW(validate(scene));
+}
+
+}  // namespace
+}  // namespace vlbeam
