@@ -70,7 +70,7 @@ class Span {
   BeamSection section_;
   ForceKernel kernel_;
   std::vector<PackOfElements> packs_;
-  std::vector<Pivot> pivots_;      ///< from the outer node inwards, without the open node
+  std::vector<Pivot> pivots_;  ///< from the outer node inwards, without the open node
   NodeBlock<D> open_mass_;
   std::vector<std::array<double, 2>> load_;  ///< rhoA times the integral of a node's two shape functions, from low node
 };

@@ -15,7 +15,7 @@ struct Support {
   using Components = Eigen::Array<double, D, 1>;
 
   Eigen::Matrix<double, D, D> frame = Eigen::Matrix<double, D, D>::Identity();  ///< columns are the frame's axes
-  bool aligned = true;  ///< the frame is the global one
+  bool aligned = true;                                                          ///< the frame is the global one
   Components free_position = Components::Ones();
   Components free_slope = Components::Ones();
 

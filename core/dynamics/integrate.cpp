@@ -4,6 +4,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -15,16 +16,20 @@ constexpr double guard_tolerance = 1e-12;  // a guard this near zero is at its r
 constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the end of a step to be looked into
 constexpr int longest_cascade = 8;         // events at one instant
 
+std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options) {
+  if (options.type != IntegratorType::generalized_alpha) return make_odeint_stepper(options.type, options.tolerances);
+  return make_generalized_alpha(*ode.second_order(), options.generalized_alpha);
+}
+
 /// Steps that start from the beginning of the current step and leave the main stepper alone.
 class SideStepper {
  public:
-  SideStepper(EventedOde& ode, const IntegrationOptions& options)
-      : ode_(ode), stepper_(make_odeint_stepper(options.type, options.tolerances)) {}
+  SideStepper(EventedOde& ode, const IntegrationOptions& options) : ode_(ode), stepper_(make_stepper(ode, options)) {}
 
-  /// The solution at `to`, from (from, start).
-  const Eigen::VectorXd& at(const Eigen::VectorXd& start, double from, double to) {
+  /// The solution at `to`, from (from, start), where the last step of `main` started.
+  const Eigen::VectorXd& at(const Stepper& main, const Eigen::VectorXd& start, double from, double to) {
     y_ = start;
-    stepper_->reset();
+    stepper_->resume(main);
     double t = from, dt = to - from;
     while (t < to) {
       dt = std::min(dt, to - t);
@@ -46,7 +51,7 @@ struct Located {
 };
 
 /// The first event in the step from (t0, y0) to (t1, y1), or index -1.
-Located first_event(const EventedOde& ode, SideStepper& side, const Eigen::VectorXd& y0, double t0,
+Located first_event(const EventedOde& ode, SideStepper& side, const Stepper& main, const Eigen::VectorXd& y0, double t0,
                     const Eigen::VectorXd& y1, double t1) {
   const Guards at_start = ode.guards(y0, t0), at_end = ode.guards(y1, t1);
   Located first;
@@ -56,12 +61,12 @@ Located first_event(const EventedOde& ode, SideStepper& side, const Eigen::Vecto
     double t = t0;
     if (at_start[k] < -guard_tolerance) {
       auto guard = [&](double tau) {
-        const double value = ode.guards(side.at(y0, t0, t0 + tau), t0 + tau)[k];
+        const double value = ode.guards(side.at(main, y0, t0, t0 + tau), t0 + tau)[k];
         return std::abs(value) <= guard_tolerance ? 0.0 : value;
       };
       std::uintmax_t evaluations = 60;
-      const auto bracket = boost::math::tools::toms748_solve(guard, 0.0, t1 - t0, at_start[k], at_end[k],
-                                                             boost::math::tools::eps_tolerance<double>(52), evaluations);
+      const auto bracket = boost::math::tools::toms748_solve(
+          guard, 0.0, t1 - t0, at_start[k], at_end[k], boost::math::tools::eps_tolerance<double>(52), evaluations);
       t = t0 + (bracket.first + bracket.second) / 2;
     }
     if (first.index < 0 || t < first.t) first = {i, t};
@@ -80,10 +85,11 @@ Located first_event(const EventedOde& ode, SideStepper& side, const Eigen::Vecto
 
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters) {
-  auto stepper = make_odeint_stepper(options.type, options.tolerances);
+  auto stepper = make_stepper(ode, options);
   SideStepper side(ode, options);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
-  double dt = std::min(options.first_step, t_end - t);
+  const bool fixed_step = options.type == IntegratorType::generalized_alpha;
+  double dt = std::min(fixed_step ? options.generalized_alpha.step : options.first_step, t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
   Eigen::VectorXd before = y;
   double last_event = t - 1;
@@ -113,15 +119,15 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (last) t = t_end;
     ++counters.steps;
 
-    const Located event = first_event(ode, side, before, t_before, y, t);
+    const Located event = first_event(ode, side, *stepper, before, t_before, y, t);
     if (event.index >= 0) {
       t = event.t;
-      y = t > t_before ? side.at(before, t_before, t) : before;
+      y = t > t_before ? side.at(*stepper, before, t_before, t) : before;
     } else if (!last) {
       counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
     }
     for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
-      ode.sample(*next_sample == t ? y : side.at(before, t_before, *next_sample), *next_sample);
+      ode.sample(*next_sample == t ? y : side.at(*stepper, before, t_before, *next_sample), *next_sample);
     }
     if (event.index >= 0) {
       cascade = t - last_event > smallest ? 0 : cascade + 1;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/dynamics/generalized_alpha.hpp"
 #include "core/dynamics/ode.hpp"
 #include "core/dynamics/stepper.hpp"
 
@@ -32,7 +33,8 @@ class EventedOde : public Ode {
 struct IntegrationOptions {
   IntegratorType type = IntegratorType::dopri5;
   Tolerances tolerances;
-  double first_step = 1e-6;  ///< [s]
+  double first_step = 1e-6;  ///< [s], of the methods that choose their step
+  GeneralizedAlphaOptions generalized_alpha;
 };
 
 /// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "core/dynamics/second_order.hpp"
+
 namespace vlbeam {
 
 /// y' = f(y, t) as the integrators see it. The size may change at an event, never in between.
@@ -12,6 +14,8 @@ class Ode {
   virtual Eigen::Index size() const = 0;
   /// Writes f(y, t) into `dydt`, already of the right size. Allocates nothing.
   virtual void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) = 0;
+  /// The same equations as an implicit method needs them, y = (q, q', ...); null where there are none.
+  virtual SecondOrderSystem* second_order() { return nullptr; }
 };
 
 inline constexpr int max_guards = 4;

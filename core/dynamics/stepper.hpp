@@ -6,7 +6,7 @@
 
 namespace vlbeam {
 
-enum class IntegratorType { dopri5, cash_karp, fehlberg78, bulirsch_stoer };
+enum class IntegratorType { dopri5, cash_karp, fehlberg78, bulirsch_stoer, generalized_alpha };
 
 struct Tolerances {
   double rtol = 1e-9;
@@ -22,6 +22,8 @@ class Stepper {
   virtual bool try_step(Ode& ode, Eigen::VectorXd& y, double& t, double& dt) = 0;
   /// Forgets what it kept of earlier steps: for a state or an equation that is not the last step's.
   virtual void reset() = 0;
+  /// Gets ready to repeat the last successful step of `other`, a stepper of the same method.
+  virtual void resume(const Stepper& /*other*/) { reset(); }
 };
 
 /// A Boost.Odeint method with step size control, ready for its first step.

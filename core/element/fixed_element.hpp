@@ -14,9 +14,9 @@ namespace vlbeam {
 template <class Real>
 struct FixedBasis {
   struct Point {
-    Real weight;                  ///< quadrature weight times length [m]
-    std::array<Real, 3> s_x;      ///< first derivatives with respect to x
-    std::array<Real, 3> s_xx;     ///< second derivatives
+    Real weight;               ///< quadrature weight times length [m]
+    std::array<Real, 3> s_x;   ///< first derivatives with respect to x
+    std::array<Real, 3> s_xx;  ///< second derivatives
   };
   std::vector<Point> points;
 };

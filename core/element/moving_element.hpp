@@ -13,7 +13,8 @@ namespace vlbeam {
 
 // A variable-length element: the rational cubic of an ordinary element between two ends whose material coordinates
 // x_A(t), x_B(t) move (ALE-RANCF, Ding & Ouyang 2022, section 3). Its position at a material point x is
-//   r(x, t) = S(x; x_A, x_B) e,   velocity v = S e' + y_A x_A' + y_B x_B',   acceleration S e'' + y_A x_A'' + y_B x_B'' + r_v,
+//   r(x, t) = S(x; x_A, x_B) e,   velocity v = S e' + y_A x_A' + y_B x_B',   acceleration S e'' + y_A x_A'' + y_B x_B''
+//   + r_v,
 // where y_A = dr/dx_A and y_B = dr/dx_B at fixed x (N = [S, y_A, y_B], Eq. 14-15).
 
 /// Which ends' material coordinates may change; what the other would add is then not computed.
@@ -45,8 +46,8 @@ struct WeightFunction {
 /// The block of the nodal coordinates is a scalar matrix times the identity.
 template <class Real, int D>
 struct MovingEquations {
-  std::array<std::array<Real, 4>, 4> mass;    ///< both triangles [kg m^k]
-  std::array<Vec<Real, D>, 4> mass_a, mass_b; ///< coupling of the nodal coordinates with x_A and x_B
+  std::array<std::array<Real, 4>, 4> mass;     ///< both triangles [kg m^k]
+  std::array<Vec<Real, D>, 4> mass_a, mass_b;  ///< coupling of the nodal coordinates with x_A and x_B
   Real mass_aa, mass_ab, mass_bb;
   std::array<Vec<Real, D>, 4> force;
   Real force_a, force_b;
@@ -57,12 +58,12 @@ struct MovingEquations {
 /// Derivatives with respect to the material coordinate at fixed time carry a subscript of x's.
 template <class Real, int D>
 struct PointMotion {
-  std::array<Real, 4> s, s_x, s_xx;            ///< shape functions of (r_A, s_A, r_B, s_B)
+  std::array<Real, 4> s, s_x, s_xx;  ///< shape functions of (r_A, s_A, r_B, s_B)
   Vec<Real, D> r, r_x, r_xx, r_xxx;
-  Vec<Real, D> y_a, y_a_x, y_a_xx;             ///< dr/dx_A at fixed x
-  Vec<Real, D> y_b, y_b_x, y_b_xx;             ///< dr/dx_B at fixed x
-  Vec<Real, D> v, v_x, v_xx;                   ///< velocity of the material point
-  Vec<Real, D> remainder;                      ///< r_v: acceleration at q'' = 0
+  Vec<Real, D> y_a, y_a_x, y_a_xx;  ///< dr/dx_A at fixed x
+  Vec<Real, D> y_b, y_b_x, y_b_xx;  ///< dr/dx_B at fixed x
+  Vec<Real, D> v, v_x, v_xx;        ///< velocity of the material point
+  Vec<Real, D> remainder;           ///< r_v: acceleration at q'' = 0
 };
 
 /// Kinematics of a variable-length element in one configuration, evaluated at any number of points.
@@ -153,8 +154,8 @@ class MovingKinematics {
     }
     const Real u_rate = -mesh_velocity(u) * inverse_;
     const Real u_rate2 = Real(-2) * u_rate * l_rate_ * inverse_;  // second derivative of u at fixed x
-    point.remainder = slopes(0, rate_.e) * Real(Real(2) * l_rate_) +
-                      (w1 + g1 * l_rate_) * Real(Real(2) * u_rate) + d2 * Real(u_rate * u_rate) + d1 * u_rate2;
+    point.remainder = slopes(0, rate_.e) * Real(Real(2) * l_rate_) + (w1 + g1 * l_rate_) * Real(Real(2) * u_rate) +
+                      d2 * Real(u_rate * u_rate) + d1 * u_rate2;
   }
 
   /// Weights that belong to the material points: the ordinary element between moving ends, pulled back to the
@@ -165,8 +166,8 @@ class MovingKinematics {
     k_a_ = derivative(at_a, 2, q_.e) * inverse2;
     k_b_ = derivative(at_b, 2, q_.e) * inverse2;
     const Vector j_a = derivative(at_a, 3, q_.e) * inverse3, j_b = derivative(at_b, 3, q_.e) * inverse3;
-    material_ = {rate_.e.r_a - q_.e.s_a * rate_.x_a, rate_.e.s_a - k_a_ * rate_.x_a,
-                 rate_.e.r_b - q_.e.s_b * rate_.x_b, rate_.e.s_b - k_b_ * rate_.x_b};
+    material_ = {rate_.e.r_a - q_.e.s_a * rate_.x_a, rate_.e.s_a - k_a_ * rate_.x_a, rate_.e.r_b - q_.e.s_b * rate_.x_b,
+                 rate_.e.s_b - k_b_ * rate_.x_b};
     const Vector kv_a = derivative(at_a, 2, material_) * inverse2, kv_b = derivative(at_b, 2, material_) * inverse2;
     const Real xa2 = rate_.x_a * rate_.x_a, xb2 = rate_.x_b * rate_.x_b;
     remainder_ = {k_a_ * xa2 - rate_.e.s_a * Real(Real(2) * rate_.x_a), -kv_a * Real(Real(2) * rate_.x_a) - j_a * xa2,
@@ -230,7 +231,8 @@ struct ShapeTabulation {
 /// `variational` is Lagrange's equations of the discrete Lagrangian sum_g w_g l (rhoA v.v/2 - W + rhoA g.r) with the
 /// reference points u_g fixed. A derivative at fixed u is the one at fixed x plus u d/dx (for x_B) or (1 - u) d/dx (for
 /// x_A), which adds to the virtual work
-///   - sum w rhoA (l' N^T v + l c (N_x^T v + N^T v_x)),  sum w (L + l u L_x) on x_B,  sum w (-L + l (1 - u) L_x) on x_A,
+///   - sum w rhoA (l' N^T v + l c (N_x^T v + N^T v_x)),  sum w (L + l u L_x) on x_B,  sum w (-L + l (1 - u) L_x) on
+///   x_A,
 /// L the Lagrangian per length: between events energy is conserved for any number of points.
 template <StrainLaw Law, bool Bending, class Real, int D, MovingEnds Ends = MovingEnds::both>
 MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
@@ -257,14 +259,16 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   for (std::size_t g = 0; g < table.rule.size(); ++g) {
     const double u = table.rule[g].u;
     const double w = table.rule[g].weight;
-    const PointMotion<Real, D> at = [&] {
-      if (reshaped) return kinematics.at(u, rational_shape(kinematics.weights(), Real(u)));
-      if constexpr (std::is_same_v<Real, double>) {
-        return kinematics.at(u, table.shape[g]);
-      } else {
-        return kinematics.at(u, cast_shape<Real>(table.shape[g]));
-      }
-    }();
+    ShapeTable<Real> current;
+    const ShapeTable<Real>* shape = &current;
+    if (reshaped) {
+      current = rational_shape(kinematics.weights(), Real(u));
+    } else if constexpr (std::is_same_v<Real, double>) {
+      shape = &table.shape[g];
+    } else {
+      current = cast_shape<Real>(table.shape[g]);
+    }
+    const PointMotion<Real, D> at = kinematics.at(u, *shape);
     const ElasticStress<Law, Bending, Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
 
     Vector p = elastic.p, m = elastic.m;
@@ -286,8 +290,8 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
       f1 -= at.v * Real(mu * c);
       const Real lagrangian =
           Real(0.5 * rhoA) * at.v.dot(at.v) - elastic.axial - elastic.bending + Real(rhoA) * gravity.dot(at.r);
-      const Real slope = Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - elastic.p.dot(at.r_xx) -
-                         elastic.m.dot(at.r_xxx);
+      const Real slope =
+          Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - elastic.p.dot(at.r_xx) - elastic.m.dot(at.r_xxx);
       if constexpr (Kinematics::a_moves) eq.force_a += (l * slope * (1 - u) - lagrangian) * w;
       if constexpr (Kinematics::b_moves) eq.force_b += (l * slope * u + lagrangian) * w;
     }

@@ -20,10 +20,22 @@ class Pack {
   double operator[](int i) const { return lanes_[i]; }
   void set(int i, double x) { lanes_[i] = x; }
 
-  Pack& operator+=(const Pack& b) { lanes_ += b.lanes_; return *this; }
-  Pack& operator-=(const Pack& b) { lanes_ -= b.lanes_; return *this; }
-  Pack& operator*=(const Pack& b) { lanes_ *= b.lanes_; return *this; }
-  Pack& operator/=(const Pack& b) { lanes_ /= b.lanes_; return *this; }
+  Pack& operator+=(const Pack& b) {
+    lanes_ += b.lanes_;
+    return *this;
+  }
+  Pack& operator-=(const Pack& b) {
+    lanes_ -= b.lanes_;
+    return *this;
+  }
+  Pack& operator*=(const Pack& b) {
+    lanes_ *= b.lanes_;
+    return *this;
+  }
+  Pack& operator/=(const Pack& b) {
+    lanes_ /= b.lanes_;
+    return *this;
+  }
   friend Pack operator+(Pack a, const Pack& b) { return a += b; }
   friend Pack operator-(Pack a, const Pack& b) { return a -= b; }
   friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
@@ -42,5 +54,13 @@ struct Eigen::NumTraits<vlbeam::Pack> : Eigen::GenericNumTraits<vlbeam::Pack> {
   using Real = vlbeam::Pack;
   using NonInteger = vlbeam::Pack;
   using Nested = vlbeam::Pack;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };

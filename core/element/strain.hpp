@@ -62,8 +62,8 @@ struct ElasticStress {
       // kappa^2 = F.F / g^n, n = 3 (green) or 2 (engineering)
       const CrossProduct<Real, D> cross(rx, rxx);
       const Real inverse = Real(1) / g;
-      const Real scale = Real(k.EI) * (Law == StrainLaw::green ? Real(inverse * inverse * inverse)
-                                                               : Real(inverse * inverse));
+      const Real scale =
+          Real(k.EI) * (Law == StrainLaw::green ? Real(inverse * inverse * inverse) : Real(inverse * inverse));
       constexpr double n = Law == StrainLaw::green ? 3 : 2;
       bending = Real(0.5) * scale * cross.squared;
       along -= Real(n) * scale * cross.squared * inverse;
@@ -112,12 +112,11 @@ struct DampingStress {
         const Real inverse = Real(1) / g;
         const Real scale = Law == StrainLaw::green ? Real(inverse * inverse * inverse) : Real(inverse * inverse);
         const Real curvature_squared = cross.squared * scale;
-        const Vec<Real, D> by_slope =
-            cross.by_slope * scale - rx * Real(Real(n) * curvature_squared * inverse);
+        const Vec<Real, D> by_slope = cross.by_slope * scale - rx * Real(Real(n) * curvature_squared * inverse);
         const Vec<Real, D> by_second = cross.by_second * scale;
         const Real rate = by_slope.dot(vx) + by_second.dot(vxx);  // kappa kappa'
-        const Real over = Real(c * k.EI) /
-                          (curvature_squared + Real(curvature_regularization * curvature_regularization));
+        const Real over =
+            Real(c * k.EI) / (curvature_squared + Real(curvature_regularization * curvature_regularization));
         p += by_slope * Real(over * rate);
         m = by_second * Real(over * rate);
         power += over * rate * rate;

@@ -11,7 +11,8 @@ enum class WeightTransport {
 /// Which equations of motion hold at a moving node.
 enum class Formulation {
   variational,   ///< Lagrange's equations of the discrete Lagrangian: conserves energy
-  virtual_work,  ///< virtual work at fixed material points (Ding & Ouyang 2022, Eq. 17): misses the configurational force
+  virtual_work,  ///< virtual work at fixed material points (Ding & Ouyang 2022, Eq. 17): misses the configurational
+                 ///< force
 };
 
 }  // namespace vlbeam

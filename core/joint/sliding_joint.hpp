@@ -58,8 +58,7 @@ class JointSide {
     auto out = [&](const Components& a) { return support.out_of_frame(a.matrix()); };
     mass.template block<D, 1>(0, 2 * D) += border[j_] - out(c_.rr * next_x_r_ + c_.sr * next_x_s_);
     mass.template block<D, 1>(D, 2 * D) += border[j_ + 1] - out(c_.rs * next_x_r_ + c_.ss * next_x_s_);
-    mass(2 * D, 2 * D) +=
-        (j_ == 2 ? eq_.mass_bb : eq_.mass_aa) - (h_r * next_x_r_).sum() - (h_s * next_x_s_).sum();
+    mass(2 * D, 2 * D) += (j_ == 2 ? eq_.mass_bb : eq_.mass_aa) - (h_r * next_x_r_).sum() - (h_s * next_x_s_).sum();
     rhs.template segment<D>(0) -= out(c_.rr * y_r_ + c_.sr * y_s_);
     rhs.template segment<D>(D) -= out(c_.rs * y_r_ + c_.ss * y_s_);
     rhs(2 * D) -= (h_r * y_r_).sum() + (h_s * y_s_).sum();

@@ -43,8 +43,11 @@ constexpr auto names(MergePolicy) {
 }
 constexpr auto names(IntegratorType) {
   using enum IntegratorType;
-  return std::to_array<Named<IntegratorType>>(
-      {{dopri5, "dopri5"}, {cash_karp, "cash-karp"}, {fehlberg78, "fehlberg78"}, {bulirsch_stoer, "bulirsch-stoer"}});
+  return std::to_array<Named<IntegratorType>>({{dopri5, "dopri5"},
+                                               {cash_karp, "cash-karp"},
+                                               {fehlberg78, "fehlberg78"},
+                                               {bulirsch_stoer, "bulirsch-stoer"},
+                                               {generalized_alpha, "generalized-alpha"}});
 }
 constexpr auto names(Section::Type) {
   using enum Section::Type;

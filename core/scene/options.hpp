@@ -334,6 +334,17 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "absolute tolerance of a step",
                  .range = Range::positive()},
           scene.integrator.atol);
+  visitor(Option{.pointer = "/integrator/step",
+                 .unit = "s",
+                 .description = "step of generalized-alpha",
+                 .range = Range::positive()},
+          scene.integrator.step);
+  visitor(Option{.pointer = "/integrator/rho_inf",
+                 .unit = "-",
+                 .description = "spectral radius at infinity of generalized-alpha: 1 keeps energy, 0 damps most",
+                 .source = "Arnold & Bruels 2007",
+                 .range = {.low = 0, .high = 1}},
+          scene.integrator.rho_inf);
 
   visitor(Option{.pointer = "/duration", .unit = "s", .description = "simulated time", .range = Range::positive()},
           scene.duration);

@@ -26,9 +26,9 @@ struct Sample {
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
 struct Configuration {
   double t = 0;
-  std::vector<double> x;    ///< material coordinates [m]
-  std::vector<Point> r;     ///< positions [m]
-  std::vector<Point> r_x;   ///< slopes [-]
+  std::vector<double> x;   ///< material coordinates [m]
+  std::vector<Point> r;    ///< positions [m]
+  std::vector<Point> r_x;  ///< slopes [-]
   std::vector<std::array<double, 4>> weights;
 };
 
@@ -49,8 +49,8 @@ struct Event {
 
 enum class RunStatus {
   completed,
-  separated,    ///< the mass left the beam and the run went on to its end
-  failed,       ///< the computation broke down; what was computed until then is here
+  separated,  ///< the mass left the beam and the run went on to its end
+  failed,     ///< the computation broke down; what was computed until then is here
   interrupted,
 };
 
@@ -67,8 +67,8 @@ struct RunResult {
   std::vector<Sample> samples;
   std::vector<Configuration> configurations;
   std::vector<Event> events;
-  double max_kinetic = 0;        ///< largest kinetic energy over all steps [J]
-  double max_energy_drift = 0;   ///< over all steps: max |E - E_0 - jumps|, the model's own points [J]
+  double max_kinetic = 0;       ///< largest kinetic energy over all steps [J]
+  double max_energy_drift = 0;  ///< over all steps: max |E - E_0 - jumps|, the model's own points [J]
   SolverCounters solver;
   RunTiming timing;
 };

@@ -39,10 +39,10 @@ struct Section {
 };
 
 struct Material {
-  double density = 7200;               ///< [kg/m^3], used with a circle
-  double youngs_modulus = 2e7;         ///< [Pa], used with a circle
-  double damping = 0;                  ///< Kelvin-Voigt time c [s]
-  double curvature_regularization = 0; ///< kappa_reg [1/m], needed by bending damping in 3D
+  double density = 7200;                ///< [kg/m^3], used with a circle
+  double youngs_modulus = 2e7;          ///< [Pa], used with a circle
+  double damping = 0;                   ///< Kelvin-Voigt time c [s]
+  double curvature_regularization = 0;  ///< kappa_reg [1/m], needed by bending damping in 3D
 };
 
 struct BeamSpec {
@@ -53,7 +53,7 @@ struct BeamSpec {
   ElementKind element = ElementKind::ale_rancf;
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
-  int quadrature_points = 0;  ///< Gauss points an element; 0 stands for the element's default
+  int quadrature_points = 0;                  ///< Gauss points an element; 0 stands for the element's default
   std::array<double, 4> weights{1, 1, 1, 1};  ///< initial weights of every element
 };
 
@@ -63,9 +63,9 @@ struct SupportSpec {
 };
 
 struct SlidingMassSpec {
-  double mass = 0.8;                          ///< [kg]
-  double position = 0.1;                      ///< material coordinate at t = 0 [m]
-  double velocity = 0;                        ///< rate of the material coordinate at t = 0 [m/s]
+  double mass = 0.8;      ///< [kg]
+  double position = 0.1;  ///< material coordinate at t = 0 [m]
+  double velocity = 0;    ///< rate of the material coordinate at t = 0 [m/s]
   JointSlopes slopes = JointSlopes::continuous;
   std::optional<double> separation_distance;  ///< distance from a free end where the mass leaves [m]; default 1e-3 L
 };
@@ -79,8 +79,10 @@ struct LengthControlSpec {
 
 struct IntegratorSpec {
   IntegratorType type = IntegratorType::dopri5;
-  double rtol = 1e-9;
-  double atol = 1e-9;
+  double rtol = 1e-9;    ///< error-controlled methods
+  double atol = 1e-9;    ///< error-controlled methods
+  double step = 1e-3;    ///< generalized-alpha [s]
+  double rho_inf = 0.9;  ///< generalized-alpha: spectral radius at infinity
 };
 
 struct OutputSpec {

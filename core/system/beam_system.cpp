@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
 namespace {
@@ -39,6 +40,7 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
 
 template <int D>
 void BeamSystem<D>::adopt(const ChainState<D>& chain) {
+  ++revision_;
   mesh_ = chain.mesh;
   joint_ = chain.joint;
   free_mass_ = model_.joint.has_value() && joint_ == no_joint;
@@ -98,21 +100,21 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   dydt.head(coordinates_) = y.segment(coordinates_, coordinates_);
   dydt.tail(dydt.size() - coordinates_).setZero();
   double* force = dydt.data() + coordinates_;
-  const Vector g = gravity(t);
-  double dissipation = left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
+  double dissipation = add_fixed_forces(q, rate, t, force);
 
   if (has_joint()) {
     const auto j = static_cast<std::size_t>(joint_);
     const double x = q[nodal_], x_rate = rate[nodal_];
-    const MovingLaw<D> moving{model_.section, model_.formulation, model_.transport, g};
-    const auto left = equations<MovingEnds::b, D>(model_.strain_law, {element_nodes<D>(q, joint_ - 1), mesh_.x[j - 1], x},
-                                   {element_nodes<D>(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_,
-                                   moving);
+    const MovingLaw<D> moving = moving_law(t);
+    const auto left = equations<MovingEnds::b, D>(
+        model_.strain_law, {element_nodes<D>(q, joint_ - 1), mesh_.x[j - 1], x},
+        {element_nodes<D>(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_, moving);
     const auto right = equations<MovingEnds::a, D>(model_.strain_law, {element_nodes<D>(q, joint_), x, mesh_.x[j + 1]},
-                                    {element_nodes<D>(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving);
+                                                   {element_nodes<D>(rate, joint_), x_rate, 0}, mesh_.weights[j],
+                                                   right_table_, moving);
     position<D>(force, joint_ - 1) += left.force[0];
     slope<D>(force, joint_ - 1) += left.force[1];
-    position<D>(force, joint_) += left.force[2] + right.force[0] + model_.joint->mass * g;
+    position<D>(force, joint_) += left.force[2] + right.force[0] + model_.joint->mass * moving.gravity;
     slope<D>(force, joint_) += left.force[3] + right.force[1];
     position<D>(force, joint_ + 1) += right.force[2];
     slope<D>(force, joint_ + 1) += right.force[3];
@@ -124,9 +126,15 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     }
   } else {
     solve_without_joint(*left_, *right_, force);
-    if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
+    if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = gravity(t);
   }
   if (model_.section.damped()) dydt[dydt.size() - 1] = dissipation;
+}
+
+template <int D>
+SecondOrderSystem* BeamSystem<D>::second_order() {
+  if (!implicit_) implicit_ = std::make_unique<ImplicitBeam<D>>(*this);
+  return implicit_.get();
 }
 
 template <int D>
@@ -159,10 +167,11 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (leaving) {
     const bool forward = direction == Direction::forward;
     const bool at_last = forward ? joint_ + 1 == mesh_.last() : joint_ == 1;
-    if (!at_last) throw ComputationFailed("tangled mesh: the sliding mass ran into a node; switch length control on", t);
+    if (!at_last)
+      throw ComputationFailed("tangled mesh: the sliding mass ran into a node; switch length control on", t);
     if (!(forward ? model_.end_releases : model_.start_releases)) {
-      throw ComputationFailed(std::string("the sliding mass ran into the support at the beam's ") +
-                                  (forward ? "end" : "start"), t);
+      throw ComputationFailed(
+          std::string("the sliding mass ran into the support at the beam's ") + (forward ? "end" : "start"), t);
     }
   }
   EventRecord<D> record;
@@ -201,7 +210,7 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
                                      Observation<D>& seen) const {
   const auto& rule = gauss_legendre(points);
   const ShapeTabulation polynomial(rule, unit_weights);
-  const MovingLaw<D> moving = law(t);
+  const MovingLaw<D> moving = moving_law(t);
   const double rhoA = model_.section.rhoA;
   for (int k = first; k < last; ++k) {
     const WeightFunction& weights = chain.mesh.weights[static_cast<std::size_t>(k)];

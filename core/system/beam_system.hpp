@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "core/dynamics/integrate.hpp"
@@ -35,8 +36,8 @@ double gravity_share(double t, double ramp);
 template <int D>
 struct Observation {
   Energy energy;
-  double beam_length = 0;                                ///< [m]
-  Vec<double, D> momentum = Vec<double, D>::Zero();      ///< [kg m/s]
+  double beam_length = 0;                            ///< [m]
+  Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [kg m/s]
 };
 
 enum class GuardKind { forward, backward, at_end, at_start };
@@ -80,11 +81,26 @@ class BeamSystem final : public EventedOde {
 
   const BeamModel<D>& model() const { return model_; }
   Eigen::VectorXd initial_state() const { return initial_; }
+  SecondOrderSystem* second_order() override;
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
 
   /// Mesh and motion at state y.
   ChainState<D> chain(const Eigen::VectorXd& y) const;
   bool has_joint() const { return joint_ != no_joint; }
+  int joint() const { return joint_; }
+  const Mesh& mesh() const { return mesh_; }
+  Eigen::Index coordinates() const { return coordinates_; }
+  /// Counts the meshes there have been.
+  std::size_t revision() const { return revision_; }
+  /// Shape functions of the two elements at the joint.
+  const ShapeTabulation& left_table() const { return left_table_; }
+  const ShapeTabulation& right_table() const { return right_table_; }
+  MovingLaw<D> moving_law(double t) const { return {model_.section, model_.formulation, model_.transport, gravity(t)}; }
+  /// Adds the forces of the fixed elements at (q, q') to the nodal array `force`; returns the dissipated power [W].
+  double add_fixed_forces(const double* q, const double* rate, double t, double* force) const {
+    const Vector g = gravity(t);
+    return left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
+  }
   /// Position of the sliding mass, on the beam or off it; empty without one.
   std::optional<Vector> mass_position(const Eigen::VectorXd& y) const;
   /// Energies, momentum and length, summed with `points` Gauss points an element.
@@ -94,9 +110,6 @@ class BeamSystem final : public EventedOde {
   void adopt(const ChainState<D>& chain);
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
   Vector gravity(double t) const { return model_.gravity * gravity_share(t, model_.gravity_ramp); }
-  MovingLaw<D> law(double t) const {
-    return {model_.section, model_.formulation, model_.transport, gravity(t)};
-  }
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;
 
@@ -108,7 +121,8 @@ class BeamSystem final : public EventedOde {
   std::optional<Span<D>> left_, right_;
   ShapeTabulation left_table_, right_table_;
   Eigen::VectorXd initial_;
-  std::size_t rhs_evaluations_ = 0;
+  std::size_t rhs_evaluations_ = 0, revision_ = 0;
+  std::unique_ptr<SecondOrderSystem> implicit_;
 };
 
 extern template class BeamSystem<2>;
