@@ -66,6 +66,10 @@ double beam_length(const Scene& scene) {
 
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
 
+double separation_distance(const Scene& scene) {
+  return scene.sliding_mass->separation_distance.value_or(separation_share * beam_length(scene));
+}
+
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
@@ -83,7 +87,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.end_releases = scene.end.type == SupportType::free;
   if (scene.sliding_mass) {
     model.joint = SlidingJoint{scene.sliding_mass->mass};
-    model.separation_distance = scene.sliding_mass->separation_distance.value_or(separation_share * beam_length(scene));
+    model.separation_distance = separation_distance(scene);
   }
   const auto& control = scene.length_control;
   model.length_control = {control.enabled, standard_length(scene), control.upper, control.hysteresis,
@@ -108,7 +112,7 @@ ChainState<D> build_chain(const Scene& scene) {
     const auto i = static_cast<std::size_t>(k);
     chain.mesh.weights.push_back({scene.beam.weights, chain.mesh.x[i], chain.mesh.x[i + 1]});
   }
-  chain.q.resize(static_cast<std::size_t>(node_size<D> * (n + 1)));
+  chain.q.resize(static_cast<std::size_t>(node_size<D>) * (static_cast<std::size_t>(n) + 1));
   chain.rate.assign(chain.q.size(), 0);
   for (int k = 0; k <= n; ++k) {
     position<D>(chain.q.data(), k) = start + chain.mesh.x[static_cast<std::size_t>(k)] * tangent;

@@ -12,6 +12,9 @@ int quadrature_points(const Scene& scene);
 double beam_length(const Scene& scene);
 double standard_length(const Scene& scene);
 
+/// Distance from a free end at which the sliding mass of the scene leaves [m].
+double separation_distance(const Scene& scene);
+
 /// The model and the initial state of a scene that has been validated; `D` is its dimension.
 template <int D>
 BeamModel<D> build_model(const Scene& scene);

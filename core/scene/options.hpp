@@ -323,27 +323,32 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
           scene.length_control.merge);
 
-  visitor(Option{.pointer = "/integrator/type", .unit = "", .description = "time integrator"}, scene.integrator.type);
+  const std::string_view integrator_type = "/integrator/type";
+  visitor(Option{.pointer = integrator_type, .unit = "", .description = "time integrator"}, scene.integrator.type);
   visitor(Option{.pointer = "/integrator/rtol",
                  .unit = "-",
-                 .description = "relative tolerance of a step",
+                 .description = "relative tolerance of a step, of the methods that choose their step",
                  .range = {.low = 0, .high = 1, .low_open = true}},
           scene.integrator.rtol);
   visitor(Option{.pointer = "/integrator/atol",
                  .unit = "m, m/s",
-                 .description = "absolute tolerance of a step",
+                 .description = "absolute tolerance of a step, of the methods that choose their step",
                  .range = Range::positive()},
           scene.integrator.atol);
+  const Condition generalized_alpha =
+      only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha);
   visitor(Option{.pointer = "/integrator/step",
                  .unit = "s",
-                 .description = "step of generalized-alpha",
-                 .range = Range::positive()},
+                 .description = "length of a step",
+                 .range = Range::positive(),
+                 .when = generalized_alpha},
           scene.integrator.step);
   visitor(Option{.pointer = "/integrator/rho_inf",
                  .unit = "-",
-                 .description = "spectral radius at infinity of generalized-alpha: 1 keeps energy, 0 damps most",
+                 .description = "spectral radius at infinity: 1 keeps energy, 0 damps high frequencies most",
                  .source = "Arnold & Bruels 2007",
-                 .range = {.low = 0, .high = 1}},
+                 .range = {.low = 0, .high = 1},
+                 .when = generalized_alpha},
           scene.integrator.rho_inf);
 
   visitor(Option{.pointer = "/duration", .unit = "s", .description = "simulated time", .range = Range::positive()},

@@ -67,8 +67,8 @@ struct RunResult {
   std::vector<Sample> samples;
   std::vector<Configuration> configurations;
   std::vector<Event> events;
-  double max_kinetic = 0;       ///< largest kinetic energy over all steps [J]
-  double max_energy_drift = 0;  ///< over all steps: max |E - E_0 - jumps|, the model's own points [J]
+  double max_kinetic = 0;       ///< largest kinetic energy of the samples [J]
+  double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - jumps|, the model's own points [J]
   SolverCounters solver;
   RunTiming timing;
 };

@@ -118,7 +118,7 @@ class Run {
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       result_.max_energy_drift =
           std::max(result_.max_energy_drift, std::abs(sample.discrete_total - first_total_ - jumps_));
-      result_.samples.push_back(std::move(sample));
+      result_.samples.push_back(sample);
     }
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }

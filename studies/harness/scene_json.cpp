@@ -305,7 +305,7 @@ Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
   filled.beam.quadrature_points = quadrature_points(scene);
   if (auto& mass = filled.sliding_mass; mass && !mass->separation_distance) {
-    mass->separation_distance = 1e-3 * beam_length(scene);
+    mass->separation_distance = separation_distance(scene);
   }
   Writer writer;
   visit_options(writer, std::as_const(filled));
