@@ -39,21 +39,27 @@ void right_hand_side(benchmark::State& state, ElementKind element, WeightTranspo
       static_cast<double>(elements), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK_CAPTURE(right_hand_side<2>, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)
+void planar(benchmark::State& state, ElementKind element, WeightTransport transport) {
+  right_hand_side<2>(state, element, transport);
+}
+void spatial(benchmark::State& state, ElementKind element, WeightTransport transport) {
+  right_hand_side<3>(state, element, transport);
+}
+
+BENCHMARK_CAPTURE(planar, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)
     ->Arg(10)
     ->Arg(40)
     ->Arg(100)
     ->Arg(1000)
     ->Arg(10000);
-BENCHMARK_CAPTURE(right_hand_side<2>, ALE_RANCF, ElementKind::ale_rancf, WeightTransport::frozen)
+BENCHMARK_CAPTURE(planar, ALE_RANCF, ElementKind::ale_rancf, WeightTransport::frozen)
     ->Arg(10)
     ->Arg(40)
     ->Arg(100)
     ->Arg(1000)
     ->Arg(10000);
-BENCHMARK_CAPTURE(right_hand_side<2>, ALE_RANCF_transported, ElementKind::ale_rancf, WeightTransport::transported)
-    ->Arg(40);
-BENCHMARK_CAPTURE(right_hand_side<3>, ALE_ANCF_3D, ElementKind::ale_ancf, WeightTransport::frozen)->Arg(40);
+BENCHMARK_CAPTURE(planar, ALE_RANCF_transported, ElementKind::ale_rancf, WeightTransport::transported)->Arg(40);
+BENCHMARK_CAPTURE(spatial, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)->Arg(40);
 
 }  // namespace
 

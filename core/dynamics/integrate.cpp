@@ -21,6 +21,13 @@ std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions&
   return make_generalized_alpha(*ode.second_order(), options.generalized_alpha);
 }
 
+/// A method that met an undefined state may propose no usable step at all.
+void shorten(double& dt, double tried, Stepper& stepper) {
+  if (dt > 0 && dt < tried) return;
+  dt = tried / 10;
+  stepper.reset();
+}
+
 /// Steps that start from the beginning of the current step and leave the main stepper alone.
 class SideStepper {
  public:
@@ -32,9 +39,14 @@ class SideStepper {
     stepper_->resume(main);
     double t = from, dt = to - from;
     while (t < to) {
-      dt = std::min(dt, to - t);
-      const bool last = dt == to - t;
-      if (stepper_->try_step(ode_, y_, t, dt) && last) break;
+      const bool last = dt >= to - t;
+      if (last) dt = to - t;
+      const double tried = dt;
+      if (stepper_->try_step(ode_, y_, t, dt)) {
+        if (last) break;
+      } else {
+        shorten(dt, tried, *stepper_);
+      }
     }
     return y_;
   }
@@ -104,6 +116,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     const double tried = dt;
     if (!stepper->try_step(ode, y, t, dt)) {
       ++counters.rejected;
+      shorten(dt, tried, *stepper);
       if (dt < smallest) underflow(t, smallest);
       continue;
     }

@@ -18,7 +18,7 @@ class Ode {
   virtual SecondOrderSystem* second_order() { return nullptr; }
 };
 
-inline constexpr int max_guards = 4;
+inline constexpr int max_guards = 5;
 /// Values of the guard functions; an event is due where one turns positive. Unused ones are negative.
 using Guards = std::array<double, max_guards>;
 

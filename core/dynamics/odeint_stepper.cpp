@@ -27,12 +27,11 @@ class OdeintStepper final : public Stepper {
     return controlled_.try_step(system, y, t, dt) == odeint::success;
   }
 
-  void reset() override {
-    if constexpr (requires { controlled_.reset(); }) controlled_.reset();
-  }
+  void reset() override { controlled_ = fresh_; }
 
  private:
   Controlled controlled_;
+  const Controlled fresh_ = controlled_;  // its work vectors have no size yet: an event may change that of the state
 };
 
 template <class Controlled>

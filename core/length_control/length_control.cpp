@@ -14,15 +14,23 @@ void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
   slope<D>(chain.rate.data(), k) = node.v_x;
 }
 
-/// Gives element k of `chain` the weights of one that has lost node `deleted` of the chain `before`.
+/// Gives element k of `chain` the weights of one that has lost node `deleted` of the chain `before`. The fit measures
+/// weights against that of the far end, so that a backward event is the mirror image of a forward one.
 template <int D>
-MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted, MergePolicy policy) {
+MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted, MergePolicy policy,
+                         Direction direction) {
   const auto q = chain.coordinates(k);
   MergedWeights merged;
   if (policy == MergePolicy::point_fit) {
     const double l = q.x_b - q.x_a;
     const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;
-    merged = point_fit<D>(q.e, l, u, position<D>(before.q.data(), deleted));
+    const Vec<double, D> r = position<D>(before.q.data(), deleted);
+    if (direction == Direction::forward) {
+      merged = point_fit<D>(q.e, l, u, r);
+    } else {
+      merged = point_fit<D>({q.e.r_b, -q.e.s_b, q.e.r_a, -q.e.s_a}, l, 1 - u, r);
+      merged.k = {1 / merged.k[0], merged.k[2] / merged.k[0], merged.k[1] / merged.k[0]};
+    }
   }
   chain.mesh.weights[static_cast<std::size_t>(k)] = {merged.weights(), q.x_a, q.x_b};
   return merged;
@@ -46,29 +54,44 @@ MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const
   chain.joint = deleted;
   chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
   chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
-  return merge_into(chain, merged, before, deleted, control.merge);
+  return merge_into(chain, merged, before, deleted, control.merge, direction);
 }
 
 template <int D>
-MergedWeights separate(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                       WeightTransport transport) {
+void separate(ChainState<D>& chain, Direction direction, const LengthControl& control, WeightTransport transport) {
   const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
-  const int j = before.joint;
-  const int cut = forward ? j - 1 : j, merged = forward ? j : j - 1;
+  const int j = before.joint, end = forward ? j + 1 : j - 1, kept = forward ? j - 1 : j;
   const auto& x = before.mesh.x;
-  const double x_new = forward ? x.back() - control.standard_length : x.front() + control.standard_length;
-  const auto node = segment(before, cut, x_new, transport);
-  place_node(chain, j, node);
+  const double x_end = x[static_cast<std::size_t>(end)];
+  const double x_new = forward ? x_end - control.standard_length : x_end + control.standard_length;
+
+  // the element behind the joint, continued to the end: the vanishing one ahead is dropped with its whip
+  const auto q = before.coordinates(kept), rate = before.rates(kept);
+  const WeightFunction& weights = before.mesh.weights[static_cast<std::size_t>(kept)];
+  const MovingKinematics<double, D> kinematics(q, rate, transport, weights);
+  const auto& w = kinematics.weights();
+  auto parameter = [&](double at) { return (at - q.x_a) / (q.x_b - q.x_a); };
+  auto at_material_point = [&](double at) -> Segmentation<D> {
+    const auto point = kinematics.at(parameter(at), rational_shape(w, parameter(at)));
+    return {at, point.r, point.r_x, point.v, point.v_x, {}, {}};
+  };
+  auto weights_between = [&](double a, double b) -> WeightFunction {
+    if (weights.w == unit_weights) return {unit_weights, a, b};
+    return {restrict_cubic(w, parameter(a), parameter(b)), a, b};
+  };
+  place_node(chain, j, at_material_point(x_new));
+  place_node(chain, end, at_material_point(x_end));
+  const double x_low = forward ? q.x_a : x_end, x_high = forward ? x_end : q.x_b;
+  chain.mesh.weights[static_cast<std::size_t>(j) - 1] = weights_between(x_low, x_new);
+  chain.mesh.weights[static_cast<std::size_t>(j)] = weights_between(x_new, x_high);
   chain.joint = no_joint;
   chain.joint_rate = 0;
-  chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
-  return merge_into(chain, merged, before, j, control.merge);
 }
 
 template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
 template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
-template MergedWeights separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
-template MergedWeights separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
+template void separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
+template void separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
 
 }  // namespace vlbeam

@@ -27,10 +27,10 @@ template <int D>
 MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
                                 WeightTransport transport);
 
-/// The moving node leaves the beam at its last node (forward) or first node (backward): it is deleted and the beam
-/// goes on with the node it was lacking at L_std from that end.
+/// The moving node leaves the beam at its last node (forward) or first node (backward). The last element, about to
+/// vanish, goes with it: curve and velocity of the element behind the node are continued to the end, and cut at L_std
+/// from it, where the uniform mesh lacks a node.
 template <int D>
-MergedWeights separate(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                       WeightTransport transport);
+void separate(ChainState<D>& chain, Direction direction, const LengthControl& control, WeightTransport transport);
 
 }  // namespace vlbeam

@@ -1,5 +1,6 @@
 #include "core/system/beam_system.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -10,6 +11,7 @@ namespace vlbeam {
 namespace {
 
 constexpr int ledger_points = 25;
+constexpr double smallest_weight = 1e-3;   // of the largest of the same element
 constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
 
 template <MovingEnds Ends, int D>
@@ -156,11 +158,22 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double /*t*/) const {
   };
   value[2] = reach(model_.end_releases, to_end) - ahead / unit;
   value[3] = reach(model_.start_releases, to_start) - behind / unit;
+  if (model_.transport == WeightTransport::transported) {
+    auto margin = [&](std::size_t k, double a, double b) {
+      const Weights<double> w = mesh_.weights[k].on(a, b);
+      return smallest_weight - *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
+    };
+    value[4] = std::max(margin(j - 1, mesh_.x[j - 1], x), margin(j, x, mesh_.x[j + 1]));
+  }
   return value;
 }
 
 template <int D>
 void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
+  if (index == 4) {
+    throw ComputationFailed("transported weights: the weight function of an element at the joint is about to vanish",
+                            t);
+  }
   const auto started = std::chrono::steady_clock::now();
   const Direction direction = index == 0 || index == 2 ? Direction::forward : Direction::backward;
   const bool leaving = index >= 2;
@@ -190,8 +203,11 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const double own_before = energies(record.before, model_.quadrature_points).total();
 
   const Eigen::VectorXd old = y;
-  record.merged = leaving ? separate(record.after, direction, model_.length_control, model_.transport)
-                          : segment_and_merge(record.after, direction, model_.length_control, model_.transport);
+  if (leaving) {
+    separate(record.after, direction, model_.length_control, model_.transport);
+  } else {
+    record.merged = segment_and_merge(record.after, direction, model_.length_control, model_.transport);
+  }
   const Eigen::Index joint_at = node_size<D> * joint_, old_coordinates = coordinates_;
   adopt(record.after);
   y = state_of(record.after, old);

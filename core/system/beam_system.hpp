@@ -40,8 +40,6 @@ struct Observation {
   Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [kg m/s]
 };
 
-enum class GuardKind { forward, backward, at_end, at_start };
-
 /// What happened to a beam system at an event.
 template <int D>
 struct EventRecord {

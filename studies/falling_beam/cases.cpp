@@ -1,0 +1,146 @@
+#include "studies/falling_beam/cases.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "studies/falling_beam/measures.hpp"
+#include "studies/harness/run_report.hpp"
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam::falling_beam {
+namespace {
+
+constexpr double report_times[] = {0.3, 0.4, 0.5, 0.6, 0.65, 0.7};  // [s]
+
+/// Sets the options that `pointers` names, separated by spaces.
+void assign(Json& scene, const std::string& pointers, const Json& value) {
+  std::istringstream words(pointers);
+  for (std::string pointer; words >> pointer;) scene[Json::json_pointer(pointer)] = value;
+}
+
+/// Rough work of a run: explicit steps shrink with the square of the element length, and with the tolerance.
+double cost(const Case& item) {
+  const Scene& scene = item.scene;
+  const double n = scene.beam.elements;
+  const double accuracy = std::pow(1e-6 / scene.integrator.rtol, 0.2);
+  const double steps = std::max(n * n / 1600, n / 60 * accuracy);
+  return steps * n * (3 + quadrature_points(scene)) * scene.duration * scene.duration;
+}
+
+Json state_at(const RunResult& result, double t) {
+  const Sample* sample = sample_at(result, t);
+  if (!sample) return nullptr;
+  const Point mass = sample->mass_position.value_or(Point{});
+  return {{"t", t},
+          {"joint_position", sample->joint_position ? Json(*sample->joint_position) : Json()},
+          {"mass_position", {mass[0], mass[1]}},
+          {"end", {sample->end[0], sample->end[1]}},
+          {"total_energy", sample->energy.total()}};
+}
+
+Json results_of(const RunResult& result) {
+  Json states = Json::array();
+  for (const double t : report_times) {
+    if (const Json state = state_at(result, t); !state.is_null()) states.push_back(state);
+  }
+  const double separation = separation_time(result);
+  return {{"status", to_string(result.status)},
+          {"length_control_events", merges_until(result, result.samples.back().t).size()},
+          {"separation_time", std::isfinite(separation) ? Json(separation) : Json()},
+          {"max_kinetic", result.max_kinetic},
+          {"max_energy_drift", result.max_energy_drift},
+          {"steps", result.solver.steps},
+          {"rejected", result.solver.rejected},
+          {"rhs_evaluations", result.solver.rhs_evaluations},
+          {"states", states}};
+}
+
+}  // namespace
+
+bool Wanted::fits(const Scene& scene) const {
+  return (!elements || *elements == scene.beam.elements) && (!element || *element == scene.beam.element) &&
+         (!clamp || *clamp == scene.start.clamp) && (!points || *points == quadrature_points(scene)) &&
+         (!tolerance || std::abs(*tolerance / scene.integrator.rtol - 1) < 1e-6);
+}
+
+std::vector<const Run*> Runs::select(std::string_view sweep, const Wanted& wanted) const {
+  std::vector<const Run*> found;
+  for (const Run& run : runs_) {
+    if (run.sweep == sweep && run.result && wanted.fits(run.scene)) found.push_back(&run);
+  }
+  return found;
+}
+
+const Run* Runs::find(std::string_view sweep, const Wanted& wanted) const {
+  const auto found = select(sweep, wanted);
+  return found.empty() ? nullptr : found.front();
+}
+
+std::vector<Case> read_cases(const Json& config) {
+  std::vector<Case> cases;
+  for (const auto& [name, sweep] : config.at("sweeps").items()) {
+    const Json set = sweep.value("set", Json::object());
+    const Json over = sweep.value("over", Json::object());
+    Json first = config.at("scene");
+    for (const auto& [pointers, value] : set.items()) assign(first, pointers, value);
+    std::vector<Json> scenes{first};
+    for (const auto& [pointers, values] : over.items()) {
+      std::vector<Json> combined;
+      for (const Json& scene : scenes) {
+        for (const Json& value : values) {
+          combined.push_back(scene);
+          assign(combined.back(), pointers, value);
+        }
+      }
+      scenes = std::move(combined);
+    }
+    for (const Json& scene : scenes) {
+      try {
+        cases.push_back({name, scene_from_json(scene)});
+      } catch (const InvalidInput& error) {
+        throw InvalidInput("/sweeps/" + name + error.field, error.value, error.allowed);
+      }
+    }
+  }
+  return cases;
+}
+
+Runs run_cases(const StudyContext& context, const std::vector<Case>& cases) {
+  auto outcomes = context.sweep(
+      cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost);
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    runs.push_back(
+        {cases[i].sweep, cases[i].scene, std::move(outcomes[i].result), outcomes[i].failure, outcomes[i].seconds});
+  }
+  return Runs(std::move(runs));
+}
+
+std::vector<StudyCase> report_cases(const Runs& runs) {
+  std::vector<StudyCase> cases;
+  for (const Run& run : runs.all()) {
+    cases.push_back({.options = {{"sweep", run.sweep}, {"scene", scene_to_json(run.scene)}},
+                     .results = run.result ? results_of(*run.result) : Json::object(),
+                     .failure = run.failure});
+  }
+  return cases;
+}
+
+Json timing(const Runs& runs) {
+  Json list = Json::array();
+  for (const Run& run : runs.all()) {
+    Json entry = {{"sweep", run.sweep},
+                  {"elements", run.scene.beam.elements},
+                  {"element", to_string(run.scene.beam.element)},
+                  {"quadrature_points", quadrature_points(run.scene)},
+                  {"tolerance", run.scene.integrator.rtol},
+                  {"seconds", run.seconds}};
+    if (run.result) entry["timing"] = run_timing(run.result->timing);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace vlbeam::falling_beam

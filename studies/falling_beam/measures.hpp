@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/scene/result.hpp"
+
+/// What is measured of a run of the falling beam.
+namespace vlbeam::falling_beam {
+
+inline constexpr double beam_length_m = 1;  ///< L [m]; positions are compared in units of it
+
+/// The sample at time t [s], or nothing.
+const Sample* sample_at(const RunResult& result, double t);
+
+/// max(|dx_i|, |dr_end|, |dr_mass|) / L at one time; NaN where one of the runs has no such sample, or one of them alone
+/// has lost its mass.
+double position_error(const RunResult& run, const RunResult& reference, double t);
+double position_error(const Sample& a, const Sample& b);
+
+/// Length-control events up to time t; the separation is none of them.
+std::vector<const Event*> merges_until(const RunResult& result, double t);
+
+/// When the mass leaves the beam [s]; NaN if it does not.
+double separation_time(const RunResult& result);
+
+/// Largest material coordinate of the mass over the samples up to time t [m].
+double furthest_joint_position(const RunResult& result, double t);
+
+/// The set of weights the paper gathers (Table 2): three unit weights of segmented elements once, then k_0, k_1, k_2 of
+/// every merge.
+struct WeightSet {
+  std::size_t size = 0;
+  double maximum = 1;
+  double minimum = 1;
+  double sigma = 0;           ///< Eq. 42
+  std::size_t fallbacks = 0;  ///< merges that took unit weights because a k_i was not positive (Eq. 38)
+};
+WeightSet weight_set(const RunResult& result, double t);
+
+/// Total energy by the 25-point rule at a sample, without what the length-control events up to it have added [J].
+double energy_without_jumps(const RunResult& result, const Sample& sample);
+
+/// Largest |E - E_0 - jumps| over the samples up to time t, by the 25-point rule, over the largest kinetic energy.
+double ledger_gap(const RunResult& result, double t);
+
+/// Point of the beam with material coordinate x [m].
+std::array<double, 2> point_at(const Configuration& shape, double x);
+
+}  // namespace vlbeam::falling_beam

@@ -1,0 +1,72 @@
+#include "core/dynamics/generalized_alpha.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/simulate.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+/// Position of the beam's end and the momentum of everything: a sample of q and of q'.
+Eigen::Vector4d final_state(Scene scene, double step, double rho_inf = 0.9) {
+  if (step > 0) {
+    scene.integrator.type = IntegratorType::generalized_alpha;
+    scene.integrator.step = step;
+    scene.integrator.rho_inf = rho_inf;
+  } else {
+    scene.integrator.type = IntegratorType::fehlberg78;
+    scene.integrator.rtol = scene.integrator.atol = 1e-12;
+  }
+  scene.output.interval = scene.duration;
+  const RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
+  const Sample& last = result.samples.back();
+  return {last.end[0], last.end[1], last.momentum[0], last.momentum[1]};
+}
+
+Scene pendulum() {
+  Scene scene;
+  scene.start.type = SupportType::pin;
+  scene.gravity_ramp = 0.25;
+  scene.beam.elements = 4;
+  scene.beam.element = ElementKind::ancf;
+  scene.duration = 0.3;
+  return scene;
+}
+
+/// Errors of position and of momentum at three steps, each half the last; orders of the two halvings.
+void expect_second_order(const Scene& scene, double step, double tolerance, double rho_inf) {
+  const Eigen::Vector4d exact = final_state(scene, 0);
+  std::array<double, 3> position{}, velocity{};
+  for (std::size_t i = 0; i < 3; ++i, step /= 2) {
+    const Eigen::Vector4d error = final_state(scene, step, rho_inf) - exact;
+    position[i] = error.head<2>().norm();
+    velocity[i] = error.tail<2>().norm();
+  }
+  for (const auto& errors : {position, velocity}) {
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 2 * tolerance);
+    EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, tolerance);
+  }
+}
+
+TEST(GeneralizedAlpha, IsOfSecondOrderForAFlexiblePendulum) {
+  for (const double rho_inf : {0.5, 0.9, 1.0}) expect_second_order(pendulum(), 1e-3, 0.1, rho_inf);
+}
+
+TEST(GeneralizedAlpha, RejectsAStepThatNewtonCannotSolveAndGoesOn) {
+  Scene scene = pendulum();
+  scene.gravity_ramp = 0;
+  scene.gravity = {0, -3000, 0};
+  scene.duration = 0.02;
+  scene.output.interval = 0.02;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = 0.02;
+  const RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::completed);
+  EXPECT_GT(result.solver.rejected, 0u);
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,79 @@
+#include "core/dynamics/stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/support/function_ode.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+/// Error at t = 2 of the oscillator after `steps` equal steps.
+double error_of_equal_steps(IntegratorType type, int steps) {
+  auto ode = oscillator();
+  const auto stepper = make_odeint_stepper(type, {1, 1});  // any step will do
+  Eigen::VectorXd y = Eigen::Vector2d(1, 0);
+  double t = 0;
+  for (int i = 0; i < steps; ++i) {
+    double dt = 2.0 / steps;
+    EXPECT_TRUE(stepper->try_step(ode, y, t, dt));
+  }
+  EXPECT_NEAR(t, 2, 1e-14);
+  return std::hypot(y[0] - std::cos(2), y[1] + std::sin(2));
+}
+
+struct Method {
+  IntegratorType type;
+  double order;
+  int coarsest;  ///< steps; four times as many still err well above roundoff
+};
+
+class StepperOrder : public ::testing::TestWithParam<Method> {};
+
+TEST_P(StepperOrder, IsThatOfTheMethod) {
+  const auto [type, order, n] = GetParam();
+  const double coarse = error_of_equal_steps(type, n), middle = error_of_equal_steps(type, 2 * n),
+               fine = error_of_equal_steps(type, 4 * n);
+  EXPECT_NEAR(std::log2(coarse / middle), order, 0.4);
+  EXPECT_NEAR(std::log2(middle / fine), order, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(RungeKutta, StepperOrder,
+                         ::testing::Values(Method{IntegratorType::dopri5, 5, 8},
+                                           Method{IntegratorType::cash_karp, 5, 8},
+                                           Method{IntegratorType::fehlberg78, 8, 2}));
+
+TEST(Stepper, ARejectedStepChangesNothingButItsLength) {
+  for (const IntegratorType type : integrators) {
+    auto ode = oscillator();
+    const auto stepper = make_odeint_stepper(type, {1e-13, 1e-13});
+    Eigen::VectorXd y = Eigen::Vector2d(1, 0);
+    double t = 0.5, dt = 40;
+    EXPECT_FALSE(stepper->try_step(ode, y, t, dt));
+    EXPECT_EQ(y, Eigen::Vector2d(1, 0));
+    EXPECT_EQ(t, 0.5);
+    EXPECT_LT(dt, 40);
+    EXPECT_GT(dt, 0);
+  }
+}
+
+TEST(Stepper, AfterAResetItsDigitsAreThoseOfANewOne) {
+  for (const IntegratorType type : integrators) {
+    auto ode = oscillator();
+    const auto used = make_odeint_stepper(type, {1e-9, 1e-9}), fresh = make_odeint_stepper(type, {1e-9, 1e-9});
+    Eigen::VectorXd y = Eigen::Vector2d(3, 4);
+    double t = 0, dt = 0.1;
+    used->try_step(ode, y, t, dt);
+    used->reset();
+    Eigen::VectorXd a = Eigen::Vector2d(1, 0), b = a;
+    double t_a = 0, dt_a = 0.1, t_b = 0, dt_b = 0.1;
+    EXPECT_EQ(used->try_step(ode, a, t_a, dt_a), fresh->try_step(ode, b, t_b, dt_b));
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(t_a, t_b);
+    EXPECT_EQ(dt_a, dt_b);
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,188 @@
+#include "core/length_control/length_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/support/chain_states.hpp"
+#include "tests/core/support/element_family.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+constexpr double standard = 0.2;
+constexpr std::array<MergePolicy, 2> policies{MergePolicy::point_fit, MergePolicy::unit};
+constexpr std::array<WeightTransport, 2> transports{WeightTransport::frozen, WeightTransport::transported};
+
+/// A chain along a smooth curve, in motion, whose joint is `behind` L_std ahead of the node behind it.
+template <int D>
+ChainState<D> smooth_chain(const ChainShape& shape, double behind, Random& random) {
+  auto chain = random_chain<D>(shape, random);
+  const auto j = static_cast<std::size_t>(chain.joint);
+  for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) chain.mesh.x[k] = standard * static_cast<double>(k);
+  chain.mesh.x[j] = chain.mesh.x[j - 1] + behind * standard;
+  const Eigen::Matrix<double, D, D> Q = random.rotation<D>();
+  for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
+    const double x = chain.mesh.x[k];
+    Vec<double, D> r = 1.01 * x * Vec<double, D>::UnitX(), r_x = 1.01 * Vec<double, D>::UnitX();
+    r[1] = 0.1 * std::sin(3 * x);
+    r_x[1] = 0.3 * std::cos(3 * x);
+    if constexpr (D == 3) {
+      r[2] = 0.1 * std::cos(4 * x);
+      r_x[2] = -0.4 * std::sin(4 * x);
+    }
+    position<D>(chain.q.data(), static_cast<int>(k)) = Q * r;
+    slope<D>(chain.q.data(), static_cast<int>(k)) = Q * r_x;
+  }
+  for (std::size_t k = 0; k < chain.mesh.weights.size(); ++k) {
+    chain.mesh.weights[k].x_a = chain.mesh.x[k];
+    chain.mesh.weights[k].x_b = chain.mesh.x[k + 1];
+  }
+  return chain;
+}
+
+/// Position and slope of node k of a nodal array.
+template <int D>
+Vec<double, node_size<D>> node(const std::vector<double>& nodes, int k) {
+  return Eigen::Map<const Vec<double, node_size<D>>>(nodes.data() + node_size<D> * k);
+}
+
+template <int D>
+void expect_same(const ChainState<D>& a, const ChainState<D>& b, double tolerance) {
+  EXPECT_EQ(a.joint, b.joint);
+  EXPECT_NEAR(a.joint_rate, b.joint_rate, tolerance);
+  ASSERT_EQ(a.mesh.x.size(), b.mesh.x.size());
+  for (std::size_t k = 0; k < a.mesh.x.size(); ++k) EXPECT_NEAR(a.mesh.x[k], b.mesh.x[k], tolerance);
+  for (std::size_t i = 0; i < a.q.size(); ++i) {
+    EXPECT_NEAR(a.q[i], b.q[i], tolerance);
+    EXPECT_NEAR(a.rate[i], b.rate[i], tolerance);
+  }
+  for (std::size_t k = 0; k < a.mesh.weights.size(); ++k) {
+    const auto& v = a.mesh.weights[k].w;
+    const auto& w = b.mesh.weights[k].w;
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(v[i] / v[0], w[i] / w[0], 1e-9) << "weight " << i << " of element " << k;
+    }
+  }
+}
+
+template <class Dimension>
+class LengthControlOf : public ::testing::Test {
+ protected:
+  static constexpr int dim = Dimension::value;
+
+  static LengthControl control(MergePolicy policy) {
+    LengthControl result;
+    result.standard_length = standard;
+    result.merge = policy;
+    return result;
+  }
+
+  Random random_{11};
+};
+TYPED_TEST_SUITE(LengthControlOf, Dimensions, DimensionNames);
+
+TYPED_TEST(LengthControlOf, AForwardEventPutsANodeBehindTheJointAndTakesOneAheadAway) {
+  constexpr int D = TypeParam::value;
+  for (const WeightTransport transport : transports) {
+    for (const MergePolicy policy : policies) {
+      const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport};
+      const auto before = smooth_chain<D>(shape, 1.5, this->random_);
+      auto after = before;
+      const auto merged = segment_and_merge(after, Direction::forward, this->control(policy), transport);
+      EXPECT_EQ(after.joint, 3);
+      EXPECT_EQ(after.joint_rate, before.joint_rate);
+      EXPECT_EQ(after.mesh.elements(), before.mesh.elements());
+      EXPECT_DOUBLE_EQ(after.mesh.x[2], before.mesh.x[1] + standard) << "the new node";
+      EXPECT_EQ(after.mesh.x[3], before.mesh.x[2]) << "the joint stays where it was";
+      EXPECT_EQ(after.mesh.x[4], before.mesh.x[4]) << "node 3 is gone";
+      EXPECT_DOUBLE_EQ(after.mesh.x[4] - after.mesh.x[3], 1.5 * standard);
+      EXPECT_EQ(after.mesh.weights[3].w, merged.weights());
+      const std::array<std::array<int, 2>, 6> kept{{{0, 0}, {1, 1}, {3, 2}, {4, 4}, {5, 5}, {6, 6}}};
+      for (const auto& [now, then] : kept) {
+        EXPECT_EQ(node<D>(after.q, now), node<D>(before.q, then));
+        EXPECT_EQ(node<D>(after.rate, now), node<D>(before.rate, then));
+      }
+    }
+  }
+}
+
+TYPED_TEST(LengthControlOf, TheMotionBehindTheJointIsWhatItWas) {
+  constexpr int D = TypeParam::value;
+  const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = WeightTransport::transported};
+  const auto before = smooth_chain<D>(shape, 1.5, this->random_);
+  auto after = before;
+  segment_and_merge(after, Direction::forward, this->control(MergePolicy::point_fit), shape.transport);
+  for (double x = before.mesh.x[0]; x < before.mesh.x[2]; x += 0.013) {
+    const auto a = point_motion(before, shape.transport, x), b = point_motion(after, shape.transport, x);
+    EXPECT_LE((a.r - b.r).norm(), 1e-14);
+    EXPECT_LE((a.v - b.v).norm(), 1e-13);
+  }
+}
+
+TYPED_TEST(LengthControlOf, PointFitKeepsTheDeletedNodesPlace) {
+  constexpr int D = TypeParam::value;
+  const ChainShape shape{.elements = 6, .joint = 2};
+  const auto before = smooth_chain<D>(shape, 1.5, this->random_);
+  auto fitted = before, unit = before;
+  const auto merged =
+      segment_and_merge(fitted, Direction::forward, this->control(MergePolicy::point_fit), shape.transport);
+  segment_and_merge(unit, Direction::forward, this->control(MergePolicy::unit), shape.transport);
+  ASSERT_FALSE(merged.unit_fallback);
+  const Vec<double, D> deleted = position<D>(before.q.data(), 3);
+  auto miss = [&](const ChainState<D>& chain) {
+    return (point_motion(chain, shape.transport, before.mesh.x[3]).r - deleted).norm();
+  };
+  EXPECT_LE(miss(fitted), 1e-14);
+  EXPECT_GT(miss(unit), 1e-4);
+}
+
+TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
+  constexpr int D = TypeParam::value;
+  for (const WeightTransport transport : transports) {
+    for (const MergePolicy policy : policies) {
+      const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport};
+      auto forward = smooth_chain<D>(shape, 1.5, this->random_);
+      auto backward = reversed(forward);
+      const auto a = segment_and_merge(forward, Direction::forward, this->control(policy), transport);
+      const auto b = segment_and_merge(backward, Direction::backward, this->control(policy), transport);
+      EXPECT_EQ(a.unit_fallback, b.unit_fallback);
+      expect_same(reversed(backward), forward, 1e-12);
+    }
+  }
+}
+
+TYPED_TEST(LengthControlOf, SeparationBringsBackTheUniformMesh) {
+  constexpr int D = TypeParam::value;
+  for (const WeightTransport transport : transports) {
+    for (const MergePolicy policy : policies) {
+      const ChainShape shape{.elements = 5, .joint = 4, .rational = true, .transport = transport};
+      auto chain = smooth_chain<D>(shape, 1.995, this->random_);  // about to leave
+      auto mirror = reversed(chain);
+      const auto before = chain;
+      separate(chain, Direction::forward, this->control(policy), transport);
+      EXPECT_EQ(chain.joint, no_joint);
+      EXPECT_EQ(chain.joint_rate, 0);
+      for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
+        EXPECT_NEAR(chain.mesh.x[k], standard * static_cast<double>(k), 1e-15);
+      }
+      const auto tip = point_motion(chain, transport, 4 * standard),
+                 was = point_motion(before, transport, 4 * standard);
+      EXPECT_LE((tip.r - was.r).norm(), 1e-14) << "the new node lies on the old curve";
+      EXPECT_LE((tip.v - was.v).norm(), 1e-13) << "and moves with its material point";
+      separate(mirror, Direction::backward, this->control(policy), transport);
+      expect_same(reversed(mirror), chain, 1e-12);
+    }
+  }
+}
+
+TEST(LengthControl, TriggerHasHysteresis) {
+  LengthControl control;
+  control.standard_length = 0.2;
+  EXPECT_DOUBLE_EQ(control.trigger_length(), 0.3003);
+  control.hysteresis = 0;
+  EXPECT_DOUBLE_EQ(control.trigger_length(), 0.3);
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "core/system/beam_system.hpp"
+#include "tests/core/support/chain_states.hpp"
+
+namespace vlbeam::test {
+
+/// A free beam, with a sliding mass if the shape has a joint; stiffness, mass and gravity of ordinary size.
+template <int D>
+BeamModel<D> model_of(const ChainShape& shape, Random& random) {
+  BeamModel<D> model;
+  model.section = {1.3, {20, 0.3}, 0, 0.1};
+  model.transport = shape.transport;
+  model.gravity = random.vector<D>(10);
+  model.length_control.standard_length = shape.element_length;
+  if (shape.joint != no_joint) model.joint = SlidingJoint{0.4};
+  return model;
+}
+
+/// Angular momentum about the origin by the model's own points; in the plane its last component only.
+template <int D>
+Vec<double, 3> angular_momentum(const BeamSystem<D>& system, const Eigen::VectorXd& y) {
+  const auto& model = system.model();
+  const auto chain = system.chain(y);
+  auto in_space = [](const Vec<double, D>& v) {
+    Vec<double, 3> result = Vec<double, 3>::Zero();
+    result.template head<D>() = v;
+    return result;
+  };
+  Vec<double, 3> sum = Vec<double, 3>::Zero();
+  for (int k = 0; k < chain.mesh.elements(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double x_a = chain.mesh.x[i], x_b = chain.mesh.x[i + 1];
+    for (const auto& [u, weight] : gauss_legendre(model.quadrature_points)) {
+      const auto at = point_motion(chain, model.transport, x_a + u * (x_b - x_a));
+      sum += weight * (x_b - x_a) * model.section.rhoA * in_space(at.r).cross(in_space(at.v));
+    }
+  }
+  if (system.has_joint()) {
+    sum +=
+        model.joint->mass *
+        in_space(position<D>(chain.q.data(), chain.joint)).cross(in_space(position<D>(chain.rate.data(), chain.joint)));
+  }
+  return sum;
+}
+
+}  // namespace vlbeam::test

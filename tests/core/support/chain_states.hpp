@@ -1,0 +1,88 @@
+#pragma once
+
+#include "core/length_control/chain_state.hpp"
+#include "tests/core/support/random.hpp"
+
+namespace vlbeam::test {
+
+/// What a random chain of elements looks like.
+struct ChainShape {
+  int elements = 5;
+  int joint = no_joint;
+  bool rational = false;
+  WeightTransport transport = WeightTransport::frozen;
+  double element_length = 0.2;
+};
+
+/// Positions and slopes of the nodes along a smooth curve about the first axis of a random frame, all in motion.
+template <int D>
+ChainState<D> random_chain(const ChainShape& shape, Random& random) {
+  ChainState<D> chain;
+  const Eigen::Matrix<double, D, D> Q = random.rotation<D>();
+  const Vec<double, D> along = Q.col(0);
+  const int n = shape.elements;
+  chain.joint = shape.joint;
+  for (int k = 0; k <= n; ++k) chain.mesh.x.push_back(shape.element_length * k);
+  if (shape.joint != no_joint) {
+    chain.mesh.x[static_cast<std::size_t>(shape.joint)] += shape.element_length * random.uniform(-0.3, 0.3);
+    chain.joint_rate = random.uniform(-1, 1);
+  }
+  const auto size = static_cast<std::size_t>(node_size<D> * (n + 1));
+  chain.q.resize(size);
+  chain.rate.resize(size);
+  for (int k = 0; k <= n; ++k) {
+    const double x = chain.mesh.x[static_cast<std::size_t>(k)];
+    position<D>(chain.q.data(), k) = 1.02 * x * along + random.vector<D>(0.03 * shape.element_length);
+    slope<D>(chain.q.data(), k) = along + random.vector<D>(0.1);
+    position<D>(chain.rate.data(), k) = random.vector<D>();
+    slope<D>(chain.rate.data(), k) = random.vector<D>();
+  }
+  for (int k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    WeightFunction weights{unit_weights, chain.mesh.x[i], chain.mesh.x[i + 1]};
+    if (shape.rational) weights.w = random.weights(1.5);
+    if (shape.rational && shape.transport == WeightTransport::transported &&
+        (k == shape.joint || k + 1 == shape.joint)) {
+      (k == shape.joint ? weights.x_a : weights.x_b) += random.uniform(-0.1, 0.1) * shape.element_length;
+    }
+    chain.mesh.weights.push_back(weights);
+  }
+  return chain;
+}
+
+/// The same body described from its other end: material coordinates run the other way.
+template <int D>
+ChainState<D> reversed(const ChainState<D>& chain) {
+  ChainState<D> result = chain;
+  const int n = chain.mesh.elements();
+  const double sum = chain.mesh.x.front() + chain.mesh.x.back();
+  for (int k = 0; k <= n; ++k) {
+    result.copy_node(k, chain, n - k);
+    result.mesh.x[static_cast<std::size_t>(k)] = sum - chain.mesh.x[static_cast<std::size_t>(n - k)];
+    slope<D>(result.q.data(), k) *= -1;
+    slope<D>(result.rate.data(), k) *= -1;
+  }
+  for (int k = 0; k < n; ++k) {
+    const auto& from = chain.mesh.weights[static_cast<std::size_t>(n - 1 - k)];
+    result.mesh.weights[static_cast<std::size_t>(k)] = {
+        {from.w[3], from.w[2], from.w[1], from.w[0]}, sum - from.x_b, sum - from.x_a};
+  }
+  if (chain.joint != no_joint) result.joint = n - chain.joint;
+  result.joint_rate = -chain.joint_rate;
+  return result;
+}
+
+/// Motion of the material point x.
+template <int D>
+PointMotion<double, D> point_motion(const ChainState<D>& chain, WeightTransport transport, double x) {
+  int k = 0;
+  while (k + 1 < chain.mesh.elements() && x > chain.mesh.x[static_cast<std::size_t>(k) + 1]) ++k;
+  const auto q = chain.coordinates(k);
+  const bool at_joint = chain.joint != no_joint && (k == chain.joint || k + 1 == chain.joint);
+  const MovingKinematics<double, D> kinematics(q, chain.rates(k), at_joint ? transport : WeightTransport::frozen,
+                                               chain.mesh.weights[static_cast<std::size_t>(k)]);
+  const double u = (x - q.x_a) / (q.x_b - q.x_a);
+  return kinematics.at(u, rational_shape(kinematics.weights(), u));
+}
+
+}  // namespace vlbeam::test

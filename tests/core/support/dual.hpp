@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <concepts>
+
+namespace vlbeam::test {
+
+/// Forward automatic differentiation along one direction: a value and its rate. Nests to any depth, which
+/// Eigen::AutoDiffScalar does not: Dual<Dual<double>> has second derivatives in rate.rate.
+template <class Real>
+struct Dual {
+  Real value{0}, rate{0};
+
+  Dual() = default;
+  Dual(double x) : value(x) {}  // NOLINT(google-explicit-constructor): a number is a constant
+  Dual(const Real& x) requires(!std::same_as<Real, double>)  // NOLINT(google-explicit-constructor)
+      : value(x) {}
+  Dual(const Real& x, const Real& x_rate) : value(x), rate(x_rate) {}
+
+  Dual& operator+=(const Dual& b) { return *this = *this + b; }
+  Dual& operator-=(const Dual& b) { return *this = *this - b; }
+  Dual& operator*=(const Dual& b) { return *this = *this * b; }
+  Dual& operator/=(const Dual& b) { return *this = *this / b; }
+  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.rate + b.rate}; }
+  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.rate - b.rate}; }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.rate * b.value + a.value * b.rate};
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const Real quotient = a.value / b.value;
+    return {quotient, (a.rate - quotient * b.rate) / b.value};
+  }
+  friend Dual operator-(const Dual& a) { return {-a.value, -a.rate}; }
+  friend Dual sqrt(const Dual& a) {
+    using std::sqrt;
+    const Real root = sqrt(a.value);
+    return {root, a.rate / (Real(2) * root)};
+  }
+};
+
+/// q + q' t as a function of time, at t = 0.
+template <class Real, int N>
+Eigen::Matrix<Dual<Real>, N, 1> in_motion(const Eigen::Matrix<Real, N, 1>& q, const Eigen::Matrix<Real, N, 1>& rate) {
+  Eigen::Matrix<Dual<Real>, N, 1> moving(q.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) moving[i] = {q[i], rate[i]};
+  return moving;
+}
+
+template <class Real, int N>
+Eigen::Matrix<Real, N, 1> value_of(const Eigen::Matrix<Dual<Real>, N, 1>& q) {
+  return q.unaryExpr([](const Dual<Real>& x) { return x.value; });
+}
+template <class Real, int N>
+Eigen::Matrix<Real, N, 1> rate_of(const Eigen::Matrix<Dual<Real>, N, 1>& q) {
+  return q.unaryExpr([](const Dual<Real>& x) { return x.rate; });
+}
+
+/// Gradient of the scalar function `f` at q.
+template <class Function, int N>
+Eigen::Matrix<double, N, 1> gradient(const Function& f, const Eigen::Matrix<double, N, 1>& q) {
+  Eigen::Matrix<double, N, 1> result(q.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const Eigen::Matrix<double, N, 1> unit = Eigen::Matrix<double, N, 1>::Unit(q.size(), i);
+    result[i] = f(in_motion(q, unit)).rate;
+  }
+  return result;
+}
+
+}  // namespace vlbeam::test
+
+template <class Real>
+struct Eigen::NumTraits<vlbeam::test::Dual<Real>> : Eigen::GenericNumTraits<vlbeam::test::Dual<Real>> {
+  using Self = vlbeam::test::Dual<Real>;
+  using NonInteger = Self;
+  using Nested = Self;
+  using Literal = double;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 2,
+    MulCost = 3
+  };
+};

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/dynamics/integrate.hpp"
+
+namespace vlbeam::test {
+
+/// A small equation written as functions; what it does not say has no effect.
+class FunctionOde : public EventedOde {
+ public:
+  using RightHandSide = std::function<Eigen::VectorXd(const Eigen::VectorXd& y, double t)>;
+
+  FunctionOde(Eigen::Index size, RightHandSide f) : size_(size), f_(std::move(f)) {}
+
+  Eigen::Index size() const override { return size_; }
+  void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override {
+    EXPECT_EQ(dydt.size(), y.size());
+    dydt = f_(y, t);
+  }
+  Guards guards(const Eigen::VectorXd& y, double t) const override {
+    Guards values;
+    values.fill(-1);
+    if (guard) values[0] = guard(y, t);
+    if (second_guard) values[1] = second_guard(y, t);
+    return values;
+  }
+  void handle_event(int index, Eigen::VectorXd& y, double t) override {
+    events.push_back({index, t});
+    if (on_event) on_event(index, y);
+  }
+  void sample(const Eigen::VectorXd& y, double t) override { samples.push_back({t, y}); }
+  bool proceed(double t) override { return t < interrupt_at; }
+
+  std::function<double(const Eigen::VectorXd&y, double t)> guard, second_guard;
+  std::function<void(int index, Eigen::VectorXd& y)> on_event;
+  double interrupt_at = 1e300;
+
+  struct EventSeen {
+    int index;
+    double t;
+  };
+  struct SampleSeen {
+    double t;
+    Eigen::VectorXd y;
+  };
+  std::vector<EventSeen> events;
+  std::vector<SampleSeen> samples;
+
+ private:
+  Eigen::Index size_;
+  RightHandSide f_;
+};
+
+/// y'' = -y; from (1, 0) it is (cos t, -sin t).
+inline FunctionOde oscillator() {
+  return {2, [](const Eigen::VectorXd& y, double) -> Eigen::VectorXd { return Eigen::Vector2d(y[1], -y[0]); }};
+}
+
+inline constexpr std::array<IntegratorType, 4> integrators{IntegratorType::dopri5, IntegratorType::cash_karp,
+                                                           IntegratorType::fehlberg78, IntegratorType::bulirsch_stoer};
+
+}  // namespace vlbeam::test

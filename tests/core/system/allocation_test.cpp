@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "core/system/beam_system.hpp"
+#include "tests/core/support/chain_models.hpp"
+#include "tests/core/support/element_family.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+#define VLBEAM_COUNTS_ALLOCATIONS 0  // the sanitizer has its own malloc
+#else
+#define VLBEAM_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace {
+std::size_t allocations = 0;
+}
+
+#if VLBEAM_COUNTS_ALLOCATIONS
+// glibc's own functions, behind ones that count: Eigen allocates with malloc, the standard library with operator new.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+#endif
+
+namespace vlbeam::test {
+namespace {
+
+template <int D>
+void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double damping) {
+  Random random(12);
+  const ChainShape shape{.elements = 9, .joint = joint, .rational = kind.rational, .transport = kind.transport};
+  auto model = model_of<D>(shape, random);
+  model.strain_law = kind.law;
+  model.section.damping = damping;
+  model.start = Support<D>::direction_clamp(random.vector<D>());
+  BeamSystem<D> system(model, random_chain<D>(shape, random));
+  const Eigen::VectorXd y = system.initial_state();
+  Eigen::VectorXd dydt(system.size());
+  const std::size_t before = allocations;
+  system.rhs(y, dydt, 0);
+  system.rhs(y, dydt, 0.1);
+  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_TRUE(dydt.allFinite());
+}
+
+TEST(RightHandSide, AllocatesNothing) {
+  if (!VLBEAM_COUNTS_ALLOCATIONS) GTEST_SKIP() << "not under a sanitizer";
+  const std::size_t before = allocations;
+  void* volatile memory = std::malloc(16);
+  std::free(memory);
+  memory = ::operator new(16);
+  ::operator delete(memory);
+  ASSERT_EQ(allocations - before, 2U) << "the counter counts";
+  for (const auto& kind : element_family) {
+    SCOPED_TRACE(kind.name());
+    for (const int joint : {no_joint, 1, 4, 8}) {
+      for (const double damping : {0.0, 0.01}) {
+        expect_no_allocation<2>(kind, joint, damping);
+        expect_no_allocation<3>(kind, joint, damping);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include "core/system/beam_system.hpp"
+#include "tests/core/support/chain_models.hpp"
+#include "tests/core/support/element_family.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+/// A free beam in random motion, its mass sliding, followed for a while without length-control events.
+template <class Dimension>
+class FreeBeam : public ::testing::Test {
+ protected:
+  static constexpr int dim = Dimension::value;
+
+  struct Seen {
+    double t;
+    Observation<dim> observation;
+    Vec<double, 3> angular_momentum;
+  };
+
+  /// States along the run, the initial one first.
+  static std::vector<Seen> run(BeamModel<dim> model, const ChainState<dim>& chain) {
+    model.length_control.enabled = false;
+    BeamSystem<dim> system(model, chain);
+    std::vector<Seen> seen;
+    system.on_sample = [&](const Eigen::VectorXd& y, double t) {
+      seen.push_back({t, system.observe(y, t, model.quadrature_points), angular_momentum(system, y)});
+    };
+    Eigen::VectorXd y = system.initial_state();
+    double t = 0;
+    SolverCounters counters;
+    IntegrationOptions options;
+    options.type = IntegratorType::fehlberg78;
+    options.tolerances = {1e-13, 1e-13};
+    integrate(system, y, t, 0.04, {0, 0.02, 0.04}, options, counters);
+    return seen;
+  }
+
+  Random random_{7};
+};
+TYPED_TEST_SUITE(FreeBeam, Dimensions, DimensionNames);
+
+constexpr std::array<int, 3> point_counts{3, 5, 10};
+
+TYPED_TEST(FreeBeam, KeepsItsMomentaAndItsEnergyWithAnyElementAndAnyNumberOfPoints) {
+  for (const auto& kind : element_family) {
+    SCOPED_TRACE(kind.name());
+    for (const int points : point_counts) {
+      const ChainShape shape{.elements = 4, .joint = 2, .rational = kind.rational, .transport = kind.transport};
+      auto model = model_of<TypeParam::value>(shape, this->random_);
+      model.strain_law = kind.law;
+      model.quadrature_points = points;
+      model.gravity.setZero();
+      const auto seen = this->run(model, random_chain<TypeParam::value>(shape, this->random_));
+      ASSERT_EQ(seen.size(), 3U);
+      const auto& first = seen.front();
+      for (const auto& at : seen) {
+        EXPECT_NEAR(at.observation.energy.total(), first.observation.energy.total(),
+                    1e-10 * first.observation.energy.kinetic);
+        EXPECT_LE((at.observation.momentum - first.observation.momentum).norm(), 1e-11);
+        EXPECT_LE((at.angular_momentum - first.angular_momentum).norm(), 1e-11);
+      }
+    }
+  }
+}
+
+TYPED_TEST(FreeBeam, VirtualWorkLosesEnergyWhereTheVariationalEquationsKeepIt) {
+  for (const auto& kind : element_family) {
+    SCOPED_TRACE(kind.name());
+    const ChainShape shape{.elements = 4, .joint = 2, .rational = kind.rational, .transport = kind.transport};
+    auto model = model_of<TypeParam::value>(shape, this->random_);
+    model.strain_law = kind.law;
+    model.formulation = Formulation::virtual_work;
+    model.gravity.setZero();
+    const auto seen = this->run(model, random_chain<TypeParam::value>(shape, this->random_));
+    const auto &first = seen.front().observation.energy, &last = seen.back().observation.energy;
+    EXPECT_GT(std::abs(last.total() - first.total()), 1e-5 * first.kinetic);
+  }
+}
+
+TYPED_TEST(FreeBeam, FallsInGravityAsABody) {
+  const ChainShape shape{.elements = 4, .joint = 2};
+  const auto model = model_of<TypeParam::value>(shape, this->random_);
+  const auto chain = random_chain<TypeParam::value>(shape, this->random_);
+  const double mass = model.section.rhoA * chain.mesh.length() + model.joint->mass;
+  const auto seen = this->run(model, chain);
+  const auto& first = seen.front();
+  for (const auto& at : seen) {
+    EXPECT_LE((at.observation.momentum - first.observation.momentum - mass * at.t * model.gravity).norm(), 1e-11);
+    EXPECT_NEAR(at.observation.energy.total(), first.observation.energy.total(), 1e-10);
+  }
+}
+
+TYPED_TEST(FreeBeam, WhatDampingTakesIsOnTheLedger) {
+  for (const auto& kind : element_family) {
+    SCOPED_TRACE(kind.name());
+    const ChainShape shape{.elements = 4, .joint = 2, .rational = kind.rational, .transport = kind.transport};
+    auto model = model_of<TypeParam::value>(shape, this->random_);
+    model.strain_law = kind.law;
+    model.section.damping = 0.01;
+    const auto seen = this->run(model, random_chain<TypeParam::value>(shape, this->random_));
+    const auto &first = seen.front().observation.energy, &last = seen.back().observation.energy;
+    EXPECT_GT(last.dissipated, 1e-3 * first.kinetic);
+    EXPECT_NEAR(last.total(), first.total(), 1e-10 * first.kinetic);
+  }
+}
+
+TYPED_TEST(FreeBeam, TimeReversalReturnsToTheStart) {
+  const ChainShape shape{.elements = 4, .joint = 2, .rational = true, .transport = WeightTransport::transported};
+  auto model = model_of<TypeParam::value>(shape, this->random_);
+  model.length_control.enabled = false;
+  const auto chain = random_chain<TypeParam::value>(shape, this->random_);
+  BeamSystem<TypeParam::value> system(model, chain);
+  const Eigen::VectorXd start = system.initial_state();
+  const Eigen::Index n = start.size() / 2;
+  Eigen::VectorXd y = start;
+  SolverCounters counters;
+  IntegrationOptions options;
+  options.type = IntegratorType::fehlberg78;
+  options.tolerances = {1e-13, 1e-13};
+  for (int way = 0; way < 2; ++way) {
+    double t = 0;
+    integrate(system, y, t, 0.04, {}, options, counters);
+    y.tail(n) *= -1;
+  }
+  EXPECT_LE((y - start).norm(), 1e-9 * start.norm());
+}
+
+}  // namespace
+}  // namespace vlbeam::test
