@@ -10,7 +10,8 @@ namespace vlbeam {
 class Pack {
  public:
   static constexpr int width = 4;
-  using Lanes __attribute__((vector_size(width * sizeof(double)))) = double;
+  // aligned as Eigen aligns its fixed-size arrays in the portable build
+  using Lanes __attribute__((vector_size(width * sizeof(double)), aligned(16))) = double;
 
   Pack() = default;
   Pack(double x) : lanes_{x, x, x, x} {}  // NOLINT(google-explicit-constructor): a number is a pack of equal lanes
