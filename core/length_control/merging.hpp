@@ -31,7 +31,7 @@ MergedWeights point_fit(const NodalCubic<double, D>& e, double l, double u, cons
   const Vec<double, D> rest = u * u * u * b - l * u * u * v * e.s_b;
   const Vec<double, D> misfit = -(rest + matrix.rowwise().sum());
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-12);  // a straight element has one equation, whatever rounding adds to the others
+  svd.setThreshold(1e-14);  // a straight element has one equation, whatever rounding adds to the others
   const Eigen::Vector3d x = svd.solve(misfit);
   MergedWeights merged;
   for (int i = 0; i < 3; ++i) merged.k[static_cast<std::size_t>(i)] = 1 + x[i];
