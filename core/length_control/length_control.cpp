@@ -14,23 +14,15 @@ void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
   slope<D>(chain.rate.data(), k) = node.v_x;
 }
 
-/// Gives element k of `chain` the weights of one that has lost node `deleted` of the chain `before`. The fit measures
-/// weights against that of the far end, so that a backward event is the mirror image of a forward one.
+/// Gives element k of `chain` the weights of one that has lost node `deleted` of the chain `before`.
 template <int D>
-MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted, MergePolicy policy,
-                         Direction direction) {
+MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted, MergePolicy policy) {
   const auto q = chain.coordinates(k);
   MergedWeights merged;
   if (policy == MergePolicy::point_fit) {
     const double l = q.x_b - q.x_a;
     const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;
-    const Vec<double, D> r = position<D>(before.q.data(), deleted);
-    if (direction == Direction::forward) {
-      merged = point_fit<D>(q.e, l, u, r);
-    } else {
-      merged = point_fit<D>({q.e.r_b, -q.e.s_b, q.e.r_a, -q.e.s_a}, l, 1 - u, r);
-      merged.k = {1 / merged.k[0], merged.k[2] / merged.k[0], merged.k[1] / merged.k[0]};
-    }
+    merged = point_fit<D>(q.e, l, u, position<D>(before.q.data(), deleted));
   }
   chain.mesh.weights[static_cast<std::size_t>(k)] = {merged.weights(), q.x_a, q.x_b};
   return merged;
@@ -54,7 +46,7 @@ MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const
   chain.joint = deleted;
   chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
   chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
-  return merge_into(chain, merged, before, deleted, control.merge, direction);
+  return merge_into(chain, merged, before, deleted, control.merge);
 }
 
 template <int D>

@@ -18,7 +18,8 @@ struct MergedWeights {
 
 /// Weights by which the merged element of length `l` with nodal coordinates `e` passes through `deleted`, the position
 /// of the deleted node, at its old parameter `u`; of all such weights those with the least |k - 1|
-/// (Ding & Ouyang 2022, Eq. 31-38).
+/// (Ding & Ouyang 2022, Eq. 31-38). As in the paper weights are measured against w_3, whichever way the joint goes: the
+/// mirror image of a merge may get other weights.
 template <int D>
 MergedWeights point_fit(const NodalCubic<double, D>& e, double l, double u, const Vec<double, D>& deleted) {
   // K(u) (r(u) - r_H) = 0 is linear in k: columns of k_0, k_1, k_2 and what is left
@@ -31,7 +32,7 @@ MergedWeights point_fit(const NodalCubic<double, D>& e, double l, double u, cons
   const Vec<double, D> rest = u * u * u * b - l * u * u * v * e.s_b;
   const Vec<double, D> misfit = -(rest + matrix.rowwise().sum());
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-14);  // a straight element has one equation, whatever rounding adds to the others
+  svd.setThreshold(1e-12);  // a straight element has one equation, whatever rounding adds to the others
   const Eigen::Vector3d x = svd.solve(misfit);
   MergedWeights merged;
   for (int i = 0; i < 3; ++i) merged.k[static_cast<std::size_t>(i)] = 1 + x[i];

@@ -55,8 +55,9 @@ TEST(SlidingMass, LeavesTheFreeEndAndFliesOnAParabola) {
 }
 
 TEST(SlidingMass, MovesAlikeOnTheBeamDescribedFromItsOtherEnd) {
-  for (const auto element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
-    auto scene = falling_beam(element, 6);
+  for (const auto merge : {MergePolicy::unit, MergePolicy::point_fit}) {
+    auto scene = falling_beam(ElementKind::ale_rancf, 6);
+    scene.length_control.merge = merge;
     scene.output.interval = 0.1;
     scene.duration = 0.45;
     set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
@@ -67,9 +68,11 @@ TEST(SlidingMass, MovesAlikeOnTheBeamDescribedFromItsOtherEnd) {
     const auto backward = simulate(scene);
     ASSERT_EQ(forward.events.size(), backward.events.size());
     ASSERT_GE(forward.events.size(), 2U);
+    // the point fit measures weights against the one at the far end, so its merges are not mirror images
+    const double close = merge == MergePolicy::unit ? 1e-8 : 2e-3;
     for (std::size_t i = 0; i < forward.samples.size(); ++i) {
-      EXPECT_NEAR(*forward.samples[i].joint_position, 1 - *backward.samples[i].joint_position, 1e-8);
-      EXPECT_NEAR((*forward.samples[i].mass_position)[1], (*backward.samples[i].mass_position)[1], 1e-8);
+      EXPECT_NEAR(*forward.samples[i].joint_position, 1 - *backward.samples[i].joint_position, close);
+      EXPECT_NEAR((*forward.samples[i].mass_position)[1], (*backward.samples[i].mass_position)[1], close);
     }
   }
 }
