@@ -28,34 +28,13 @@ FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
   return basis;
 }
 
-template <int D>
-Vec<Pack, D> load_lanes(const double* first, const std::array<int, Pack::width>& offset) {
-  Vec<Pack, D> result;
-  for (int c = 0; c < D; ++c) {
-    result[c] = Pack(first[offset[0] + c], first[offset[1] + c], first[offset[2] + c], first[offset[3] + c]);
-  }
-  return result;
-}
-
-template <int D>
-NodalCubic<Pack, D> load_elements(const double* nodes, int first, const std::array<int, Pack::width>& offset) {
-  const double* a = nodes + node_size<D> * first;
-  const double* b = a + node_size<D>;
-  return {load_lanes<D>(a, offset), load_lanes<D>(a + D, offset), load_lanes<D>(b, offset),
-          load_lanes<D>(b + D, offset)};
-}
-
 }  // namespace
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
               StrainLaw law, const QuadratureRule& rule)
-    : outer_(outer),
-      open_(open),
-      step_(outer <= open ? 1 : -1),
-      support_(support),
-      section_(section),
-      kernel_(choose_kernel(law, section)) {
+    : outer_(outer), open_(open), step_(outer <= open ? 1 : -1), support_(support), section_(section) {
+  choose_kernels(law);
   build_packs(mesh, rule);
   factor(mesh, rule);
 }
@@ -65,7 +44,7 @@ void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule) {
   const int low = std::min(outer_, open_), high = std::max(outer_, open_);
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
   auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
-  std::shared_ptr<const FixedBasis<Pack>> uniform;  // equal lengths and unit weights share one table
+  std::shared_ptr<const Tables> uniform;  // equal lengths and unit weights share one table
   double uniform_length = 0;
   for (int first = low; first < high; first += Pack::width) {
     const int count = std::min(Pack::width, high - first);
@@ -79,12 +58,20 @@ void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule) {
       continue;
     }
     std::vector<FixedBasis<double>> lanes;
+    auto tables = std::make_shared<Tables>();
     for (int k = first; k < first + count; ++k) {
-      lanes.push_back(fixed_basis(length(k), mesh.weights[static_cast<std::size_t>(k)].w, rule));
+      const auto& weights = mesh.weights[static_cast<std::size_t>(k)].w;
+      lanes.push_back(fixed_basis(length(k), weights, rule));
+      auto& mass = tables->mass[static_cast<std::size_t>(k - first)];
+      mass = fixed_inertia(length(k), weights, rule).mass;
+      for (auto& row : mass) {
+        for (auto& entry : row) entry *= section_.rhoA;
+      }
     }
-    packs_.push_back({first, count, std::make_shared<const FixedBasis<Pack>>(pack_basis(lanes))});
+    tables->basis = pack_basis(lanes);
+    packs_.push_back({first, count, tables});
     if (is_uniform) {
-      uniform = packs_.back().basis;
+      uniform = tables;
       uniform_length = length(first);
     }
   }
@@ -136,7 +123,7 @@ void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule) {
 
 template <int D>
 double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
-  const double dissipation = kernel_(packs_, section_, q, rate, force);
+  const double dissipation = (this->*forces_)(q, rate, force);
   const int low = std::min(outer_, open_);
   for (std::size_t k = 0; k < load_.size(); ++k) {
     const int node = low + static_cast<int>(k);
@@ -182,44 +169,6 @@ void Span<D>::substitute(double* force) const {
     a_r = x_r;
     a_s = x_s;
   }
-}
-
-template <int D>
-template <StrainLaw Law, bool Bending, bool Damped>
-double Span<D>::pack_forces(const std::vector<PackOfElements>& packs, const BeamSection& section, const double* q,
-                            const double* rate, double* force) {
-  constexpr int stride = node_size<D>;
-  double dissipation = 0;
-  for (const auto& pack : packs) {
-    std::array<int, Pack::width> offset;
-    for (int i = 0; i < Pack::width; ++i) offset[static_cast<std::size_t>(i)] = stride * std::min(i, pack.count - 1);
-    const auto e = load_elements<D>(q, pack.first, offset);
-    const auto e_rate = Damped ? load_elements<D>(rate, pack.first, offset) : e;
-    const auto f = fixed_force<Law, Bending, Damped, Pack, D>(*pack.basis, e, e_rate, section);
-    double* out = force + stride * pack.first;
-    for (int i = 0; i < pack.count; ++i, out += stride) {
-      for (int c = 0; c < D; ++c) {
-        out[c] -= f.r_b[c][i];
-        out[D + c] += f.s_a[c][i];
-        out[stride + c] += f.r_b[c][i];
-        out[stride + D + c] += f.s_b[c][i];
-      }
-      if constexpr (Damped) dissipation += f.dissipation[i];
-    }
-  }
-  return dissipation;
-}
-
-template <int D>
-typename Span<D>::ForceKernel Span<D>::choose_kernel(StrainLaw law, const BeamSection& section) {
-  auto choose = [&]<StrainLaw Law>() -> ForceKernel {
-    if (section.bends()) {
-      return section.damped() ? &Span::pack_forces<Law, true, true> : &Span::pack_forces<Law, true, false>;
-    }
-    return section.damped() ? &Span::pack_forces<Law, false, true> : &Span::pack_forces<Law, false, false>;
-  };
-  return law == StrainLaw::green ? choose.template operator()<StrainLaw::green>()
-                                 : choose.template operator()<StrainLaw::engineering>();
 }
 
 template class Span<2>;

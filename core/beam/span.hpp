@@ -12,6 +12,10 @@
 
 namespace vlbeam {
 
+/// Block of a tangent between two nodes, position and slope each.
+template <int D>
+using NodeTangent = Eigen::Matrix<double, node_size<D>, node_size<D>>;
+
 /// A run of fixed-length elements from an end of the beam, with its support, up to an open node where something else
 /// carries on. Its mass matrix is constant: factored once, block by block from the supported end, so that a
 /// right-hand side costs one sweep towards the open node and one back. A span may hold no element at all.
@@ -29,6 +33,14 @@ class Span {
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
 
+  /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`.
+  void add_inertia(const double* a, double* out) const;
+
+  /// Adds by_a M and the derivative of minus the elastic and viscous forces (by position, plus by_v times that by
+  /// velocity) to the node blocks of a block tridiagonal matrix: upper[k] couples node k to k + 1, lower[k] to k - 1.
+  void add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
+                   NodeTangent<D>* upper, NodeTangent<D>* lower) const;
+
   /// Eliminates all nodes but the open one from M a = force: `force` then holds, in the support's frame, what
   /// `substitute` needs, and at the open node the reduced force, in global components.
   void reduce(double* force) const;
@@ -45,30 +57,41 @@ class Span {
   Components open_free_slope() const { return outer_ == open_ ? support_.free_slope : Components::Ones(); }
 
  private:
+  /// What elements of equal length and weights share: their bases, four to a pack, and rhoA times their mass.
+  struct Tables {
+    FixedBasis<Pack> basis;
+    std::array<std::array<std::array<double, 4>, 4>, Pack::width> mass;
+  };
   struct PackOfElements {
     int first;
     int count;
-    std::shared_ptr<const FixedBasis<Pack>> basis;
+    std::shared_ptr<const Tables> tables;
   };
   /// One elimination step: inverse of the node's block, and inverse times coupling to the next node inwards.
   struct Pivot {
     NodeBlock<D> inverse;
     CouplingBlock<Components> next;
   };
-  using ForceKernel = double (*)(const std::vector<PackOfElements>&, const BeamSection&, const double*, const double*,
-                                 double*);
+  using Forces = double (Span::*)(const double*, const double*, double*) const;
+  using Tangents = void (Span::*)(const double*, const double*, double, double, NodeTangent<D>*, NodeTangent<D>*,
+                                  NodeTangent<D>*) const;
 
   template <StrainLaw Law, bool Bending, bool Damped>
-  static double pack_forces(const std::vector<PackOfElements>& packs, const BeamSection& section, const double* q,
-                            const double* rate, double* force);
-  static ForceKernel choose_kernel(StrainLaw law, const BeamSection& section);
+  double forces(const double* q, const double* rate, double* force) const;
+  template <StrainLaw Law, bool Bending, bool Damped>
+  void tangents(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
+                NodeTangent<D>* upper, NodeTangent<D>* lower) const;
+  template <StrainLaw Law, bool Bending, bool Damped>
+  void use_kernels();
+  void choose_kernels(StrainLaw law);
   void build_packs(const Mesh& mesh, const QuadratureRule& rule);
   void factor(const Mesh& mesh, const QuadratureRule& rule);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
   BeamSection section_;
-  ForceKernel kernel_;
+  Forces forces_ = nullptr;
+  Tangents tangents_ = nullptr;
   std::vector<PackOfElements> packs_;
   std::vector<Pivot> pivots_;  ///< from the outer node inwards, without the open node
   NodeBlock<D> open_mass_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
 #include <vector>
 
 #include "core/element/quadrature.hpp"
@@ -78,6 +77,7 @@ class MovingKinematics {
       : q_(q), rate_(rate), transported_(transport == WeightTransport::transported) {
     l_ = q.x_b - q.x_a;
     inverse_ = Real(1) / l_;
+    inverse2_ = inverse_ * inverse_;
     l_rate_ = rate.x_b - rate.x_a;
     if (transported_) {
       weights_ = weights.on(q.x_a, q.x_b);
@@ -94,18 +94,25 @@ class MovingKinematics {
   Real mesh_velocity(double u) const { return rate_.x_a * (1 - u) + rate_.x_b * u; }
 
   /// `f` holds the shape functions of `weights()` at u. Nothing is set for an end that does not move.
-  [[gnu::always_inline]] PointMotion<Real, D> at(double u, const ShapeTable<Real>& f) const {
+  /// Tabulated ones are plain numbers, whatever `Real` is.
+  template <class Shape>
+  [[gnu::always_inline]] PointMotion<Real, D> at(double u, const ShapeTable<Shape>& f) const {
     PointMotion<Real, D> point;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Real scale = i % 2 == 0 ? Real(1) : l_;
-      point.s[i] = f[i][0] * scale;
-      point.s_x[i] = f[i][1] * scale * inverse_;
-      point.s_xx[i] = f[i][2] * scale * inverse_ * inverse_;
+      if (i % 2 == 0) {
+        point.s[i] = f[i][0];
+        point.s_x[i] = inverse_ * f[i][1];
+        point.s_xx[i] = inverse2_ * f[i][2];
+      } else {
+        point.s[i] = l_ * f[i][0];
+        point.s_x[i] = f[i][1];
+        point.s_xx[i] = inverse_ * f[i][2];
+      }
     }
     point.r = combine(point.s, q_.e);
     point.r_x = combine(point.s_x, q_.e);
     point.r_xx = combine(point.s_xx, q_.e);
-    point.r_xxx = derivative(f, 3, q_.e) * Real(inverse_ * inverse_ * inverse_);
+    point.r_xxx = derivative(f, 3, q_.e) * Real(inverse2_ * inverse_);
     if (transported_) {
       transport_weights(point);
     } else {
@@ -118,19 +125,20 @@ class MovingKinematics {
   static Vector combine(const std::array<Real, 4>& s, const NodalCubic<Real, D>& e) {
     return e.r_a * s[0] + e.s_a * s[1] + e.r_b * s[2] + e.s_b * s[3];
   }
-  Vector derivative(const ShapeTable<Real>& f, std::size_t n, const NodalCubic<Real, D>& e) const {
+  template <class Shape>
+  Vector derivative(const ShapeTable<Shape>& f, std::size_t n, const NodalCubic<Real, D>& e) const {
     return e.r_a * f[0][n] + e.r_b * f[2][n] + (e.s_a * f[1][n] + e.s_b * f[3][n]) * l_;
   }
 
   /// Constant weights: u and l change under a fixed material point.
-  [[gnu::always_inline]] void freeze_weights(double u, const ShapeTable<Real>& f, PointMotion<Real, D>& point) const {
+  template <class Shape>
+  [[gnu::always_inline]] void freeze_weights(double u, const ShapeTable<Shape>& f, PointMotion<Real, D>& point) const {
     auto slopes = [&](std::size_t n, const NodalCubic<Real, D>& e) -> Vector {
       return e.s_a * f[1][n] + e.s_b * f[3][n];
     };
     const Real ul = inverse_ * u, vl = inverse_ * (1 - u);
-    const Real inverse2 = inverse_ * inverse_;
-    const Vector d1 = point.r_x * l_, d2 = point.r_xx * Real(l_ * l_);
-    const Vector d3 = point.r_xxx * Real(l_ * l_ * l_);
+    const Vector d1 = derivative(f, 1, q_.e), d2 = derivative(f, 2, q_.e);
+    const Vector d3 = derivative(f, 3, q_.e);
     const Vector g0 = slopes(0, q_.e), g1 = slopes(1, q_.e), g2 = slopes(2, q_.e);
     const Vector w1 = derivative(f, 1, rate_.e);
     point.v = combine(point.s, rate_.e);
@@ -139,7 +147,7 @@ class MovingKinematics {
     if constexpr (a_moves) {
       point.y_a = -d1 * vl - g0;
       point.y_a_x = (d1 * inverse_ - d2 * vl - g1) * inverse_;
-      point.y_a_xx = (d2 * Real(Real(2) * inverse_) - d3 * vl - g2) * inverse2;
+      point.y_a_xx = (d2 * Real(Real(2) * inverse_) - d3 * vl - g2) * inverse2_;
       point.v += point.y_a * rate_.x_a;
       point.v_x += point.y_a_x * rate_.x_a;
       point.v_xx += point.y_a_xx * rate_.x_a;
@@ -147,7 +155,7 @@ class MovingKinematics {
     if constexpr (b_moves) {
       point.y_b = -d1 * ul + g0;
       point.y_b_x = (-d1 * inverse_ - d2 * ul + g1) * inverse_;
-      point.y_b_xx = (-d2 * Real(Real(2) * inverse_) - d3 * ul + g2) * inverse2;
+      point.y_b_xx = (-d2 * Real(Real(2) * inverse_) - d3 * ul + g2) * inverse2_;
       point.v += point.y_b * rate_.x_b;
       point.v_x += point.y_b_x * rate_.x_b;
       point.v_xx += point.y_b_xx * rate_.x_b;
@@ -162,13 +170,13 @@ class MovingKinematics {
   /// nodes by the nodal material velocities V = (r_A' - s_A x_A', s_A' - k_A x_A', ...), k = r_xx at that end.
   void prepare_transport() {
     const auto at_a = rational_shape(weights_, Real(0)), at_b = rational_shape(weights_, Real(1));
-    const Real inverse2 = inverse_ * inverse_, inverse3 = inverse2 * inverse_;
-    k_a_ = derivative(at_a, 2, q_.e) * inverse2;
-    k_b_ = derivative(at_b, 2, q_.e) * inverse2;
+    const Real inverse3 = inverse2_ * inverse_;
+    k_a_ = derivative(at_a, 2, q_.e) * inverse2_;
+    k_b_ = derivative(at_b, 2, q_.e) * inverse2_;
     const Vector j_a = derivative(at_a, 3, q_.e) * inverse3, j_b = derivative(at_b, 3, q_.e) * inverse3;
     material_ = {rate_.e.r_a - q_.e.s_a * rate_.x_a, rate_.e.s_a - k_a_ * rate_.x_a, rate_.e.r_b - q_.e.s_b * rate_.x_b,
                  rate_.e.s_b - k_b_ * rate_.x_b};
-    const Vector kv_a = derivative(at_a, 2, material_) * inverse2, kv_b = derivative(at_b, 2, material_) * inverse2;
+    const Vector kv_a = derivative(at_a, 2, material_) * inverse2_, kv_b = derivative(at_b, 2, material_) * inverse2_;
     const Real xa2 = rate_.x_a * rate_.x_a, xb2 = rate_.x_b * rate_.x_b;
     remainder_ = {k_a_ * xa2 - rate_.e.s_a * Real(Real(2) * rate_.x_a), -kv_a * Real(Real(2) * rate_.x_a) - j_a * xa2,
                   k_b_ * xb2 - rate_.e.s_b * Real(Real(2) * rate_.x_b), -kv_b * Real(Real(2) * rate_.x_b) - j_b * xb2};
@@ -196,7 +204,7 @@ class MovingKinematics {
 
   MovingCoordinates<Real, D> q_, rate_;
   bool transported_;
-  Real l_, inverse_, l_rate_;
+  Real l_, inverse_, inverse2_, l_rate_;
   Weights<Real> weights_;
   Vector k_a_, k_b_;
   NodalCubic<Real, D> material_, remainder_;
@@ -259,16 +267,8 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   for (std::size_t g = 0; g < table.rule.size(); ++g) {
     const double u = table.rule[g].u;
     const double w = table.rule[g].weight;
-    ShapeTable<Real> current;
-    const ShapeTable<Real>* shape = &current;
-    if (reshaped) {
-      current = rational_shape(kinematics.weights(), Real(u));
-    } else if constexpr (std::is_same_v<Real, double>) {
-      shape = &table.shape[g];
-    } else {
-      current = cast_shape<Real>(table.shape[g]);
-    }
-    const PointMotion<Real, D> at = kinematics.at(u, *shape);
+    const PointMotion<Real, D> at =
+        reshaped ? kinematics.at(u, rational_shape(kinematics.weights(), Real(u))) : kinematics.at(u, table.shape[g]);
     const ElasticStress<Law, Bending, Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
 
     Vector p = elastic.p, m = elastic.m;

@@ -50,14 +50,4 @@ ShapeTable<Real> rational_shape(const Weights<Real>& w, const Real& u) {
   return f;
 }
 
-/// A table of numbers as a table of another scalar type.
-template <class Real>
-ShapeTable<Real> cast_shape(const ShapeTable<double>& table) {
-  ShapeTable<Real> f;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t n = 0; n < 4; ++n) f[i][n] = Real(table[i][n]);
-  }
-  return f;
-}
-
 }  // namespace vlbeam

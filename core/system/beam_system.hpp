@@ -99,6 +99,15 @@ class BeamSystem final : public EventedOde {
     const Vector g = gravity(t);
     return left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
   }
+  void add_fixed_inertia(const double* a, double* out) const {
+    left_->add_inertia(a, out);
+    right_->add_inertia(a, out);
+  }
+  void add_fixed_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
+                         NodeTangent<D>* upper, NodeTangent<D>* lower) const {
+    left_->add_tangent(q, rate, by_v, by_a, diagonal, upper, lower);
+    right_->add_tangent(q, rate, by_v, by_a, diagonal, upper, lower);
+  }
   /// Position of the sliding mass, on the beam or off it; empty without one.
   std::optional<Vector> mass_position(const Eigen::VectorXd& y) const;
   /// Energies, momentum and length, summed with `points` Gauss points an element.

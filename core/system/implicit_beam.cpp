@@ -1,67 +1,16 @@
 #include "core/system/implicit_beam.hpp"
 
-#include <Eigen/LU>
 #include <unsupported/Eigen/AutoDiff>
 
 namespace vlbeam {
 namespace {
 
-template <int N>
-using Gradient = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
-
-/// Derivative of a fixed element's nodal force residual (r_B - r_A, s_A, s_B), block (c, d) of D x D.
+/// Directions of differentiation: 4 D nodal coordinates and the moving end, and one that makes the number even, which
+/// lets Eigen use whole registers.
 template <int D>
-using ChordTangent = std::array<std::array<Eigen::Matrix<double, D, D>, 3>, 3>;
-
-template <StrainLaw Law, bool Bending, int D>
-ChordTangent<D> fixed_tangent(const FixedBasis<double>& basis, const NodalCubic<double, D>& e,
-                              const NodalCubic<double, D>& rate, const BeamSection& section, double by_v) {
-  constexpr int N = 2 * D;
-  using Real = Gradient<N>;
-  ChordTangent<D> tangent;
-  for (auto& row : tangent) {
-    for (auto& block : row) block.setZero();
-  }
-  const Vec<double, D> chord = e.r_b - e.r_a, chord_rate = rate.r_b - rate.r_a;
-  for (const auto& point : basis.points) {
-    auto combine = [&](const std::array<double, 3>& s, const Vec<double, D>& a, const Vec<double, D>& b,
-                       const Vec<double, D>& c) -> Vec<double, D> { return a * s[0] + b * s[1] + c * s[2]; };
-    // directions of differentiation: the components of r_x, then of r_xx; rates follow by by_v
-    auto seed = [&](const Vec<double, D>& value, int first, double scale) {
-      Vec<Real, D> result;
-      for (int c = 0; c < D; ++c) {
-        result[c].value() = value[c];
-        result[c].derivatives() = scale * Eigen::Matrix<double, N, 1>::Unit(first + c);
-      }
-      return result;
-    };
-    const Vec<Real, D> r_x = seed(combine(point.s_x, chord, e.s_a, e.s_b), 0, 1);
-    const Vec<Real, D> r_xx = seed(combine(point.s_xx, chord, e.s_a, e.s_b), D, 1);
-    const ElasticStress<Law, Bending, Real, D> elastic(r_x, r_xx, section.stiffness);
-    Vec<Real, D> p = elastic.p, m = elastic.m;
-    if (section.damped()) {
-      const Vec<Real, D> v_x = seed(combine(point.s_x, chord_rate, rate.s_a, rate.s_b), 0, by_v);
-      const Vec<Real, D> v_xx = seed(combine(point.s_xx, chord_rate, rate.s_a, rate.s_b), D, by_v);
-      const DampingStress<Law, Bending, Real, D> viscous(r_x, r_xx, v_x, v_xx, section.stiffness, section.damping,
-                                                         section.curvature_regularization);
-      p += viscous.p;
-      m += viscous.m;
-    }
-    Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
-    for (int c = 0; c < D; ++c) {
-      by_p.row(c) = point.weight * p[c].derivatives().transpose();
-      if constexpr (Bending) by_m.row(c) = point.weight * m[c].derivatives().transpose();
-    }
-    for (std::size_t d = 0; d < 3; ++d) {
-      const Eigen::Matrix<double, D, D> dp =
-          by_p.template leftCols<D>() * point.s_x[d] + by_p.template rightCols<D>() * point.s_xx[d];
-      const Eigen::Matrix<double, D, D> dm =
-          by_m.template leftCols<D>() * point.s_x[d] + by_m.template rightCols<D>() * point.s_xx[d];
-      for (std::size_t c = 0; c < 3; ++c) tangent[c][d] += point.s_x[c] * dp + point.s_xx[c] * dm;
-    }
-  }
-  return tangent;
-}
+inline constexpr int directions = 4 * D + 2;
+template <int D>
+using Gradient = Eigen::AutoDiffScalar<Eigen::Matrix<double, directions<D>, 1>>;
 
 /// Residual M a - Q of a variable-length element: (r_A, s_A, r_B, s_B) and that of the moving end.
 template <class Real, int D>
@@ -106,16 +55,16 @@ MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint
                                : MovingCoordinates<double, D>{element_nodes<D>(nodes, k), other, joint};
 }
 
-/// The same with every free coordinate a direction of differentiation, scaled by `scale`: 4 D nodal ones, then the end.
+/// The same with every free coordinate a direction of differentiation, scaled by `scale`.
 template <MovingEnds Ends, int D>
-MovingCoordinates<Gradient<4 * D + 1>, D> seeded(const MovingCoordinates<double, D>& q, double scale) {
-  constexpr int N = 4 * D + 1;
-  using Real = Gradient<N>;
+MovingCoordinates<Gradient<D>, D> seeded(const MovingCoordinates<double, D>& q, double scale) {
+  using Real = Gradient<D>;
+  using Direction = Eigen::Matrix<double, directions<D>, 1>;
   auto vector = [&](const Vec<double, D>& value, int first) {
     Vec<Real, D> result;
     for (int c = 0; c < D; ++c) {
       result[c].value() = value[c];
-      result[c].derivatives() = scale * Eigen::Matrix<double, N, 1>::Unit(first + c);
+      result[c].derivatives() = scale * Direction::Unit(first + c);
     }
     return result;
   };
@@ -125,7 +74,7 @@ MovingCoordinates<Gradient<4 * D + 1>, D> seeded(const MovingCoordinates<double,
   result.x_b.value() = q.x_b;
   result.x_a.derivatives().setZero();
   result.x_b.derivatives().setZero();
-  (Ends == MovingEnds::a ? result.x_a : result.x_b).derivatives()[N - 1] = scale;
+  (Ends == MovingEnds::a ? result.x_a : result.x_b).derivatives()[4 * D] = scale;
   return result;
 }
 
@@ -135,20 +84,6 @@ template <int D>
 void ImplicitBeam<D>::refresh() {
   if (revision_ == system_.revision()) return;
   revision_ = system_.revision();
-  const auto& mesh = system_.mesh();
-  const auto& rule = gauss_legendre(system_.model().quadrature_points);
-  const int joint = system_.joint();
-  fixed_.clear();
-  for (int k = 0; k < mesh.elements(); ++k) {
-    if (joint != no_joint && (k == joint || k + 1 == joint)) continue;
-    const auto i = static_cast<std::size_t>(k);
-    const double l = mesh.x[i + 1] - mesh.x[i];
-    FixedElement element{k, fixed_basis(l, mesh.weights[i].w, rule), fixed_inertia(l, mesh.weights[i].w, rule).mass};
-    for (auto& row : element.mass) {
-      for (auto& entry : row) entry *= system_.model().section.rhoA;
-    }
-    fixed_.push_back(std::move(element));
-  }
   y_.resize(system_.size());
   dydt_.resize(system_.size());
 }
@@ -190,17 +125,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   r.setZero();
   double dissipation = system_.add_fixed_forces(q.data(), v.data(), t, r.data());
   r = -r;
-  for (const auto& element : fixed_) {
-    const auto nodal = element_nodes<D>(a.data(), element.index);
-    const auto& m = element.mass;
-    auto inertia = [&](std::size_t i) -> Vec<double, D> {
-      return m[i][0] * nodal.r_a + m[i][1] * nodal.s_a + m[i][2] * nodal.r_b + m[i][3] * nodal.s_b;
-    };
-    position<D>(r.data(), element.index) += inertia(0);
-    slope<D>(r.data(), element.index) += inertia(1);
-    position<D>(r.data(), element.index + 1) += inertia(2);
-    slope<D>(r.data(), element.index + 1) += inertia(3);
-  }
+  system_.add_fixed_inertia(a.data(), r.data());
   const Eigen::Index extra = B * (system_.mesh().last() + 1);
   const Vec<double, D> gravity = system_.moving_law(t).gravity;
   if (system_.has_joint()) {
@@ -232,8 +157,8 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 }
 
 template <int D>
-bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                                double by_v, double by_a) {
+void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                               double by_v, double by_a) {
   refresh();
   by_a_ = by_a;
   const auto& model = system_.model();
@@ -241,33 +166,8 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   const int j = system_.joint();
   tangent_.reset(mesh.last() + 1, system_.has_joint() ? j - 1 : -1);
 
-  auto add_block = [&](int node_i, int node_j, const Block& block) {
-    const auto i = static_cast<std::size_t>(node_i);
-    (node_i == node_j ? tangent_.diagonal : node_i < node_j ? tangent_.upper : tangent_.lower)[i] += block;
-  };
-  for (const auto& element : fixed_) {
-    const auto e = element_nodes<D>(q.data(), element.index), rate = element_nodes<D>(v.data(), element.index);
-    const ChordTangent<D> k = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-      return fixed_tangent<Law, Bending, D>(element.basis, e, rate, model.section, by_v);
-    });
-    // r_A enters through minus the chord, r_B through the chord
-    constexpr std::array<std::size_t, 4> chord_row{0, 1, 0, 2};
-    constexpr std::array<double, 4> sign{-1, 1, 1, 1};
-    for (std::size_t row_node = 0; row_node < 2; ++row_node) {
-      for (std::size_t column_node = 0; column_node < 2; ++column_node) {
-        Block block;
-        for (std::size_t x = 0; x < 2; ++x) {
-          for (std::size_t y = 0; y < 2; ++y) {
-            const std::size_t i = 2 * row_node + x, c = 2 * column_node + y;
-            auto part = block.template block<D, D>(static_cast<int>(x) * D, static_cast<int>(y) * D);
-            part = sign[i] * sign[c] * k[chord_row[i]][chord_row[c]];
-            part.diagonal().array() += by_a * element.mass[i][c];
-          }
-        }
-        add_block(element.index + static_cast<int>(row_node), element.index + static_cast<int>(column_node), block);
-      }
-    }
-  }
+  system_.add_fixed_tangent(q.data(), v.data(), by_v, by_a, tangent_.diagonal.data(), tangent_.upper.data(),
+                            tangent_.lower.data());
   if (system_.has_joint()) {
     const auto ju = static_cast<std::size_t>(j);
     const auto law = system_.moving_law(t);
@@ -275,7 +175,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
     auto add = [&]<MovingEnds Ends>(int k, double far_end, const ShapeTabulation& table) {
       constexpr int N = 4 * D + 1;
       const auto part = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-        return moving_residual<Ends, Law, Bending, Gradient<N>, D>(
+        return moving_residual<Ends, Law, Bending, Gradient<D>, D>(
             seeded<Ends, D>(element_of<Ends, D>(q.data(), k, q[extra], far_end), 1),
             seeded<Ends, D>(element_of<Ends, D>(v.data(), k, v[extra], 0), by_v),
             seeded<Ends, D>(element_of<Ends, D>(a.data(), k, a[extra], 0), by_a),
@@ -284,14 +184,18 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
       Eigen::Matrix<double, N, N> matrix;
       for (int i = 0; i < 4; ++i) {
         for (int c = 0; c < D; ++c) {
-          matrix.row(i * D + c) = part.nodes[static_cast<std::size_t>(i)][c].derivatives().transpose();
+          matrix.row(i * D + c) =
+              part.nodes[static_cast<std::size_t>(i)][c].derivatives().template head<N>().transpose();
         }
       }
-      matrix.row(N - 1) = part.end.derivatives().transpose();
+      matrix.row(N - 1) = part.end.derivatives().template head<N>().transpose();
       const auto reach = static_cast<std::size_t>(k - (j - 1));  // 0 for the left element, 1 for the right one
       for (int row_node = 0; row_node < 2; ++row_node) {
         for (int column_node = 0; column_node < 2; ++column_node) {
-          add_block(k + row_node, k + column_node, matrix.template block<B, B>(row_node * B, column_node * B));
+          auto& blocks = row_node == column_node  ? tangent_.diagonal
+                         : row_node < column_node ? tangent_.upper
+                                                  : tangent_.lower;
+          blocks[static_cast<std::size_t>(k + row_node)] += matrix.template block<B, B>(row_node * B, column_node * B);
         }
         tangent_.column[reach + static_cast<std::size_t>(row_node)] += matrix.template block<B, 1>(row_node * B, N - 1);
         tangent_.row[reach + static_cast<std::size_t>(row_node)] +=
@@ -304,6 +208,12 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
     tangent_.diagonal[ju].template topLeftCorner<D, D>().diagonal().array() += by_a * model.joint->mass;
   }
   constrain_tangent();
+}
+
+template <int D>
+bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                                double by_v, double by_a) {
+  assemble(q, v, a, t, by_v, by_a);
   return tangent_.factor();
 }
 

@@ -10,8 +10,8 @@ namespace vlbeam {
 
 /// A beam system as an implicit method sees it: residual M a - Q and its exact tangent, in the coordinates of
 /// BeamSystem's state. The tangent is block tridiagonal in the nodes with the joint's material coordinate as a border;
-/// fixed elements contribute the derivative of their stresses, the two elements at the joint that of their whole
-/// residual (inertia, velocity terms and configurational force included), both by automatic differentiation.
+/// fixed elements contribute the second derivative of their strain energy, the two elements at the joint the derivative
+/// of their whole residual (inertia, velocity terms and configurational force included) by automatic differentiation.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
@@ -29,13 +29,9 @@ class ImplicitBeam final : public SecondOrderSystem {
  private:
   static constexpr int B = node_size<D>;
   using Block = Eigen::Matrix<double, B, B>;
-  struct FixedElement {
-    int index;
-    FixedBasis<double> basis;
-    std::array<std::array<double, 4>, 4> mass;  ///< rhoA times the integral of s_i s_j
-  };
-
   void refresh();
+  void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
+                double by_a);
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
@@ -44,7 +40,6 @@ class ImplicitBeam final : public SecondOrderSystem {
 
   BeamSystem<D>& system_;
   std::size_t revision_ = static_cast<std::size_t>(-1);
-  std::vector<FixedElement> fixed_;
   BorderedBlockTridiagonal<B> tangent_;
   double by_a_ = 0;
   Eigen::VectorXd y_, dydt_;

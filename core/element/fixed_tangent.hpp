@@ -1,0 +1,88 @@
+#pragma once
+
+#include <unsupported/Eigen/AutoDiff>
+
+#include "core/element/elastic_tangent.hpp"
+#include "core/element/fixed_element.hpp"
+#include "core/element/pack.hpp"
+
+namespace vlbeam {
+
+/// Derivative of a fixed-length element's elastic and viscous forces, with the sign of a stiffness: block (i, j) is
+/// that of minus the force on the i-th of (r_B - r_A, s_A, s_B) by the j-th.
+template <class Real, int D>
+using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
+
+/// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack.
+template <StrainLaw Law, bool Bending, class Real, int D>
+ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
+                                      const Stiffness& stiffness) {
+  using Vector = Vec<Real, D>;
+  using Matrix = Eigen::Matrix<Real, D, D>;
+  ChordTangent<Real, D> tangent;
+  for (auto& row : tangent) row.fill(Matrix::Zero());
+  const Vector chord = e.r_b - e.r_a;
+  for (const auto& point : basis.points) {
+    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+    const ElasticTangent<Law, Bending, Real, D> k(r_x, r_xx, stiffness);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
+      Matrix by_p = k.pp * w_x;
+      if constexpr (Bending) {
+        by_p += k.pm * w_xx;
+        const Matrix by_m = k.pm.transpose() * w_x + k.mm * w_xx;
+        for (std::size_t i = 0; i <= j; ++i) tangent[i][j] += by_m * point.s_xx[i];
+      }
+      for (std::size_t i = 0; i <= j; ++i) tangent[i][j] += by_p * point.s_x[i];
+    }
+  }
+  for (std::size_t i = 1; i < 3; ++i) {
+    for (std::size_t j = 0; j < i; ++j) tangent[i][j] = tangent[j][i].transpose();
+  }
+  return tangent;
+}
+
+/// Derivative of minus the viscous forces by position plus `by_v` times that by velocity, by automatic differentiation,
+/// for the element in lane `lane` of a pack.
+template <StrainLaw Law, bool Bending, int D>
+ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane, const NodalCubic<double, D>& e,
+                                        const NodalCubic<double, D>& rate, const BeamSection& section, double by_v) {
+  constexpr int N = 2 * D;
+  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Matrix = Eigen::Matrix<double, D, D>;
+  ChordTangent<double, D> tangent;
+  for (auto& row : tangent) row.fill(Matrix::Zero());
+  auto combine = [lane](const std::array<Pack, 3>& s, const NodalCubic<double, D>& c) -> Vec<double, D> {
+    return (c.r_b - c.r_a) * s[0][lane] + c.s_a * s[1][lane] + c.s_b * s[2][lane];
+  };
+  // directions of differentiation: the components of r_x, then of r_xx; rates follow by by_v
+  auto seed = [](const Vec<double, D>& value, int first, double scale) {
+    Vec<Real, D> result;
+    for (int c = 0; c < D; ++c) {
+      result[c].value() = value[c];
+      result[c].derivatives() = scale * Eigen::Matrix<double, N, 1>::Unit(first + c);
+    }
+    return result;
+  };
+  for (const auto& point : basis.points) {
+    const DampingStress<Law, Bending, Real, D> viscous(
+        seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1), seed(combine(point.s_x, rate), 0, by_v),
+        seed(combine(point.s_xx, rate), D, by_v), section.stiffness, section.damping, section.curvature_regularization);
+    Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
+    for (int c = 0; c < D; ++c) {
+      by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();
+      if constexpr (Bending) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Matrix dp =
+          by_p.template leftCols<D>() * point.s_x[j][lane] + by_p.template rightCols<D>() * point.s_xx[j][lane];
+      const Matrix dm =
+          by_m.template leftCols<D>() * point.s_x[j][lane] + by_m.template rightCols<D>() * point.s_xx[j][lane];
+      for (std::size_t i = 0; i < 3; ++i) tangent[i][j] += point.s_x[i][lane] * dp + point.s_xx[i][lane] * dm;
+    }
+  }
+  return tangent;
+}
+
+}  // namespace vlbeam
