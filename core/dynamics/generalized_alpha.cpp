@@ -6,13 +6,15 @@
 namespace vlbeam {
 namespace {
 
-constexpr double slow_contraction = 0.1;  // a modified Newton step that gains less asks for a new tangent
+constexpr double slow_contraction = 0.2;  // of a modified Newton iteration: a new tangent is then worth its cost
+constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
 
 class GeneralizedAlpha final : public Stepper {
  public:
-  GeneralizedAlpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options)
+  GeneralizedAlpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options, NewtonCounters* counters)
       : system_(system),
         options_(options),
+        counters_(counters),
         alpha_m_((2 * options.rho_inf - 1) / (options.rho_inf + 1)),
         alpha_f_(options.rho_inf / (options.rho_inf + 1)),
         gamma_(0.5 + alpha_f_ - alpha_m_),
@@ -24,48 +26,37 @@ class GeneralizedAlpha final : public Stepper {
     if (!started_) start(y, t, n);
     start_ = end_;
     const double h = std::min(dt, options_.step);
-    const double by_a = (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)), by_v = gamma_ / (h * beta_);
-
-    // predictor: unchanged acceleration a_dot, and what follows from it
-    q_ = y.head(n);
-    v_ = y.segment(n, n);
-    acceleration_ = start_.true_acceleration;
-    next_a_ =
-        ((1 - alpha_f_) * acceleration_ + alpha_f_ * start_.true_acceleration - alpha_m_ * start_.a) / (1 - alpha_m_);
-    q_ += h * v_ + h * h * ((0.5 - beta_) * start_.a + beta_ * next_a_);
-    v_ += h * ((1 - gamma_) * start_.a + gamma_ * next_a_);
-
-    double previous = 0, dissipation = 0;
-    bool fresh = false;
-    if (by_a != tangent_by_a_) tangent_by_a_ = 0;
-    for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
-      dissipation = system_.residual(q_, v_, acceleration_, t + h, r_);
-      if (!r_.allFinite()) return stalled(dt, h);
-      if (tangent_by_a_ == 0) {
-        if (!system_.linearize(q_, v_, acceleration_, t + h, by_v, by_a)) return stalled(dt, h);
-        tangent_by_a_ = by_a;
-        fresh = true;
-      }
-      system_.solve(r_);
-      q_ -= r_;
-      v_ -= by_v * r_;
-      acceleration_ -= by_a * r_;
-      next_a_ -= by_a * (1 - alpha_f_) / (1 - alpha_m_) * r_;
-      const double correction = r_.lpNorm<Eigen::Infinity>() / std::max(1.0, q_.lpNorm<Eigen::Infinity>());
-      if (!std::isfinite(correction)) return stalled(dt, h);
-      if (correction <= options_.newton_tolerance) {
-        accept(y, t, h, n, dissipation);
-        dt = options_.step;
-        return true;
-      }
-      if (iteration > 0 && correction > slow_contraction * previous) {
-        if (fresh && correction > previous) return stalled(dt, h);
-        tangent_by_a_ = 0;
-        fresh = false;
-      }
-      previous = correction;
+    if (start_.h > 0 && h != start_.h) {
+      start_.a = start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration);
     }
-    return stalled(dt, h);
+
+    // predictor: the velocity goes on. An acceleration carried on would throw stiff modes, whose period is shorter than
+    // the step, far off: Newton would start from a torn mesh
+    q_ = y.head(n) + h * y.segment(n, n);
+    next_a_ = (-1 / beta_) * (0.5 - beta_) * start_.a;
+    v_ = y.segment(n, n) + h * ((1 - gamma_) * start_.a + gamma_ * next_a_);
+    acceleration_ =
+        ((1 - alpha_m_) * next_a_ + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
+
+    double dissipation = 0;
+    if (!solve(t + h, h, dissipation)) {
+      dt = h / 2;
+      tangent_by_a_ = 0;
+      return false;
+    }
+    double next = options_.step;
+    if (options_.adaptive) {
+      const double ratio = error_ratio(y, h);
+      const double factor = std::clamp(safety / std::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
+      if (ratio > 1) {
+        dt = h * factor;
+        return false;
+      }
+      next = std::min(options_.step, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
+    }
+    accept(y, t, h, n, dissipation);
+    dt = next;
+    return true;
   }
 
   void reset() override {
@@ -84,6 +75,7 @@ class GeneralizedAlpha final : public Stepper {
   struct Memory {
     Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
     Eigen::VectorXd a;                  ///< the method's own acceleration
+    double h = 0;                       ///< [s], length of the step that `a` belongs to
     double dissipation = 0;             ///< [W]
   };
 
@@ -91,15 +83,67 @@ class GeneralizedAlpha final : public Stepper {
     end_.true_acceleration.resize(n);
     system_.acceleration(y.head(n), y.segment(n, n), t, end_.true_acceleration);
     end_.a = end_.true_acceleration;
+    end_.h = 0;
     end_.dissipation = system_.residual(y.head(n), y.segment(n, n), end_.true_acceleration, t, r_);
     started_ = true;
     tangent_by_a_ = 0;
   }
 
-  bool stalled(double& dt, double h) {
-    dt = h / 2;
-    tangent_by_a_ = 0;
+  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls.
+  bool solve(double t, double h, double& dissipation) {
+    const double by_a = (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)), by_v = gamma_ / (h * beta_);
+    if (by_a != tangent_by_a_) tangent_by_a_ = 0;
+    double previous = 0;
+    bool fresh = false;         // the tangent is of this step
+    int with_this_tangent = 0;  // iterations of this step
+    history_.clear();
+    for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
+      dissipation = system_.residual(q_, v_, acceleration_, t, r_);
+      if (!r_.allFinite()) return false;
+      if (tangent_by_a_ == 0 || options_.newton == NewtonKind::full) {
+        if (!system_.linearize(q_, v_, acceleration_, t, by_v, by_a)) return false;
+        if (counters_) ++counters_->tangents;
+        tangent_by_a_ = by_a;
+        fresh = true;
+        with_this_tangent = 0;
+      }
+      system_.solve(r_);
+      q_ -= r_;
+      v_ -= by_v * r_;
+      acceleration_ -= by_a * r_;
+      next_a_ -= by_a * (1 - alpha_f_) / (1 - alpha_m_) * r_;
+      const double correction = r_.lpNorm<Eigen::Infinity>() / std::max(1.0, q_.lpNorm<Eigen::Infinity>());
+      if (!std::isfinite(correction)) return false;
+      count(correction);
+      if (correction <= options_.newton_tolerance) return true;
+      if (++with_this_tangent > 1) {
+        const double contraction = correction / previous;
+        if (contraction < 0.5 && contraction / (1 - contraction) * correction <= options_.newton_tolerance) return true;
+        if (fresh && contraction > 1) return false;
+        if (contraction > slow_contraction) tangent_by_a_ = 0;
+      }
+      previous = correction;
+    }
     return false;
+  }
+
+  void count(double correction) {
+    if (!counters_) return;
+    ++counters_->iterations;
+    history_.push_back(correction);
+    if (history_.size() > counters_->longest.size()) counters_->longest = history_;
+  }
+
+  /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
+  double error_ratio(const Eigen::VectorXd& y, double h) const {
+    const double share = h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < q_.size(); ++i) {
+      const double allowed =
+          options_.tolerances.atol + options_.tolerances.rtol * std::max(std::abs(y[i]), std::abs(q_[i]));
+      largest = std::max(largest, share * std::abs(next_a_[i] - start_.a[i]) / allowed);
+    }
+    return largest;
   }
 
   void accept(Eigen::VectorXd& y, double& t, double h, Eigen::Index n, double dissipation) {
@@ -108,23 +152,27 @@ class GeneralizedAlpha final : public Stepper {
     if (y.size() > 2 * n) y[2 * n] += 0.5 * h * (start_.dissipation + dissipation);
     end_.true_acceleration = acceleration_;
     end_.a = next_a_;
+    end_.h = h;
     end_.dissipation = dissipation;
     t += h;
   }
 
   SecondOrderSystem& system_;
   GeneralizedAlphaOptions options_;
+  NewtonCounters* counters_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   Memory start_, end_;       ///< at the start and at the end of the last step
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;
+  std::vector<double> history_;  ///< corrections of the current step
 };
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_generalized_alpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options) {
-  return std::make_unique<GeneralizedAlpha>(system, options);
+std::unique_ptr<Stepper> make_generalized_alpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options,
+                                                NewtonCounters* counters) {
+  return std::make_unique<GeneralizedAlpha>(system, options, counters);
 }
 
 }  // namespace vlbeam

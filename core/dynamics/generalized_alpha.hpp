@@ -1,22 +1,43 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/dynamics/second_order.hpp"
 #include "core/dynamics/stepper.hpp"
 
 namespace vlbeam {
 
-/// Options of the generalized-alpha method.
-struct GeneralizedAlphaOptions {
-  double step = 1e-3;               ///< [s]
-  double rho_inf = 0.9;             ///< spectral radius at infinity, 0 (strongest damping) to 1 (none)
-  double newton_tolerance = 1e-10;  ///< of the correction relative to the coordinates' size
-  int newton_iterations = 12;       ///< beyond which the step is halved
+/// How often a Newton iteration takes a new tangent.
+enum class NewtonKind {
+  modified,  ///< when the last one makes it converge too slowly
+  full,      ///< at every iteration
 };
 
-/// Generalized-alpha method for M(q) q'' = Q (Arnold & Bruels 2007) with a modified Newton iteration: the tangent of a
-/// step's predictor is kept until the iteration slows down. Second order; steps of fixed length unless Newton stalls.
-std::unique_ptr<Stepper> make_generalized_alpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options);
+/// Options of the generalized-alpha method.
+struct GeneralizedAlphaOptions {
+  double step = 1e-3;    ///< [s]; the longest, and the first, where the step adapts
+  double rho_inf = 0.9;  ///< spectral radius at infinity, 0 (strongest damping) to 1 (none)
+  NewtonKind newton = NewtonKind::modified;
+  double newton_tolerance = 1e-10;  ///< of the correction relative to the coordinates' size
+  int newton_iterations = 15;       ///< beyond which the step is halved
+  bool adaptive = false;            ///< the step follows the tolerances
+  Tolerances tolerances;            ///< of an adaptive step
+};
+
+/// What Newton's iterations took.
+struct NewtonCounters {
+  std::size_t iterations = 0;
+  std::size_t tangents = 0;
+  std::vector<double> longest;  ///< corrections, relative to the coordinates' size, of the step that took most of them
+};
+
+/// Generalized-alpha method for M(q) q'' = Q (Arnold & Bruels 2007). Second order, also where the length of the step
+/// changes: the method's own acceleration, that of the instant t + (alpha_m - alpha_f) h, is carried over to the new h.
+/// A Newton iteration that stalls halves the step. An adaptive step estimates the error of the positions,
+/// h^2 (beta + (alpha_m - alpha_f)/2 - 1/6) (a_1 - a_0), after Hulbert & Jang (1995).
+/// `counters` may be null, and must outlive the stepper otherwise.
+std::unique_ptr<Stepper> make_generalized_alpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options,
+                                                NewtonCounters* counters = nullptr);
 
 }  // namespace vlbeam

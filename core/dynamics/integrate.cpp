@@ -14,11 +14,12 @@ namespace {
 
 constexpr double guard_tolerance = 1e-12;  // a guard this near zero is at its root
 constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the end of a step to be looked into
+constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int longest_cascade = 8;         // events at one instant
 
-std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options) {
+std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters) {
   if (options.type != IntegratorType::generalized_alpha) return make_odeint_stepper(options.type, options.tolerances);
-  return make_generalized_alpha(*ode.second_order(), options.generalized_alpha);
+  return make_generalized_alpha(*ode.second_order(), options.generalized_alpha, &counters.newton);
 }
 
 /// A method that met an undefined state may propose no usable step at all.
@@ -31,7 +32,8 @@ void shorten(double& dt, double tried, Stepper& stepper) {
 /// Steps that start from the beginning of the current step and leave the main stepper alone.
 class SideStepper {
  public:
-  SideStepper(EventedOde& ode, const IntegrationOptions& options) : ode_(ode), stepper_(make_stepper(ode, options)) {}
+  SideStepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters)
+      : ode_(ode), stepper_(make_stepper(ode, options, counters)) {}
 
   /// The solution at `to`, from (from, start), where the last step of `main` started.
   const Eigen::VectorXd& at(const Stepper& main, const Eigen::VectorXd& start, double from, double to) {
@@ -60,28 +62,76 @@ class SideStepper {
 struct Located {
   int index = -1;
   double t = 0;
+  Eigen::VectorXd y;
 };
 
-/// The first event in the step from (t0, y0) to (t1, y1), or index -1.
-Located first_event(const EventedOde& ode, SideStepper& side, const Stepper& main, const Eigen::VectorXd& y0, double t0,
-                    const Eigen::VectorXd& y1, double t1) {
-  const Guards at_start = ode.guards(y0, t0), at_end = ode.guards(y1, t1);
-  Located first;
-  for (int i = 0; i < max_guards; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (at_end[k] <= event_tolerance) continue;
-    double t = t0;
-    if (at_start[k] < -guard_tolerance) {
-      auto guard = [&](double tau) {
-        const double value = ode.guards(side.at(main, y0, t0, t0 + tau), t0 + tau)[k];
-        return std::abs(value) <= guard_tolerance ? 0.0 : value;
-      };
-      std::uintmax_t evaluations = 60;
-      const auto bracket = boost::math::tools::toms748_solve(
-          guard, 0.0, t1 - t0, at_start[k], at_end[k], boost::math::tools::eps_tolerance<double>(52), evaluations);
-      t = t0 + (bracket.first + bracket.second) / 2;
+/// One step of the main stepper, in which events are looked for.
+struct Step {
+  double t0;
+  const Eigen::VectorXd& y0;
+  double t1;
+  const Eigen::VectorXd& y1;
+};
+
+/// A guard along the cubic Hermite interpolant of a step's states.
+class InterpolatedGuard {
+ public:
+  InterpolatedGuard(EventedOde& ode, const Step& step) : ode_(ode), step_(step), f0_(step.y0.size()), f1_(f0_.size()) {
+    ode.rhs(step.y0, f0_, step.t0);
+    ode.rhs(step.y1, f1_, step.t1);
+  }
+
+  double operator()(std::size_t k, double tau) {
+    const double h = step_.t1 - step_.t0, u = tau / h, v = 1 - u;
+    y_ = v * v * (1 + 2 * u) * step_.y0 + u * u * (3 - 2 * u) * step_.y1 + (h * u * v) * (v * f0_ - u * f1_);
+    return ode_.guards(y_, step_.t0 + tau)[k];
+  }
+
+ private:
+  EventedOde& ode_;
+  const Step& step_;
+  Eigen::VectorXd f0_, f1_, y_;
+};
+
+/// Root of guard `k` by steps of the main stepper's own method. The interpolant gives the first guess and slope, so
+/// that two or three steps do; the secant is kept in a bracket, and bisects where it leaves it.
+Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, std::size_t k) {
+  InterpolatedGuard interpolant(ode, step);
+  const double h = step.t1 - step.t0;
+  auto interpolated = [&](double tau) { return interpolant(k, tau); };
+  std::uintmax_t evaluations = 40;
+  const auto bracket = boost::math::tools::toms748_solve(interpolated, 0.0, h, ode.guards(step.y0, step.t0)[k],
+                                                         ode.guards(step.y1, step.t1)[k],
+                                                         boost::math::tools::eps_tolerance<double>(40), evaluations);
+  double tau = (bracket.first + bracket.second) / 2, low = 0, high = h;
+  const double reach = 1e-4 * h;
+  double slope = (interpolated(tau + reach) - interpolated(tau - reach)) / (2 * reach);
+  double last_tau = 0, last_value = 0;
+  for (int i = 0;; ++i) {
+    const Eigen::VectorXd& y = side.at(main, step.y0, step.t0, step.t0 + tau);
+    const double value = ode.guards(y, step.t0 + tau)[k];
+    const bool closed = high - low <= 1e-15 * h || tau == last_tau;
+    if (std::abs(value) <= (i < 4 ? guard_tolerance : event_tolerance) || closed || i == most_refinements) {
+      return {static_cast<int>(k), step.t0 + tau, y};
     }
-    if (first.index < 0 || t < first.t) first = {i, t};
+    (value > 0 ? high : low) = tau;
+    if (i > 0) slope = (value - last_value) / (tau - last_tau);
+    last_tau = tau;
+    last_value = value;
+    tau -= value / slope;
+    if (!(tau > low && tau < high)) tau = (low + high) / 2;
+  }
+}
+
+/// The first event in the step, or index -1.
+Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step) {
+  const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
+  Located first;
+  for (std::size_t k = 0; k < max_guards; ++k) {
+    if (at_end[k] <= event_tolerance) continue;
+    if (at_start[k] >= -guard_tolerance) return {static_cast<int>(k), step.t0, step.y0};
+    const Located found = locate(ode, side, main, step, k);
+    if (first.index < 0 || found.t < first.t) first = found;
   }
   return first;
 }
@@ -97,8 +147,8 @@ Located first_event(const EventedOde& ode, SideStepper& side, const Stepper& mai
 
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters) {
-  auto stepper = make_stepper(ode, options);
-  SideStepper side(ode, options);
+  auto stepper = make_stepper(ode, options, counters);
+  SideStepper side(ode, options, counters);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
   const bool fixed_step = options.type == IntegratorType::generalized_alpha;
   double dt = std::min(fixed_step ? options.generalized_alpha.step : options.first_step, t_end - t);
@@ -132,10 +182,10 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (last) t = t_end;
     ++counters.steps;
 
-    const Located event = first_event(ode, side, *stepper, before, t_before, y, t);
+    const Located event = first_event(ode, side, *stepper, {t_before, before, t, y});
     if (event.index >= 0) {
       t = event.t;
-      y = t > t_before ? side.at(*stepper, before, t_before, t) : before;
+      y = event.y;
     } else if (!last) {
       counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
     }

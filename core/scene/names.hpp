@@ -49,6 +49,9 @@ constexpr auto names(IntegratorType) {
                                                {bulirsch_stoer, "bulirsch-stoer"},
                                                {generalized_alpha, "generalized-alpha"}});
 }
+constexpr auto names(NewtonKind) {
+  return std::to_array<Named<NewtonKind>>({{NewtonKind::modified, "modified"}, {NewtonKind::full, "full"}});
+}
 constexpr auto names(Section::Type) {
   using enum Section::Type;
   return std::to_array<Named<Section::Type>>({{circle, "circle"}, {stiffness, "stiffness"}});

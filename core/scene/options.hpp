@@ -350,6 +350,22 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .range = {.low = 0, .high = 1},
                  .when = generalized_alpha},
           scene.integrator.rho_inf);
+  visitor(Option{.pointer = "/integrator/newton",
+                 .unit = "",
+                 .description = "a new tangent at every iteration (full) or when one converges too slowly (modified)",
+                 .when = generalized_alpha},
+          scene.integrator.newton);
+  visitor(Option{.pointer = "/integrator/newton_tolerance",
+                 .unit = "-",
+                 .description = "where Newton's iteration ends: its correction over the largest coordinate or 1",
+                 .range = {.low = 1e-15, .high = 1e-2},
+                 .when = generalized_alpha},
+          scene.integrator.newton_tolerance);
+  visitor(Option{.pointer = "/integrator/adaptive",
+                 .unit = "",
+                 .description = "the step follows rtol and atol of the positions, up to the length given",
+                 .when = generalized_alpha},
+          scene.integrator.adaptive);
 
   visitor(Option{.pointer = "/duration", .unit = "s", .description = "simulated time", .range = Range::positive()},
           scene.duration);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/generalized_alpha.hpp"
 #include "core/dynamics/stepper.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
@@ -79,10 +80,13 @@ struct LengthControlSpec {
 
 struct IntegratorSpec {
   IntegratorType type = IntegratorType::dopri5;
-  double rtol = 1e-9;    ///< error-controlled methods
-  double atol = 1e-9;    ///< error-controlled methods
-  double step = 1e-3;    ///< generalized-alpha [s]
-  double rho_inf = 0.9;  ///< generalized-alpha: spectral radius at infinity
+  double rtol = 1e-9;                        ///< error-controlled methods
+  double atol = 1e-9;                        ///< error-controlled methods
+  double step = 1e-3;                        ///< generalized-alpha [s]
+  double rho_inf = 0.9;                      ///< generalized-alpha: spectral radius at infinity
+  NewtonKind newton = NewtonKind::modified;  ///< generalized-alpha
+  double newton_tolerance = 1e-10;           ///< generalized-alpha: of Newton's correction, relative
+  bool adaptive = false;                     ///< generalized-alpha: the step follows rtol and atol
 };
 
 struct OutputSpec {

@@ -74,8 +74,12 @@ class Run {
     const double wave_time = shortest * std::sqrt(beam.rhoA / std::max(beam.stiffness.EA, beam.stiffness.EI));
     const auto& integrator = scene_.integrator;
     IntegrationOptions options{integrator.type, {integrator.rtol, integrator.atol}, first_step_courant * wave_time, {}};
-    options.generalized_alpha.step = integrator.step;
-    options.generalized_alpha.rho_inf = integrator.rho_inf;
+    options.generalized_alpha = {.step = integrator.step,
+                                 .rho_inf = integrator.rho_inf,
+                                 .newton = integrator.newton,
+                                 .newton_tolerance = integrator.newton_tolerance,
+                                 .adaptive = integrator.adaptive,
+                                 .tolerances = {integrator.rtol, integrator.atol}};
 
     Eigen::VectorXd y = system_.initial_state();
     double t = 0;

@@ -1,43 +1,9 @@
 #include "core/system/implicit_beam.hpp"
 
-#include <unsupported/Eigen/AutoDiff>
+#include "core/element/moving_tangent.hpp"
 
 namespace vlbeam {
 namespace {
-
-/// Directions of differentiation: 4 D nodal coordinates and the moving end, and one that makes the number even, which
-/// lets Eigen use whole registers.
-template <int D>
-inline constexpr int directions = 4 * D + 2;
-template <int D>
-using Gradient = Eigen::AutoDiffScalar<Eigen::Matrix<double, directions<D>, 1>>;
-
-/// Residual M a - Q of a variable-length element: (r_A, s_A, r_B, s_B) and that of the moving end.
-template <class Real, int D>
-struct MovingResidual {
-  std::array<Vec<Real, D>, 4> nodes;
-  Real end;
-};
-
-template <MovingEnds Ends, StrainLaw Law, bool Bending, class Real, int D>
-MovingResidual<Real, D> moving_residual(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
-                                        const MovingCoordinates<Real, D>& a, const WeightFunction& weights,
-                                        const ShapeTabulation& table, const MovingLaw<D>& law, double* dissipation) {
-  const auto eq = moving_equations<Law, Bending, Real, D, Ends>(q, rate, weights, table, law);
-  const std::array<Vec<Real, D>, 4> nodal{a.e.r_a, a.e.s_a, a.e.r_b, a.e.s_b};
-  constexpr bool at_a = Ends == MovingEnds::a;
-  const auto& border = at_a ? eq.mass_a : eq.mass_b;
-  const Real& end = at_a ? a.x_a : a.x_b;
-  MovingResidual<Real, D> r;
-  r.end = (at_a ? eq.mass_aa : eq.mass_bb) * end - (at_a ? eq.force_a : eq.force_b);
-  for (std::size_t i = 0; i < 4; ++i) {
-    r.nodes[i] = border[i] * end - eq.force[i];
-    for (std::size_t j = 0; j < 4; ++j) r.nodes[i] += nodal[j] * eq.mass[i][j];
-    r.end += border[i].dot(nodal[i]);
-  }
-  if constexpr (std::is_same_v<Real, double>) *dissipation += eq.dissipation;
-  return r;
-}
 
 template <class Function>
 auto with_law(StrainLaw strain_law, bool bends, const Function& function) {
@@ -53,29 +19,6 @@ template <MovingEnds Ends, int D>
 MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint, double other) {
   return Ends == MovingEnds::a ? MovingCoordinates<double, D>{element_nodes<D>(nodes, k), joint, other}
                                : MovingCoordinates<double, D>{element_nodes<D>(nodes, k), other, joint};
-}
-
-/// The same with every free coordinate a direction of differentiation, scaled by `scale`.
-template <MovingEnds Ends, int D>
-MovingCoordinates<Gradient<D>, D> seeded(const MovingCoordinates<double, D>& q, double scale) {
-  using Real = Gradient<D>;
-  using Direction = Eigen::Matrix<double, directions<D>, 1>;
-  auto vector = [&](const Vec<double, D>& value, int first) {
-    Vec<Real, D> result;
-    for (int c = 0; c < D; ++c) {
-      result[c].value() = value[c];
-      result[c].derivatives() = scale * Direction::Unit(first + c);
-    }
-    return result;
-  };
-  MovingCoordinates<Real, D> result;
-  result.e = {vector(q.e.r_a, 0), vector(q.e.s_a, D), vector(q.e.r_b, 2 * D), vector(q.e.s_b, 3 * D)};
-  result.x_a.value() = q.x_a;
-  result.x_b.value() = q.x_b;
-  result.x_a.derivatives().setZero();
-  result.x_b.derivatives().setZero();
-  (Ends == MovingEnds::a ? result.x_a : result.x_b).derivatives()[4 * D] = scale;
-  return result;
 }
 
 }  // namespace
@@ -174,21 +117,12 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     const Eigen::Index extra = B * (mesh.last() + 1);
     auto add = [&]<MovingEnds Ends>(int k, double far_end, const ShapeTabulation& table) {
       constexpr int N = 4 * D + 1;
-      const auto part = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-        return moving_residual<Ends, Law, Bending, Gradient<D>, D>(
-            seeded<Ends, D>(element_of<Ends, D>(q.data(), k, q[extra], far_end), 1),
-            seeded<Ends, D>(element_of<Ends, D>(v.data(), k, v[extra], 0), by_v),
-            seeded<Ends, D>(element_of<Ends, D>(a.data(), k, a[extra], 0), by_a),
-            mesh.weights[static_cast<std::size_t>(k)], table, law, nullptr);
+      const auto matrix = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
+        return moving_tangent<Ends, Law, Bending, D>(element_of<Ends, D>(q.data(), k, q[extra], far_end),
+                                                     element_of<Ends, D>(v.data(), k, v[extra], 0),
+                                                     element_of<Ends, D>(a.data(), k, a[extra], 0), by_v, by_a,
+                                                     mesh.weights[static_cast<std::size_t>(k)], table, law);
       });
-      Eigen::Matrix<double, N, N> matrix;
-      for (int i = 0; i < 4; ++i) {
-        for (int c = 0; c < D; ++c) {
-          matrix.row(i * D + c) =
-              part.nodes[static_cast<std::size_t>(i)][c].derivatives().template head<N>().transpose();
-        }
-      }
-      matrix.row(N - 1) = part.end.derivatives().template head<N>().transpose();
       const auto reach = static_cast<std::size_t>(k - (j - 1));  // 0 for the left element, 1 for the right one
       for (int row_node = 0; row_node < 2; ++row_node) {
         for (int column_node = 0; column_node < 2; ++column_node) {

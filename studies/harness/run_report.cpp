@@ -99,6 +99,9 @@ Json run_report(const Scene& scene, const RunResult& result) {
                       {"rejected", result.solver.rejected},
                       {"rhs_evaluations", result.solver.rhs_evaluations},
                       {"smallest_step", result.solver.smallest_step},
+                      {"newton_iterations", result.solver.newton.iterations},
+                      {"tangents", result.solver.newton.tangents},
+                      {"longest_newton_iteration", result.solver.newton.longest},
                       {"largest_kinetic_energy", result.max_kinetic},
                       {"largest_energy_drift", result.max_energy_drift}};
   return report;

@@ -246,6 +246,9 @@ Json run_schema() {
                               {"rejected", whole},
                               {"rhs_evaluations", whole},
                               {"smallest_step", number_or_null},
+                              {"newton_iterations", whole},
+                              {"tangents", whole},
+                              {"longest_newton_iteration", array_of(number)},
                               {"largest_kinetic_energy", number_or_null},
                               {"largest_energy_drift", number_or_null}});
   Json scene = scene_schema();

@@ -85,3 +85,12 @@ struct Eigen::NumTraits<vlbeam::test::Dual<Real>> : Eigen::GenericNumTraits<vlbe
     MulCost = 3
   };
 };
+
+template <class Real, class Operation>
+struct Eigen::ScalarBinaryOpTraits<vlbeam::test::Dual<Real>, double, Operation> {
+  using ReturnType = vlbeam::test::Dual<Real>;
+};
+template <class Real, class Operation>
+struct Eigen::ScalarBinaryOpTraits<double, vlbeam::test::Dual<Real>, Operation> {
+  using ReturnType = vlbeam::test::Dual<Real>;
+};
