@@ -2,41 +2,55 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace vlbeam {
 
-/// A block tridiagonal matrix with blocks of `B` unknowns, one a node, and one more unknown that couples to a few
-/// neighbouring nodes only (the border): what a chain of elements with a moving node makes of a Newton iteration.
-/// Factored once, solved many times; cost and memory are proportional to the number of nodes.
+/// A block tridiagonal matrix with blocks of `B` unknowns, one a node, and a few more unknowns, the border, each of
+/// which couples to a few neighbouring nodes only: what a chain of elements with a moving node and constraints makes of
+/// a Newton iteration. Factored once, solved many times; cost and memory are proportional to the number of nodes.
 template <int B>
 class BorderedBlockTridiagonal {
  public:
   using Block = Eigen::Matrix<double, B, B>;
   using Vector = Eigen::Matrix<double, B, 1>;
-  static constexpr int border_reach = 3;  ///< nodes that the border couples to
+  static constexpr int reach = 4;          ///< nodes that one unknown of the border couples to
+  static constexpr int most_borders = 24;  ///< a moving node, what ties it, and two supports, in space
+  using Corner = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_borders, most_borders>;
 
-  /// A zero matrix of `nodes` blocks; `border_first` is the first node the border couples to, negative for no border.
-  void reset(int nodes, int border_first) {
+  /// An unknown of the border: its coupling to the nodes from `first` on.
+  struct Border {
+    int first = 0;
+    std::array<Vector, reach> column, row;
+  };
+
+  /// A zero matrix of `nodes` blocks without border.
+  void reset(int nodes) {
     const auto n = static_cast<std::size_t>(nodes);
     diagonal.assign(n, Block::Zero());
     upper.assign(n, Block::Zero());
     lower.assign(n, Block::Zero());
     inverse_.resize(n);
-    column_.resize(B * n);
-    border_first_ = border_first;
-    column.fill(Vector::Zero());
-    row.fill(Vector::Zero());
-    corner = 0;
+    border.clear();
   }
 
-  bool bordered() const { return border_first_ >= 0; }
-  int nodes() const { return static_cast<int>(diagonal.size()); }
+  /// One more unknown, which couples to nodes from `first` on, or just to the last ones before it where there are
+  /// fewer.
+  Border& add_border(int first) {
+    Border& added = border.emplace_back();
+    added.first = first;
+    added.column.fill(Vector::Zero());
+    added.row.fill(Vector::Zero());
+    corner = Corner::Zero(borders(), borders());
+    return added;
+  }
 
-  /// Block LU from the first node to the last. Returns false where a pivot is singular or not finite.
+  int nodes() const { return static_cast<int>(diagonal.size()); }
+  int borders() const { return static_cast<int>(border.size()); }
+
+  /// Block LU from the first node to the last, then the small system that the border leaves. Returns false where a
+  /// pivot is singular or not finite.
   bool factor() {
     const std::size_t n = diagonal.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -48,51 +62,69 @@ class BorderedBlockTridiagonal {
       inverse_[k] = pivot.inverse();
       if (!inverse_[k].allFinite()) return false;
     }
-    if (!bordered()) return true;
-    std::fill(column_.begin(), column_.end(), 0.0);
-    const auto first = static_cast<std::size_t>(border_first_);
-    for (std::size_t i = 0; i < border_reach; ++i) block(column_.data(), first + i) = column[i];
-    substitute(column_.data(), first);
-    double pivot = corner;
-    for (std::size_t i = 0; i < border_reach; ++i) pivot -= row[i].dot(block(column_.data(), first + i));
-    corner_inverse_ = 1 / pivot;
-    return std::isfinite(corner_inverse_);
+    if (border.empty()) return true;
+    const std::size_t stride = B * n;
+    columns_.assign(stride * border.size(), 0.0);
+    Corner rest = corner;
+    for (int j = 0; j < borders(); ++j) {
+      const Border& from = border[static_cast<std::size_t>(j)];
+      double* column = columns_.data() + stride * static_cast<std::size_t>(j);
+      for (int i = 0; i < reached(from); ++i) block(column, from.first + i) = from.column[static_cast<std::size_t>(i)];
+      substitute(column, static_cast<std::size_t>(from.first));
+      for (int i = 0; i < borders(); ++i) rest(i, j) -= row_times(border[static_cast<std::size_t>(i)], column);
+    }
+    corner_lu_.compute(rest);
+    return rest.allFinite() && corner_lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0;
   }
 
-  /// Solves in place; `x` holds B numbers a node and, with a border, one more.
+  /// Solves in place; `x` holds B numbers a node, then the border's unknowns.
   void solve(double* x) const {
     substitute(x, 0);
-    if (!bordered()) return;
-    const auto first = static_cast<std::size_t>(border_first_);
-    double& extra = x[B * nodes()];
-    for (std::size_t i = 0; i < border_reach; ++i) extra -= row[i].dot(block(x, first + i));
-    extra *= corner_inverse_;
-    for (std::size_t k = 0; k < diagonal.size(); ++k) block(x, k) -= block(column_.data(), k) * extra;
+    if (border.empty()) return;
+    const std::size_t stride = B * diagonal.size();
+    Eigen::Map<Eigen::VectorXd> extra(x + stride, borders());
+    for (int i = 0; i < borders(); ++i) extra[i] -= row_times(border[static_cast<std::size_t>(i)], x);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_borders, 1> solved = corner_lu_.solve(extra);
+    extra = solved;
+    Eigen::Map<Eigen::VectorXd> nodal(x, static_cast<Eigen::Index>(stride));
+    for (int j = 0; j < borders(); ++j) {
+      nodal -= extra[j] * Eigen::Map<const Eigen::VectorXd>(columns_.data() + stride * static_cast<std::size_t>(j),
+                                                            static_cast<Eigen::Index>(stride));
+    }
   }
 
   std::vector<Block> diagonal, upper, lower;  ///< upper[k] couples k to k + 1, lower[k] couples k to k - 1
-  std::array<Vector, border_reach> column, row;
-  double corner = 0;
+  std::vector<Border> border;
+  Corner corner;  ///< among the border's unknowns; zero after add_border
 
  private:
-  static Eigen::Map<Vector> block(double* x, std::size_t k) { return Eigen::Map<Vector>(x + B * k); }
-  static Eigen::Map<const Vector> block(const double* x, std::size_t k) { return Eigen::Map<const Vector>(x + B * k); }
+  static Eigen::Map<Vector> block(double* x, int k) { return Eigen::Map<Vector>(x + B * k); }
+  static Eigen::Map<const Vector> block(const double* x, int k) { return Eigen::Map<const Vector>(x + B * k); }
+
+  int reached(const Border& b) const { return std::min(reach, nodes() - b.first); }
+  double row_times(const Border& b, const double* x) const {
+    double sum = 0;
+    for (int i = 0; i < reached(b); ++i) sum += b.row[static_cast<std::size_t>(i)].dot(block(x, b.first + i));
+    return sum;
+  }
 
   /// Forward and back substitution of a right-hand side that is zero before node `first`.
   void substitute(double* x, std::size_t first) const {
-    const std::size_t n = diagonal.size();
-    for (std::size_t k = first + 1; k < n; ++k) block(x, k).noalias() -= lower[k] * block(x, k - 1);
-    block(x, n - 1) = inverse_[n - 1] * block(x, n - 1).eval();
-    for (std::size_t k = n - 1; k-- > 0;) {
-      const Vector rest = block(x, k) - upper[k] * block(x, k + 1);
-      block(x, k).noalias() = inverse_[k] * rest;
+    const int n = nodes();
+    for (int k = static_cast<int>(first) + 1; k < n; ++k) {
+      block(x, k).noalias() -= lower[static_cast<std::size_t>(k)] * block(x, k - 1);
+    }
+    block(x, n - 1) = inverse_.back() * block(x, n - 1).eval();
+    for (int k = n - 1; k-- > 0;) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vector rest = block(x, k) - upper[i] * block(x, k + 1);
+      block(x, k).noalias() = inverse_[i] * rest;
     }
   }
 
   std::vector<Block> inverse_;
-  std::vector<double> column_;
-  int border_first_ = -1;
-  double corner_inverse_ = 0;
+  std::vector<double> columns_;  ///< the border's columns, solved
+  Eigen::PartialPivLU<Corner> corner_lu_;
 };
 
 }  // namespace vlbeam

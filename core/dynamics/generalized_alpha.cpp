@@ -23,18 +23,19 @@ class GeneralizedAlpha final : public Stepper {
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const Eigen::Index n = system_.coordinates();
     r_.resize(n);
-    if (!started_) start(y, t, n);
+    system_.expand(y, base_q_, base_v_);
+    if (!started_) start(t, n);
     start_ = end_;
-    const double h = std::min(dt, options_.step);
+    const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
     if (start_.h > 0 && h != start_.h) {
       start_.a = start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration);
     }
 
     // predictor: the velocity goes on. An acceleration carried on would throw stiff modes, whose period is shorter than
     // the step, far off: Newton would start from a torn mesh
-    q_ = y.head(n) + h * y.segment(n, n);
+    q_ = base_q_ + h * base_v_;
     next_a_ = (-1 / beta_) * (0.5 - beta_) * start_.a;
-    v_ = y.segment(n, n) + h * ((1 - gamma_) * start_.a + gamma_ * next_a_);
+    v_ = base_v_ + h * ((1 - gamma_) * start_.a + gamma_ * next_a_);
     acceleration_ =
         ((1 - alpha_m_) * next_a_ + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
 
@@ -46,7 +47,7 @@ class GeneralizedAlpha final : public Stepper {
     }
     double next = options_.step;
     if (options_.adaptive) {
-      const double ratio = error_ratio(y, h);
+      const double ratio = error_ratio(h);
       const double factor = std::clamp(safety / std::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
       if (ratio > 1) {
         dt = h * factor;
@@ -54,7 +55,7 @@ class GeneralizedAlpha final : public Stepper {
       }
       next = std::min(options_.step, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
     }
-    accept(y, t, h, n, dissipation);
+    accept(y, t, h, dissipation);
     dt = next;
     return true;
   }
@@ -79,12 +80,12 @@ class GeneralizedAlpha final : public Stepper {
     double dissipation = 0;             ///< [W]
   };
 
-  void start(const Eigen::VectorXd& y, double t, Eigen::Index n) {
+  void start(double t, Eigen::Index n) {
     end_.true_acceleration.resize(n);
-    system_.acceleration(y.head(n), y.segment(n, n), t, end_.true_acceleration);
+    system_.acceleration(base_q_, base_v_, t, end_.true_acceleration);
     end_.a = end_.true_acceleration;
     end_.h = 0;
-    end_.dissipation = system_.residual(y.head(n), y.segment(n, n), end_.true_acceleration, t, r_);
+    end_.dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
     started_ = true;
     tangent_by_a_ = 0;
   }
@@ -135,25 +136,31 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
-  double error_ratio(const Eigen::VectorXd& y, double h) const {
+  double error_ratio(double h) const {
     const double share = h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6);
     double largest = 0;
-    for (Eigen::Index i = 0; i < q_.size(); ++i) {
+    for (Eigen::Index i = 0; i < q_.size() - system_.multipliers(); ++i) {
       const double allowed =
-          options_.tolerances.atol + options_.tolerances.rtol * std::max(std::abs(y[i]), std::abs(q_[i]));
+          options_.tolerances.atol + options_.tolerances.rtol * std::max(std::abs(base_q_[i]), std::abs(q_[i]));
       largest = std::max(largest, share * std::abs(next_a_[i] - start_.a[i]) / allowed);
     }
     return largest;
   }
 
-  void accept(Eigen::VectorXd& y, double& t, double h, Eigen::Index n, double dissipation) {
-    y.head(n) = q_;
-    y.segment(n, n) = v_;
-    if (y.size() > 2 * n) y[2 * n] += 0.5 * h * (start_.dissipation + dissipation);
+  void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
+    system_.contract(q_, v_, y);
+    if (y.size() % 2 != 0) y[y.size() - 1] += 0.5 * h * (start_.dissipation + dissipation);
     end_.true_acceleration = acceleration_;
     end_.a = next_a_;
     end_.h = h;
     end_.dissipation = dissipation;
+    if (counters_) {
+      const ConstraintResidual residual = system_.constraint_residual(q_, v_);
+      auto& largest = counters_->constraints;
+      largest.position = std::max(largest.position, residual.position);
+      largest.velocity = std::max(largest.velocity, residual.velocity);
+      counters_->multipliers = acceleration_.tail(system_.multipliers());
+    }
     t += h;
   }
 
@@ -162,8 +169,9 @@ class GeneralizedAlpha final : public Stepper {
   NewtonCounters* counters_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
-  double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
-  Memory start_, end_;       ///< at the start and at the end of the last step
+  double tangent_by_a_ = 0;          ///< what the factored tangent was made for; 0 for none
+  Memory start_, end_;               ///< at the start and at the end of the last step
+  Eigen::VectorXd base_q_, base_v_;  ///< at the start of the step
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;
   std::vector<double> history_;  ///< corrections of the current step
 };

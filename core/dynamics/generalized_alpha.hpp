@@ -30,6 +30,8 @@ struct NewtonCounters {
   std::size_t iterations = 0;
   std::size_t tangents = 0;
   std::vector<double> longest;  ///< corrections, relative to the coordinates' size, of the step that took most of them
+  ConstraintResidual constraints;  ///< the largest of all steps
+  Eigen::VectorXd multipliers;     ///< of the last step, as the system scales them
 };
 
 /// Generalized-alpha method for M(q) q'' = Q (Arnold & Bruels 2007). Second order, also where the length of the step

@@ -13,6 +13,7 @@ namespace vlbeam {
 namespace {
 
 constexpr double guard_tolerance = 1e-12;  // a guard this near zero is at its root
+constexpr double whole_step = 1e-9;        // no step for what rounding leaves of the run
 constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the end of a step to be looked into
 constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int longest_cascade = 8;         // events at one instant
@@ -161,7 +162,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   while (t < t_end) {
     before = y;
     const double t_before = t;
-    const bool last = dt >= t_end - t;
+    const bool last = t_end - t <= dt * (1 + whole_step);
     if (last) dt = t_end - t;
     const double tried = dt;
     if (!stepper->try_step(ode, y, t, dt)) {

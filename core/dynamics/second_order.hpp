@@ -4,18 +4,41 @@
 
 namespace vlbeam {
 
+/// How far a state is from its constraints C(q) = 0, the largest of all.
+struct ConstraintResidual {
+  double position = 0;  ///< |C| [m]
+  double velocity = 0;  ///< |C_q q'| [m/s], the hidden constraint
+};
+
 /// Equations of motion M(q) q'' = Q(q, q', t) as an implicit method sees them: a residual in (q, v, a) and its tangent.
-/// Coordinates that a support fixes have zero residual and never move.
+/// Supports and the like are either eliminated, and fixed coordinates then have zero residual and never move, or
+/// constraints C(q) = 0 with multipliers, M q'' + C_q^T lambda = Q: the last coordinates then stand for the
+/// multipliers, which enter as their "accelerations". Newton's tangent so scales them with the square of the step, and
+/// its condition does not depend on the step.
 class SecondOrderSystem {
  public:
   virtual ~SecondOrderSystem() = default;
 
   virtual Eigen::Index coordinates() const = 0;
-  /// Acceleration consistent with (q, v) at time t.
+  /// How many of the coordinates, the last ones, stand for multipliers.
+  virtual Eigen::Index multipliers() const { return 0; }
+  /// Coordinates and velocities from a state y = (q, q', ...) of the minimal ones, and back.
+  virtual void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
+    q = y.head(coordinates());
+    v = y.segment(coordinates(), coordinates());
+  }
+  virtual void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const {
+    y.head(q.size()) = q;
+    y.segment(q.size(), q.size()) = v;
+  }
+  /// Acceleration (and multipliers) consistent with (q, v) at time t.
   virtual void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) = 0;
   /// r = M(q) a - Q(q, v, t); returns the power lost to damping [W].
   virtual double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                           Eigen::VectorXd& r) = 0;
+  virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const {
+    return {};
+  }
   /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da. Returns false where it is singular.
   virtual bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                          double by_v, double by_a) = 0;

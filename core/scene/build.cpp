@@ -89,6 +89,7 @@ BeamModel<D> build_model(const Scene& scene) {
     model.joint = SlidingJoint{scene.sliding_mass->mass};
     model.separation_distance = separation_distance(scene);
   }
+  model.constraints = scene.constraints;
   const auto& control = scene.length_control;
   model.length_control = {control.enabled, standard_length(scene), control.upper, control.hysteresis,
                           is_polynomial(scene.beam.element) ? MergePolicy::unit : control.merge};

@@ -49,6 +49,10 @@ constexpr auto names(IntegratorType) {
                                                {bulirsch_stoer, "bulirsch-stoer"},
                                                {generalized_alpha, "generalized-alpha"}});
 }
+constexpr auto names(Constraints) {
+  using enum Constraints;
+  return std::to_array<Named<Constraints>>({{eliminated, "eliminated"}, {multipliers, "multipliers"}});
+}
 constexpr auto names(NewtonKind) {
   return std::to_array<Named<NewtonKind>>({{NewtonKind::modified, "modified"}, {NewtonKind::full, "full"}});
 }

@@ -323,6 +323,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
           scene.length_control.merge);
 
+  visitor(
+      Option{.pointer = "/constraints",
+             .unit = "",
+             .description = "supports and the beam's continuity at the mass: eliminated coordinates, or equations with "
+                            "multipliers (generalized-alpha only)"},
+      scene.constraints);
+
   const std::string_view integrator_type = "/integrator/type";
   visitor(Option{.pointer = integrator_type, .unit = "", .description = "time integrator"}, scene.integrator.type);
   visitor(Option{.pointer = "/integrator/rtol",

@@ -11,6 +11,12 @@
 
 namespace vlbeam {
 
+/// Generalized force of a support on its node: conjugate to position [N] and to slope [N m].
+struct Reaction {
+  Point position{};
+  Point slope{};
+};
+
 /// The observed quantities at one instant.
 struct Sample {
   double t = 0;
@@ -21,6 +27,8 @@ struct Sample {
   Energy energy;                         ///< by a 25-point rule, independent of the model's own points
   double discrete_total = 0;             ///< total energy summed over the model's own quadrature points [J]
   Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]
+  std::array<Reaction, 2>
+      reactions{};  ///< of the supports at start and end, by the accelerations that belong to the state
 };
 
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.

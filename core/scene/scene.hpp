@@ -10,6 +10,7 @@
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
 #include "core/length_control/merge_policy.hpp"
+#include "core/system/constraints.hpp"
 
 namespace vlbeam {
 
@@ -107,6 +108,7 @@ struct Scene {
   Formulation formulation = Formulation::variational;
   WeightTransport weights = WeightTransport::frozen;
   LengthControlSpec length_control;
+  Constraints constraints = Constraints::eliminated;
   IntegratorSpec integrator;
   double duration = 0.5;  ///< [s]
   OutputSpec output;

@@ -118,6 +118,10 @@ class Run {
       sample.energy = seen.energy;
       sample.discrete_total = own.energy.total();
       sample.momentum = point_of<D>(seen.momentum);
+      const auto forces = system_.reactions(y, t);
+      for (std::size_t i = 0; i < 2; ++i) {
+        sample.reactions[i] = {point_of<D>(forces[i].template head<D>()), point_of<D>(forces[i].template tail<D>())};
+      }
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       result_.max_energy_drift =

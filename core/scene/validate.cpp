@@ -121,6 +121,19 @@ void check_length_control(const Scene& scene) {
   }
 }
 
+void check_integrator(const Scene& scene) {
+  const auto& integrator = scene.integrator;
+  if (scene.constraints == Constraints::multipliers && integrator.type != IntegratorType::generalized_alpha) {
+    refuse("/constraints", "\"multipliers\"",
+           "\"" + std::string(to_string(integrator.type)) +
+               "\" integrates minimal coordinates: take \"eliminated\", or the integrator \"generalized-alpha\"");
+  }
+  if (integrator.type == IntegratorType::generalized_alpha && integrator.step > scene.duration) {
+    refuse("/integrator/step", number_text(integrator.step),
+           "it must not be longer than the duration, " + number_text(scene.duration) + " s");
+  }
+}
+
 void check_output(const Scene& scene) {
   constexpr double most_samples = 1e7;
   if (scene.duration / scene.output.interval > most_samples) {
@@ -146,6 +159,7 @@ void validate(const Scene& scene) {
   check_beam(scene);
   check_sliding_mass(scene);
   check_length_control(scene);
+  check_integrator(scene);
   check_output(scene);
 }
 

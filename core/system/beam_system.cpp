@@ -38,7 +38,11 @@ template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
   adopt(chain);
   initial_ = state_of(chain, {});
+  anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
 }
+
+template <int D>
+BeamSystem<D>::~BeamSystem() = default;
 
 template <int D>
 void BeamSystem<D>::adopt(const ChainState<D>& chain) {
@@ -102,7 +106,8 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   dydt.head(coordinates_) = y.segment(coordinates_, coordinates_);
   dydt.tail(dydt.size() - coordinates_).setZero();
   double* force = dydt.data() + coordinates_;
-  double dissipation = add_fixed_forces(q, rate, t, force);
+  const Vector g = gravity(t);
+  double dissipation = left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
 
   if (has_joint()) {
     const auto j = static_cast<std::size_t>(joint_);
@@ -137,6 +142,15 @@ template <int D>
 SecondOrderSystem* BeamSystem<D>::second_order() {
   if (!implicit_) implicit_ = std::make_unique<ImplicitBeam<D>>(*this);
   return implicit_.get();
+}
+
+template <int D>
+std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> BeamSystem<D>::reactions(const Eigen::VectorXd& y, double t) {
+  second_order();
+  const std::size_t evaluations = rhs_evaluations_;  // those of the integrator
+  const auto forces = implicit_->reactions(y, t);
+  rhs_evaluations_ = evaluations;
+  return forces;
 }
 
 template <int D>

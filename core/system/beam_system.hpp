@@ -7,6 +7,7 @@
 #include "core/dynamics/integrate.hpp"
 #include "core/joint/sliding_joint.hpp"
 #include "core/length_control/length_control.hpp"
+#include "core/system/constraints.hpp"
 #include "core/system/energy.hpp"
 
 namespace vlbeam {
@@ -26,6 +27,7 @@ struct BeamModel {
   std::optional<SlidingJoint> joint;
   double separation_distance = 0;  ///< [m]
   LengthControl length_control;
+  Constraints constraints = Constraints::eliminated;
 };
 
 /// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
@@ -53,6 +55,9 @@ struct EventRecord {
   double seconds;  ///< wall time spent
 };
 
+template <int D>
+class ImplicitBeam;
+
 /// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
 /// State y = (q, q', dissipated): q holds the nodes (position and slope each) and then x_i of the joint, or the free
 /// mass's position once it has left; the dissipated energy is there only for a damped section.
@@ -63,6 +68,7 @@ class BeamSystem final : public EventedOde {
 
   /// `chain` is the initial state; its joint must be an interior node where the model has a sliding mass.
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
+  ~BeamSystem() override;
 
   Eigen::Index size() const override { return 2 * coordinates_ + (model_.section.damped() ? 1 : 0); }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
@@ -78,8 +84,12 @@ class BeamSystem final : public EventedOde {
   std::function<bool(double t)> on_step;
 
   const BeamModel<D>& model() const { return model_; }
+  /// Gravity at time t [m/s^2].
+  Vector gravity(double t) const { return model_.gravity * gravity_share(t, model_.gravity_ramp); }
   Eigen::VectorXd initial_state() const { return initial_; }
   SecondOrderSystem* second_order() override;
+  /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]).
+  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
 
   /// Mesh and motion at state y.
@@ -94,20 +104,11 @@ class BeamSystem final : public EventedOde {
   const ShapeTabulation& left_table() const { return left_table_; }
   const ShapeTabulation& right_table() const { return right_table_; }
   MovingLaw<D> moving_law(double t) const { return {model_.section, model_.formulation, model_.transport, gravity(t)}; }
-  /// Adds the forces of the fixed elements at (q, q') to the nodal array `force`; returns the dissipated power [W].
-  double add_fixed_forces(const double* q, const double* rate, double t, double* force) const {
-    const Vector g = gravity(t);
-    return left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
-  }
-  void add_fixed_inertia(const double* a, double* out) const {
-    left_->add_inertia(a, out);
-    right_->add_inertia(a, out);
-  }
-  void add_fixed_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
-                         NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-    left_->add_tangent(q, rate, by_v, by_a, diagonal, upper, lower);
-    right_->add_tangent(q, rate, by_v, by_a, diagonal, upper, lower);
-  }
+  /// The fixed elements before and behind the joint, or the middle of the beam.
+  const Span<D>& left() const { return *left_; }
+  const Span<D>& right() const { return *right_; }
+  /// What the supports hold: position and slope of the first and of the last node at the start.
+  const std::array<Eigen::Matrix<double, node_size<D>, 1>, 2>& anchors() const { return anchors_; }
   /// Position of the sliding mass, on the beam or off it; empty without one.
   std::optional<Vector> mass_position(const Eigen::VectorXd& y) const;
   /// Energies, momentum and length, summed with `points` Gauss points an element.
@@ -116,7 +117,6 @@ class BeamSystem final : public EventedOde {
  private:
   void adopt(const ChainState<D>& chain);
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
-  Vector gravity(double t) const { return model_.gravity * gravity_share(t, model_.gravity_ramp); }
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;
 
@@ -128,8 +128,9 @@ class BeamSystem final : public EventedOde {
   std::optional<Span<D>> left_, right_;
   ShapeTabulation left_table_, right_table_;
   Eigen::VectorXd initial_;
+  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;
-  std::unique_ptr<SecondOrderSystem> implicit_;
+  std::unique_ptr<ImplicitBeam<D>> implicit_;
 };
 
 extern template class BeamSystem<2>;

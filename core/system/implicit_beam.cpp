@@ -24,29 +24,106 @@ MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint
 }  // namespace
 
 template <int D>
-void ImplicitBeam<D>::refresh() {
+double ImplicitBeam<D>::Constraint::operator()(const double* q, bool rate) const {
+  const Eigen::Map<const NodeVector> here(q + B * node), next(q + B * (node + 1));
+  if (tied) return direction.dot(here - next);
+  return rate ? direction.dot(here) : direction.dot(here - anchor);
+}
+
+template <int D>
+void ImplicitBeam<D>::refresh() const {
   if (revision_ == system_.revision()) return;
   revision_ = system_.revision();
-  y_.resize(system_.size());
-  dydt_.resize(system_.size());
+  constraints_.clear();
+  reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
+  if (!with_multipliers()) return;
+  at_end_nodes([&](int node, const Support<D>& support) {
+    const NodeVector& anchor = system_.anchors()[node == 0 ? 0 : 1];
+    for (int c = 0; c < D; ++c) {
+      NodeVector direction = NodeVector::Zero();
+      direction.template head<D>() = support.frame.col(c);
+      if (support.free_position[c] == 0) constraints_.push_back({node, direction, anchor, false});
+      direction.template head<D>().setZero();
+      direction.template tail<D>() = support.frame.col(c);
+      if (support.free_slope[c] == 0) constraints_.push_back({node, direction, anchor, false});
+    }
+  });
+  if (!system_.has_joint()) return;
+  for (int c = 0; c < B; ++c) {
+    constraints_.push_back({system_.joint(), NodeVector::Unit(c), NodeVector::Zero(), true});
+  }
+}
+
+template <int D>
+Eigen::Index ImplicitBeam<D>::multipliers() const {
+  refresh();
+  return static_cast<Eigen::Index>(constraints_.size());
+}
+
+template <int D>
+Eigen::Index ImplicitBeam<D>::coordinates() const {
+  return system_.coordinates() + B * cut() + multipliers();
+}
+
+template <int D>
+void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
+  const Eigen::Index n = coordinates(), own = system_.coordinates();
+  if (n == own) {
+    q = y.head(own);
+    v = y.segment(own, own);
+    return;
+  }
+  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1), behind = own - before;
+  auto spread = [&](const auto& from, Eigen::VectorXd& to) {
+    to.setZero(n);
+    to.head(before) = from.head(before);
+    if (cut() == 0) return;
+    to.segment(before, B) = from.segment(before - B, B);
+    to.segment(before + B, behind) = from.tail(behind);
+  };
+  spread(y.head(own), q);
+  spread(y.segment(own, own), v);
+}
+
+template <int D>
+void ImplicitBeam<D>::contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const {
+  const Eigen::Index own = system_.coordinates();
+  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1), behind = own - before;
+  auto gather = [&](const Eigen::VectorXd& from, auto to) {
+    to.head(before) = from.head(before);
+    to.tail(behind) = from.segment(before + B * cut(), behind);
+  };
+  gather(q, y.head(own));
+  gather(v, y.segment(own, own));
 }
 
 template <int D>
 void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
-  refresh();
-  const Eigen::Index n = coordinates();
-  y_.setZero();
-  y_.head(n) = q;
-  y_.segment(n, n) = v;
+  const Eigen::Index own = system_.coordinates();
+  y_.setZero(system_.size());
+  dydt_.resize(system_.size());
+  contract(q, v, y_);
   system_.rhs(y_, dydt_, t);
-  a = dydt_.segment(n, n);
+  y_.head(own) = dydt_.segment(own, own);
+  Eigen::VectorXd unused;
+  expand(y_, a, unused);
+  if (constraints_.empty()) return;
+  // what the equations of motion lack is what the constraints give: their directions are orthonormal, node by node
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const auto& constraint = constraints_[i];
+    const int node = constraint.node + (constraint.tied ? 1 : 0);
+    const double lacking = constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + B * node));
+    a[a.size() - multipliers() + static_cast<Eigen::Index>(i)] = (constraint.tied ? 1 : -1) * lacking / reference_mass_;
+  }
 }
 
 template <int D>
 template <class Function>
 void ImplicitBeam<D>::at_end_nodes(const Function& function) const {
   function(0, system_.model().start);
-  function(system_.mesh().last(), system_.model().end);
+  function(nodes() - 1, system_.model().end);
 }
 
 template <int D>
@@ -61,87 +138,123 @@ void ImplicitBeam<D>::project(double* nodes) const {
 }
 
 template <int D>
-double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                                 Eigen::VectorXd& r) {
-  refresh();
+double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                      double t, Eigen::VectorXd& r) const {
   const auto& model = system_.model();
+  const Vec<double, D> gravity = system_.gravity(t);
+  const int shift = B * cut();  // of the nodes behind the joint
   r.setZero();
-  double dissipation = system_.add_fixed_forces(q.data(), v.data(), t, r.data());
+  double dissipation = system_.left().add_forces(q.data(), v.data(), gravity, r.data()) +
+                       system_.right().add_forces(q.data() + shift, v.data() + shift, gravity, r.data() + shift);
   r = -r;
-  system_.add_fixed_inertia(a.data(), r.data());
-  const Eigen::Index extra = B * (system_.mesh().last() + 1);
-  const Vec<double, D> gravity = system_.moving_law(t).gravity;
+  system_.left().add_inertia(a.data(), r.data());
+  system_.right().add_inertia(a.data() + shift, r.data() + shift);
+  const Eigen::Index extra = after_nodes();
   if (system_.has_joint()) {
     const int j = system_.joint();
     const auto ju = static_cast<std::size_t>(j);
     const auto& mesh = system_.mesh();
     const auto law = system_.moving_law(t);
-    auto add = [&]<MovingEnds Ends>(int k, double far_end, const ShapeTabulation& table) {
+    auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
+                                    const ShapeTabulation& table) {
       const auto part = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
         return moving_residual<Ends, Law, Bending, double, D>(
-            element_of<Ends, D>(q.data(), k, q[extra], far_end), element_of<Ends, D>(v.data(), k, v[extra], 0),
-            element_of<Ends, D>(a.data(), k, a[extra], 0), mesh.weights[static_cast<std::size_t>(k)], table, law,
-            &dissipation);
+            element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
+            element_of<Ends, D>(a.data(), node, a[extra], 0), weights, table, law, &dissipation);
       });
-      position<D>(r.data(), k) += part.nodes[0];
-      slope<D>(r.data(), k) += part.nodes[1];
-      position<D>(r.data(), k + 1) += part.nodes[2];
-      slope<D>(r.data(), k + 1) += part.nodes[3];
+      position<D>(r.data(), node) += part.nodes[0];
+      slope<D>(r.data(), node) += part.nodes[1];
+      position<D>(r.data(), node + 1) += part.nodes[2];
+      slope<D>(r.data(), node + 1) += part.nodes[3];
       r[extra] += part.end;
     };
-    add.template operator()<MovingEnds::b>(j - 1, mesh.x[ju - 1], system_.left_table());
-    add.template operator()<MovingEnds::a>(j, mesh.x[ju + 1], system_.right_table());
+    add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
+    add.template operator()<MovingEnds::a>(j + cut(), mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
     position<D>(r.data(), j) += model.joint->mass * (position<D>(a.data(), j) - gravity);
   } else if (model.joint) {
     r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
   }
-  project(r.data());
   return dissipation;
+}
+
+template <int D>
+double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                                 Eigen::VectorXd& r) {
+  const Eigen::Index first = coordinates() - multipliers();
+  const double dissipation = free_residual(q, v, a, t, r);
+  if (!with_multipliers()) project(r.data());
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const auto& constraint = constraints_[i];
+    const Eigen::Index at = first + static_cast<Eigen::Index>(i);
+    const double multiplier = reference_mass_ * a[at];
+    Eigen::Map<NodeVector> here(r.data() + B * constraint.node), next(r.data() + B * (constraint.node + 1));
+    here += multiplier * constraint.direction;
+    if (constraint.tied) next -= multiplier * constraint.direction;
+    r[at] = constraint(q.data(), false);
+  }
+  return dissipation;
+}
+
+template <int D>
+ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const {
+  refresh();
+  ConstraintResidual largest;
+  for (const auto& constraint : constraints_) {
+    largest.position = std::max(largest.position, std::abs(constraint(q.data(), false)));
+    largest.velocity = std::max(largest.velocity, std::abs(constraint(v.data(), true)));
+  }
+  return largest;
 }
 
 template <int D>
 void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                double by_v, double by_a) {
   refresh();
-  by_a_ = by_a;
   const auto& model = system_.model();
   const auto& mesh = system_.mesh();
-  const int j = system_.joint();
-  tangent_.reset(mesh.last() + 1, system_.has_joint() ? j - 1 : -1);
-
-  system_.add_fixed_tangent(q.data(), v.data(), by_v, by_a, tangent_.diagonal.data(), tangent_.upper.data(),
-                            tangent_.lower.data());
+  tangent_.reset(nodes());
+  const int shift = cut();  // of the nodes behind the joint
+  auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
+  system_.left().add_tangent(q.data(), v.data(), by_v, by_a, diagonal, upper, lower);
+  system_.right().add_tangent(q.data() + B * shift, v.data() + B * shift, by_v, by_a, diagonal + shift, upper + shift,
+                              lower + shift);
   if (system_.has_joint()) {
+    const int j = system_.joint();
     const auto ju = static_cast<std::size_t>(j);
     const auto law = system_.moving_law(t);
-    const Eigen::Index extra = B * (mesh.last() + 1);
-    auto add = [&]<MovingEnds Ends>(int k, double far_end, const ShapeTabulation& table) {
+    const Eigen::Index extra = after_nodes();
+    auto& border = tangent_.add_border(j - 1);
+    auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
+                                    const ShapeTabulation& table) {
       constexpr int N = 4 * D + 1;
       const auto matrix = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-        return moving_tangent<Ends, Law, Bending, D>(element_of<Ends, D>(q.data(), k, q[extra], far_end),
-                                                     element_of<Ends, D>(v.data(), k, v[extra], 0),
-                                                     element_of<Ends, D>(a.data(), k, a[extra], 0), by_v, by_a,
-                                                     mesh.weights[static_cast<std::size_t>(k)], table, law);
+        return moving_tangent<Ends, Law, Bending, D>(
+            element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
+            element_of<Ends, D>(a.data(), node, a[extra], 0), by_v, by_a, weights, table, law);
       });
-      const auto reach = static_cast<std::size_t>(k - (j - 1));  // 0 for the left element, 1 for the right one
-      for (int row_node = 0; row_node < 2; ++row_node) {
-        for (int column_node = 0; column_node < 2; ++column_node) {
-          auto& blocks = row_node == column_node  ? tangent_.diagonal
-                         : row_node < column_node ? tangent_.upper
-                                                  : tangent_.lower;
-          blocks[static_cast<std::size_t>(k + row_node)] += matrix.template block<B, B>(row_node * B, column_node * B);
-        }
-        tangent_.column[reach + static_cast<std::size_t>(row_node)] += matrix.template block<B, 1>(row_node * B, N - 1);
-        tangent_.row[reach + static_cast<std::size_t>(row_node)] +=
-            matrix.template block<1, B>(N - 1, row_node * B).transpose();
+      const auto k = static_cast<std::size_t>(node), reach = static_cast<std::size_t>(node - (j - 1));
+      tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
+      tangent_.upper[k] += matrix.template block<B, B>(0, B);
+      tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
+      tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
+      for (int end = 0; end < 2; ++end) {
+        border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, N - 1);
+        border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(N - 1, end * B).transpose();
       }
-      tangent_.corner += matrix(N - 1, N - 1);
+      tangent_.corner(0, 0) += matrix(N - 1, N - 1);
     };
-    add.template operator()<MovingEnds::b>(j - 1, mesh.x[ju - 1], system_.left_table());
-    add.template operator()<MovingEnds::a>(j, mesh.x[ju + 1], system_.right_table());
+    add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
+    add.template operator()<MovingEnds::a>(j + shift, mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
     tangent_.diagonal[ju].template topLeftCorner<D, D>().diagonal().array() += by_a * model.joint->mass;
+  } else if (model.joint) {
+    for (int c = 0; c < D; ++c) tangent_.add_border(0);
+    tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
   }
-  constrain_tangent();
+  if (with_multipliers()) {
+    add_constraints(by_a);
+  } else {
+    constrain_tangent();
+  }
 }
 
 template <int D>
@@ -150,7 +263,6 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   assemble(q, v, a, t, by_v, by_a);
   return tangent_.factor();
 }
-
 template <int D>
 void ImplicitBeam<D>::constrain_tangent() {
   const std::size_t last = tangent_.diagonal.size() - 1;
@@ -172,22 +284,45 @@ void ImplicitBeam<D>::constrain_tangent() {
       tangent_.lower[last] = keep * tangent_.lower[last];
       tangent_.upper[last - 1] = tangent_.upper[last - 1] * keep;
     }
-    if (!tangent_.bordered()) return;
-    const int reach = node - (system_.joint() - 1);
-    if (reach < 0 || reach >= BorderedBlockTridiagonal<B>::border_reach) return;
-    auto& column = tangent_.column[static_cast<std::size_t>(reach)];
-    auto& row = tangent_.row[static_cast<std::size_t>(reach)];
-    column = keep * column;
-    row = keep * row;
+    for (auto& border : tangent_.border) {
+      const int reached = node - border.first;
+      if (reached < 0 || reached >= BorderedBlockTridiagonal<B>::reach) continue;
+      auto& column = border.column[static_cast<std::size_t>(reached)];
+      auto& row = border.row[static_cast<std::size_t>(reached)];
+      column = keep * column;
+      row = keep * row;
+    }
   });
+}
+
+/// Rows and columns of the constraints, scaled as the rest of the tangent is: by a mass and by_a.
+template <int D>
+void ImplicitBeam<D>::add_constraints(double by_a) {
+  constraint_scale_ = reference_mass_ * by_a;
+  const typename BorderedBlockTridiagonal<B>::Corner corner = tangent_.corner;
+  const bool moving = tangent_.borders() > 0;
+  for (const auto& constraint : constraints_) {
+    auto& border = tangent_.add_border(constraint.node);
+    border.column[0] = border.row[0] = constraint_scale_ * constraint.direction;
+    if (constraint.tied) border.column[1] = border.row[1] = -constraint_scale_ * constraint.direction;
+  }
+  if (moving) tangent_.corner.topLeftCorner(corner.rows(), corner.cols()) = corner;
 }
 
 template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
-  if (!system_.has_joint() && system_.model().joint) {
-    r.tail<D>() /= by_a_ * system_.model().joint->mass;
-  }
+  r.tail(multipliers()) *= constraint_scale_;
   tangent_.solve(r.data());
+}
+
+template <int D>
+std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> ImplicitBeam<D>::reactions(const Eigen::VectorXd& y, double t) {
+  Eigen::VectorXd q, v, a;
+  expand(y, q, v);
+  acceleration(q, v, t, a);
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  return {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
 }
 
 template class ImplicitBeam<2>;

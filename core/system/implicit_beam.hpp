@@ -8,41 +8,78 @@
 
 namespace vlbeam {
 
-/// A beam system as an implicit method sees it: residual M a - Q and its exact tangent, in the coordinates of
-/// BeamSystem's state. The tangent is block tridiagonal in the nodes with the joint's material coordinate as a border;
-/// fixed elements contribute the second derivative of their strain energy, the two elements at the joint the derivative
-/// of their whole residual (inertia, velocity terms and configurational force included) by automatic differentiation.
+/// A beam system as an implicit method sees it: residual M a - Q and its exact tangent. The tangent is block
+/// tridiagonal in the nodes with a border; fixed elements contribute the second derivative of their strain energy, the
+/// two elements at the joint the derivative of their whole residual (inertia, velocity terms and configurational force
+/// included).
+///
+/// With eliminated constraints the coordinates are those of BeamSystem's state. With multipliers the joint is cut: its
+/// node is there twice, behind each other, tied by 2 D constraints; supports are constraints too, and the reactions
+/// stand at the end of the coordinates. The border then holds the joint's material coordinate (or the free mass's
+/// position) and the multipliers.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
   /// `system` must outlive this object; its events may change it at any time.
   explicit ImplicitBeam(BeamSystem<D>& system) : system_(system) {}
 
-  Eigen::Index coordinates() const override { return system_.coordinates(); }
+  Eigen::Index coordinates() const override;
+  Eigen::Index multipliers() const override;
+  void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
+  void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override;
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
+  ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override;
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
 
+  /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]), at a
+  /// state y and time t.
+  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
+
  private:
   static constexpr int B = node_size<D>;
   using Block = Eigen::Matrix<double, B, B>;
-  void refresh();
+  using NodeVector = Eigen::Matrix<double, B, 1>;
+
+  /// direction . (q of `node` - anchor) = 0, or, tied, direction . (q of `node` - q of the next node) = 0.
+  struct Constraint {
+    int node;
+    NodeVector direction;
+    NodeVector anchor;
+    bool tied;
+
+    double operator()(const double* q, bool rate) const;
+  };
+
+  void refresh() const;
+  bool with_multipliers() const { return system_.model().constraints == Constraints::multipliers; }
+  /// 1 where the joint's node is there twice.
+  int cut() const { return with_multipliers() && system_.has_joint() ? 1 : 0; }
+  int nodes() const { return system_.mesh().last() + 1 + cut(); }
+  /// Where what follows the nodes stands: the joint's material coordinate or the free mass.
+  Eigen::Index after_nodes() const { return Eigen::Index{B} * nodes(); }
+  /// Residual without constraints.
+  double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                       Eigen::VectorXd& r) const;
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                 double by_a);
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
+  void add_constraints(double by_a);
   template <class Function>
   void at_end_nodes(const Function& function) const;
 
   BeamSystem<D>& system_;
-  std::size_t revision_ = static_cast<std::size_t>(-1);
+  mutable std::size_t revision_ = static_cast<std::size_t>(-1);
+  mutable std::vector<Constraint> constraints_;
+  mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
+  double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
-  double by_a_ = 0;
-  Eigen::VectorXd y_, dydt_;
+  Eigen::VectorXd y_, dydt_, free_;
 };
 
 extern template class ImplicitBeam<2>;

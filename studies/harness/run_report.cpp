@@ -48,6 +48,14 @@ Json samples(const Scene& scene, const std::vector<Sample>& rows) {
     energy[name] = of([value = value](const Sample& s) -> Json { return value(s.energy); });
   }
   energy["discrete_total"] = of([](const Sample& s) -> Json { return s.discrete_total; });
+  Json reactions = Json::object();
+  const std::array<std::pair<const char*, SupportType>, 2> ends{{{"start", scene.start.type}, {"end", scene.end.type}}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (ends[i].second == SupportType::free) continue;
+    reactions[ends[i].first] = {
+        {"position", of([d, i](const Sample& s) { return components(s.reactions[i].position, d); })},
+        {"slope", of([d, i](const Sample& s) { return components(s.reactions[i].slope, d); })}};
+  }
   return {{"t", of([](const Sample& s) -> Json { return s.t; })},
           {"joint_position", of([](const Sample& s) { return s.joint_position ? Json(*s.joint_position) : Json(); })},
           {"mass_position",
@@ -55,7 +63,8 @@ Json samples(const Scene& scene, const std::vector<Sample>& rows) {
           {"end", of([d](const Sample& s) { return components(s.end, d); })},
           {"beam_length", of([](const Sample& s) -> Json { return s.beam_length; })},
           {"energy", energy},
-          {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })}};
+          {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })},
+          {"reactions", reactions}};
 }
 
 Json configuration(const Configuration& shape, int d) {
@@ -102,6 +111,9 @@ Json run_report(const Scene& scene, const RunResult& result) {
                       {"newton_iterations", result.solver.newton.iterations},
                       {"tangents", result.solver.newton.tangents},
                       {"longest_newton_iteration", result.solver.newton.longest},
+                      {"constraint_residual",
+                       {{"position", result.solver.newton.constraints.position},
+                        {"velocity", result.solver.newton.constraints.velocity}}},
                       {"largest_kinetic_energy", result.max_kinetic},
                       {"largest_energy_drift", result.max_energy_drift}};
   return report;

@@ -220,13 +220,15 @@ Json run_schema() {
                               {"dissipated", numbers},
                               {"total", numbers},
                               {"discrete_total", numbers}});
+  const Json reaction = record({{"position", array_of(point)}, {"slope", array_of(point)}});
   const Json samples = record({{"t", array_of(number)},
                                {"joint_position", numbers},
                                {"mass_position", array_of(point_or_null)},
                                {"end", array_of(point)},
                                {"beam_length", numbers},
                                {"energy", energy},
-                               {"momentum", array_of(point)}});
+                               {"momentum", array_of(point)},
+                               {"reactions", record({{"start", reaction}, {"end", reaction}}, {"start", "end"})}});
   const Json configuration = record({{"t", number},
                                      {"x", array_of(number)},
                                      {"r", array_of(point)},
@@ -249,6 +251,7 @@ Json run_schema() {
                               {"newton_iterations", whole},
                               {"tangents", whole},
                               {"longest_newton_iteration", array_of(number)},
+                              {"constraint_residual", record({{"position", number}, {"velocity", number}})},
                               {"largest_kinetic_energy", number_or_null},
                               {"largest_energy_drift", number_or_null}});
   Json scene = scene_schema();

@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"/beam/elemnets", "5", "/beam/elemnets", "nearest known key is \"elements\""},
                     BadScene{"/beam/material/youngs modulus", "5", "/beam/material/youngs modulus",
                              "\"youngs_modulus\""},
-                    BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/constraints", "\"eliminated\""},
+                    BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/constraint", "\"eliminated\""},
                     BadScene{"/integrator/step", "0.1"},
                     BadScene{"/supports/0/clmap", "\"full\"", "/supports/0/clmap", "\"clamp\""}, BadScene{"/a~1b", "1"},
                     BadScene{"/beam/curve/radius", "1"}, BadScene{"/supports/0/at=start", "1"}));

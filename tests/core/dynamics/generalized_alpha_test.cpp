@@ -55,6 +55,47 @@ TEST(GeneralizedAlpha, IsOfSecondOrderForAFlexiblePendulum) {
   for (const double rho_inf : {0.5, 0.9, 1.0}) expect_second_order(pendulum(), 1e-3, 0.1, rho_inf);
 }
 
+TEST(GeneralizedAlpha, FullNewtonConvergesQuadratically) {
+  Scene scene = pendulum();
+  scene.gravity_ramp = 0;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = 0.02;
+  scene.integrator.newton = NewtonKind::full;
+  scene.integrator.newton_tolerance = 1e-14;
+  const auto history = simulate(scene).solver.newton.longest;
+  ASSERT_GE(history.size(), 4u);
+  int quadratic = 0;  // where rounding does not yet show
+  for (std::size_t i = 1; i < history.size() && history[i] > 1e-13; ++i) {
+    if (history[i - 1] < 0.03) {
+      EXPECT_LE(history[i], 30 * history[i - 1] * history[i - 1]);
+      ++quadratic;
+    }
+  }
+  EXPECT_GE(quadratic, 2);
+}
+
+TEST(GeneralizedAlpha, FullAndModifiedNewtonGiveTheSameMotion) {
+  Scene scene = pendulum();
+  const Eigen::Vector4d modified = final_state(scene, 1e-3);
+  scene.integrator.newton = NewtonKind::full;
+  EXPECT_LE((final_state(scene, 1e-3) - modified).norm(), 1e-7);
+}
+
+TEST(GeneralizedAlpha, AnAdaptiveStepFollowsTheTolerance) {
+  Scene scene = pendulum();
+  scene.duration = 1;
+  const Eigen::Vector4d exact = final_state(scene, 0);
+  std::array<double, 3> errors{};
+  scene.integrator.adaptive = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    scene.integrator.rtol = scene.integrator.atol = std::pow(10, -4 - static_cast<double>(i));
+    errors[i] = (final_state(scene, 0.05) - exact).head<2>().norm();
+  }
+  EXPECT_LT(errors[1], errors[0] / 2);
+  EXPECT_LT(errors[2], errors[1] / 2);
+  EXPECT_LT(errors[2], 3e-4);
+}
+
 TEST(GeneralizedAlpha, RejectsAStepThatNewtonCannotSolveAndGoesOn) {
   Scene scene = pendulum();
   scene.gravity_ramp = 0;

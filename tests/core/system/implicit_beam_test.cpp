@@ -15,16 +15,15 @@ TYPED_TEST_SUITE(ImplicitBeamTest, Dimensions);
 /// A supported, damped chain in motion, with its coordinates, velocities and some acceleration.
 template <int D>
 struct Case {
-  explicit Case(const ChainShape& shape, unsigned seed) : random(seed) {
+  Case(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated) : random(seed) {
     auto model = model_of<D>(shape, random);
     model.section.damping = 0.01;
     model.start = Support<D>::direction_clamp(random.vector<D>());
     model.end = Support<D>::pin();
+    model.constraints = constraints;
     system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
-    const Eigen::Index n = system->coordinates();
-    const auto y = system->initial_state();
-    q = y.head(n);
-    v = y.segment(n, n);
+    system->second_order()->expand(system->initial_state(), q, v);
+    const Eigen::Index n = q.size();
     a = Eigen::VectorXd::NullaryExpr(n, [this] { return random.uniform(-3, 3); });
   }
 
@@ -41,11 +40,19 @@ const std::vector<ChainShape> shapes{
     {.elements = 2, .joint = 1, .rational = true},
     {.elements = 5, .joint = 3, .rational = true, .transport = WeightTransport::transported}};
 
+std::vector<std::pair<ChainShape, Constraints>> cases() {
+  std::vector<std::pair<ChainShape, Constraints>> result;
+  for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
+    for (const auto& shape : shapes) result.emplace_back(shape, constraints);
+  }
+  return result;
+}
+
 TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
   constexpr int D = TypeParam::value;
   unsigned seed = 1;
-  for (const auto& shape : shapes) {
-    Case<D> c(shape, seed++);
+  for (const auto& [shape, constraints] : cases()) {
+    Case<D> c(shape, seed++, constraints);
     auto& implicit = *c.system->second_order();
     Eigen::VectorXd a(c.q.size()), r(c.q.size());
     implicit.acceleration(c.q, c.v, 0, a);
@@ -58,8 +65,8 @@ TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
 TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   unsigned seed = 11;
-  for (const auto& shape : shapes) {
-    Case<D> c(shape, seed++);
+  for (const auto& [shape, constraints] : cases()) {
+    Case<D> c(shape, seed++, constraints);
     auto& implicit = *c.system->second_order();
     const Eigen::Index n = c.q.size();
     const double by_v = 7, by_a = 300;
@@ -82,6 +89,29 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
     implicit.solve(r);
     EXPECT_LE((r - d).norm(), 1e-6) << "elements " << shape.elements << " joint " << shape.joint;
   }
+}
+
+TYPED_TEST(ImplicitBeamTest, ReactionsAreTheMultipliers) {
+  constexpr int D = TypeParam::value;
+  constexpr int B = node_size<D>;
+  const ChainShape shape{.elements = 5, .joint = 2, .rational = true};
+  Case<D> c(shape, 31, Constraints::multipliers);
+  const auto y = c.system->initial_state();
+  const auto reactions = c.system->reactions(y, 0);
+  auto& implicit = *c.system->second_order();
+  Eigen::VectorXd a;
+  implicit.acceleration(c.q, c.v, 0, a);
+  ASSERT_EQ(implicit.multipliers(), (2 * D - 1) + D + B);  // direction clamp, pin, the joint's two halves
+  // the pin at the end: what the multipliers leave out of M a - Q is what its node gets
+  Eigen::VectorXd r(a.size());
+  Eigen::VectorXd without = a;
+  without.tail(implicit.multipliers()).setZero();
+  implicit.residual(c.q, c.v, without, 0, r);
+  EXPECT_LE((r.template head<B>() - reactions[0]).norm(), 1e-10);
+  const Eigen::Index last = implicit.coordinates() - implicit.multipliers() - 1 - B;
+  EXPECT_LE((r.template segment<B>(last) - reactions[1]).norm(), 1e-10);
+  EXPECT_GT(reactions[1].template head<D>().norm(), 1e-3);
+  EXPECT_LE(reactions[1].template tail<D>().norm(), 1e-10) << "a pin holds no slope";
 }
 
 }  // namespace

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace vlbeam {
+
+/// How an implicit method treats supports and the continuity of the beam at the joint.
+enum class Constraints {
+  eliminated,   ///< the coordinates they fix or tie are left out
+  multipliers,  ///< they are equations, and their reactions unknowns
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/scene/simulate.hpp"
+#include "tests/core/support/scenes.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+TEST(Multipliers, GiveTheTrajectoryOfEliminatedConstraints) {
+  for (const auto clamp : {ClampType::direction, ClampType::full}) {
+    auto scene = falling_beam(ElementKind::ale_rancf, 6);
+    scene.start.clamp = clamp;
+    scene.duration = 0.4;  // across length-control events
+    scene.output.interval = 0.1;
+    scene.integrator.type = IntegratorType::generalized_alpha;
+    scene.integrator.step = 1e-3;
+    scene.integrator.newton_tolerance = 1e-13;
+    const auto eliminated = simulate(scene);
+    scene.constraints = Constraints::multipliers;
+    const auto multipliers = simulate(scene);
+    ASSERT_EQ(eliminated.events.size(), multipliers.events.size());
+    ASSERT_GE(eliminated.events.size(), 1U);
+    for (std::size_t i = 0; i < eliminated.samples.size(); ++i) {
+      const auto &a = eliminated.samples[i], &b = multipliers.samples[i];
+      EXPECT_NEAR(*a.joint_position, *b.joint_position, 1e-8);
+      for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_NEAR(a.end[c], b.end[c], 1e-8);
+        EXPECT_NEAR(a.momentum[c], b.momentum[c], 1e-6);
+      }
+    }
+    const auto& residual = multipliers.solver.newton.constraints;
+    EXPECT_LE(residual.position, 1e-12);
+    EXPECT_LE(residual.velocity, 1e-8);
+    EXPECT_GT(residual.velocity, 0) << "there are constraints";
+  }
+}
+
+TEST(Multipliers, AreOfSecondOrder) {
+  // gravity grows smoothly and no event is due
+  auto scene = falling_beam(ElementKind::ale_ancf, 4);
+  scene.gravity_ramp = 0.2;
+  scene.duration = 0.2;
+  scene.output.interval = 0.2;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.newton_tolerance = 1e-13;
+  scene.constraints = Constraints::multipliers;
+  std::array<Eigen::VectorXd, 4> multipliers;
+  scene.integrator.step = 1e-3;
+  for (auto& result : multipliers) {
+    const auto run = simulate(scene);
+    ASSERT_TRUE(run.events.empty());
+    result = run.solver.newton.multipliers;
+    scene.integrator.step /= 2;
+  }
+  ASSERT_EQ(multipliers[0].size(), 7);  // a direction clamp and the two halves of the joint
+  const double first = (multipliers[0] - multipliers[1]).norm(), second = (multipliers[1] - multipliers[2]).norm(),
+               third = (multipliers[2] - multipliers[3]).norm();
+  EXPECT_NEAR(std::log2(first / second), 2, 0.2);
+  EXPECT_NEAR(std::log2(second / third), 2, 0.1);
+}
+
+TEST(Multipliers, WorkInSpaceAndWithoutAJoint) {
+  auto scene = falling_beam(ElementKind::ancf, 4);
+  scene.sliding_mass.reset();
+  scene.dimension = 3;
+  scene.start.type = SupportType::pin;
+  scene.duration = 0.2;
+  scene.output.interval = 0.1;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.newton_tolerance = 1e-13;
+  const auto eliminated = simulate(scene);
+  scene.constraints = Constraints::multipliers;
+  const auto multipliers = simulate(scene);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(eliminated.samples.back().end[c], multipliers.samples.back().end[c], 1e-9);
+  }
+}
+
+TEST(Multipliers, HoldTheWeightOfABeamAtRest) {
+  // damped until it hangs still: the clamp then carries the weight of everything
+  auto scene = falling_beam(ElementKind::ale_ancf, 6);
+  scene.beam.material.damping = 0.05;
+  scene.beam.material.youngs_modulus = 2e9;
+  scene.sliding_mass.reset();
+  scene.gravity_ramp = 1;
+  scene.duration = 8;
+  scene.output.interval = 8;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = 0.01;
+  scene.integrator.rho_inf = 0.5;
+  scene.constraints = Constraints::multipliers;
+  const auto result = simulate(scene);
+  const double weight = 7200 * 3.141592653589793 * 1e-4 * 9.81;
+  EXPECT_NEAR(result.samples.back().reactions[0].position[1], weight, 1e-6 * weight);
+  EXPECT_NEAR(result.samples.back().reactions[0].position[0], 0, 1e-6 * weight);
+}
+
+}  // namespace
+}  // namespace vlbeam::test
