@@ -70,6 +70,24 @@ class BorderedBlockTridiagonal {
     for (std::size_t k = 0; k < diagonal.size(); ++k) block(x, k) -= block(column_.data(), k) * extra;
   }
 
+  /// Writes the matrix, not yet factored, into the leading part of a dense one of zeros.
+  void expand(Eigen::MatrixXd& dense) const {
+    const Eigen::Index n = nodes();
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      dense.block<B, B>(B * k, B * k) = diagonal[i];
+      if (k + 1 < n) dense.block<B, B>(B * k, B * (k + 1)) = upper[i];
+      if (k > 0) dense.block<B, B>(B * k, B * (k - 1)) = lower[i];
+    }
+    if (!bordered()) return;
+    for (std::size_t i = 0; i < border_reach; ++i) {
+      const Eigen::Index at = B * (border_first_ + static_cast<Eigen::Index>(i));
+      dense.block<B, 1>(at, B * n) = column[i];
+      dense.block<1, B>(B * n, at) = row[i].transpose();
+    }
+    dense(B * n, B * n) = corner;
+  }
+
   std::vector<Block> diagonal, upper, lower;  ///< upper[k] couples k to k + 1, lower[k] couples k to k - 1
   std::array<Vector, border_reach> column, row;
   double corner = 0;

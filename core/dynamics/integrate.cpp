@@ -17,8 +17,15 @@ constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the en
 constexpr int longest_cascade = 8;         // events at one instant
 
 std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options) {
-  if (options.type != IntegratorType::generalized_alpha) return make_odeint_stepper(options.type, options.tolerances);
+  if (options.type != IntegratorType::generalized_alpha) {
+    return make_odeint_stepper(options.type, options.tolerances, options.step);
+  }
   return make_generalized_alpha(*ode.second_order(), options.generalized_alpha);
+}
+
+double first_step(const IntegrationOptions& options) {
+  if (!has_fixed_step(options.type)) return options.first_step;
+  return options.type == IntegratorType::generalized_alpha ? options.generalized_alpha.step : options.step;
 }
 
 /// A method that met an undefined state may propose no usable step at all.
@@ -62,16 +69,18 @@ struct Located {
   double t = 0;
 };
 
-/// The first event in the step from (t0, y0) to (t1, y1), or index -1.
+/// The first event in the step from (t0, y0) to (t1, y1), or index -1. Without `locate` its time is t1.
 Located first_event(const EventedOde& ode, SideStepper& side, const Stepper& main, const Eigen::VectorXd& y0, double t0,
-                    const Eigen::VectorXd& y1, double t1) {
+                    const Eigen::VectorXd& y1, double t1, bool locate) {
   const Guards at_start = ode.guards(y0, t0), at_end = ode.guards(y1, t1);
   Located first;
   for (int i = 0; i < max_guards; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (at_end[k] <= event_tolerance) continue;
     double t = t0;
-    if (at_start[k] < -guard_tolerance) {
+    if (at_start[k] < -guard_tolerance && !locate) {
+      t = t1;
+    } else if (at_start[k] < -guard_tolerance) {
       auto guard = [&](double tau) {
         const double value = ode.guards(side.at(main, y0, t0, t0 + tau), t0 + tau)[k];
         return std::abs(value) <= guard_tolerance ? 0.0 : value;
@@ -100,8 +109,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   auto stepper = make_stepper(ode, options);
   SideStepper side(ode, options);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
-  const bool fixed_step = options.type == IntegratorType::generalized_alpha;
-  double dt = std::min(fixed_step ? options.generalized_alpha.step : options.first_step, t_end - t);
+  double dt = std::min(first_step(options), t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
   Eigen::VectorXd before = y;
   double last_event = t - 1;
@@ -132,8 +140,8 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (last) t = t_end;
     ++counters.steps;
 
-    const Located event = first_event(ode, side, *stepper, before, t_before, y, t);
-    if (event.index >= 0) {
+    const Located event = first_event(ode, side, *stepper, before, t_before, y, t, options.locate_events);
+    if (event.index >= 0 && event.t < t) {
       t = event.t;
       y = t > t_before ? side.at(*stepper, before, t_before, t) : before;
     } else if (!last) {

@@ -121,6 +121,14 @@ void check_length_control(const Scene& scene) {
   }
 }
 
+void check_integrator(const Scene& scene) {
+  const IntegratorSpec& integrator = scene.integrator;
+  if (has_fixed_step(integrator.type) && integrator.step > scene.duration) {
+    refuse("/integrator/step", number_text(integrator.step),
+           "it must be at most the duration, " + number_text(scene.duration) + " [s]");
+  }
+}
+
 void check_output(const Scene& scene) {
   constexpr double most_samples = 1e7;
   if (scene.duration / scene.output.interval > most_samples) {
@@ -146,6 +154,7 @@ void validate(const Scene& scene) {
   check_beam(scene);
   check_sliding_mass(scene);
   check_length_control(scene);
+  check_integrator(scene);
   check_output(scene);
 }
 

@@ -31,6 +31,8 @@ struct BeamModel {
 /// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
 /// differentiable at both ends.
 double gravity_share(double t, double ramp);
+/// Its time derivative, 140 s^3 (1 - s)^3 / T_r [1/s].
+double gravity_share_rate(double t, double ramp);
 
 /// Quantities of the whole system at one instant.
 template <int D>
@@ -79,8 +81,13 @@ class BeamSystem final : public EventedOde {
 
   const BeamModel<D>& model() const { return model_; }
   Eigen::VectorXd initial_state() const { return initial_; }
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
+    second_order()->jacobian(y, t, dfdy, dfdt);
+  }
   SecondOrderSystem* second_order() override;
+  /// Evaluations of the equations, as accelerations or as a residual.
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
+  void count_evaluation() { ++rhs_evaluations_; }
 
   /// Mesh and motion at state y.
   ChainState<D> chain(const Eigen::VectorXd& y) const;

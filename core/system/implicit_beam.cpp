@@ -186,6 +186,7 @@ template <int D>
 double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                  Eigen::VectorXd& r) {
   refresh();
+  system_.count_evaluation();
   const auto& model = system_.model();
   r.setZero();
   double dissipation = system_.add_fixed_forces(q.data(), v.data(), t, r.data());
@@ -234,6 +235,14 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
+  assemble(q, v, a, t, by_v, by_a);
+  constrain_tangent();
+  return tangent_.factor();
+}
+
+template <int D>
+void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                               double by_v, double by_a) {
   refresh();
   by_a_ = by_a;
   const auto& model = system_.model();
@@ -303,8 +312,6 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
     add.template operator()<MovingEnds::a>(j, mesh.x[ju + 1], system_.right_table());
     tangent_.diagonal[ju].template topLeftCorner<D, D>().diagonal().array() += by_a * model.joint->mass;
   }
-  constrain_tangent();
-  return tangent_.factor();
 }
 
 template <int D>

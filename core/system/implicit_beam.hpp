@@ -25,6 +25,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
 
  private:
   static constexpr int B = node_size<D>;
@@ -36,9 +37,13 @@ class ImplicitBeam final : public SecondOrderSystem {
   };
 
   void refresh();
+  /// The tangent before supports and factorization.
+  void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
+                double by_a);
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
+  void add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   template <class Function>
   void at_end_nodes(const Function& function) const;
 
@@ -48,6 +53,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   BorderedBlockTridiagonal<B> tangent_;
   double by_a_ = 0;
   Eigen::VectorXd y_, dydt_;
+  Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian
+  Eigen::MatrixXd stiffness_, damping_;
 };
 
 extern template class ImplicitBeam<2>;
