@@ -33,6 +33,7 @@ class BorderedBlockTridiagonal {
     lower.assign(n, Block::Zero());
     inverse_.resize(n);
     border.clear();
+    corner.resize(0, 0);
   }
 
   /// One more unknown, which couples to nodes from `first` on, or just to the last ones before it where there are
@@ -42,7 +43,7 @@ class BorderedBlockTridiagonal {
     added.first = first;
     added.column.fill(Vector::Zero());
     added.row.fill(Vector::Zero());
-    corner = Corner::Zero(borders(), borders());
+    corner.conservativeResizeLike(Corner::Zero(borders(), borders()));
     return added;
   }
 
@@ -93,9 +94,29 @@ class BorderedBlockTridiagonal {
     }
   }
 
+  /// Writes the matrix, not yet factored, into the leading part of a dense one of zeros.
+  void expand(Eigen::MatrixXd& dense) const {
+    const Eigen::Index n = nodes();
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      dense.block<B, B>(B * k, B * k) = diagonal[i];
+      if (k + 1 < n) dense.block<B, B>(B * k, B * (k + 1)) = upper[i];
+      if (k > 0) dense.block<B, B>(B * k, B * (k - 1)) = lower[i];
+    }
+    for (int j = 0; j < borders(); ++j) {
+      const Border& b = border[static_cast<std::size_t>(j)];
+      for (int i = 0; i < reached(b); ++i) {
+        const Eigen::Index at = B * (b.first + i);
+        dense.block<B, 1>(at, B * n + j) = b.column[static_cast<std::size_t>(i)];
+        dense.block<1, B>(B * n + j, at) = b.row[static_cast<std::size_t>(i)].transpose();
+      }
+    }
+    if (borders() > 0) dense.block(B * n, B * n, borders(), borders()) = corner;
+  }
+
   std::vector<Block> diagonal, upper, lower;  ///< upper[k] couples k to k + 1, lower[k] couples k to k - 1
   std::vector<Border> border;
-  Corner corner;  ///< among the border's unknowns; zero after add_border
+  Corner corner;  ///< among the border's unknowns; new ones are zero
 
  private:
   static Eigen::Map<Vector> block(double* x, int k) { return Eigen::Map<Vector>(x + B * k); }

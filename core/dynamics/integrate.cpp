@@ -19,8 +19,15 @@ constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int longest_cascade = 8;         // events at one instant
 
 std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters) {
-  if (options.type != IntegratorType::generalized_alpha) return make_odeint_stepper(options.type, options.tolerances);
+  if (options.type != IntegratorType::generalized_alpha) {
+    return make_odeint_stepper(options.type, options.tolerances, options.step);
+  }
   return make_generalized_alpha(*ode.second_order(), options.generalized_alpha, &counters.newton);
+}
+
+double first_step(const IntegrationOptions& options) {
+  if (!has_fixed_step(options.type)) return options.first_step;
+  return options.type == IntegratorType::generalized_alpha ? options.generalized_alpha.step : options.step;
 }
 
 /// A method that met an undefined state may propose no usable step at all.
@@ -124,14 +131,14 @@ Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const St
   }
 }
 
-/// The first event in the step, or index -1.
-Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step) {
+/// The first event in the step, or index -1. Without `exactly` its time is the end of the step.
+Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, bool exactly) {
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
   Located first;
   for (std::size_t k = 0; k < max_guards; ++k) {
     if (at_end[k] <= event_tolerance) continue;
     if (at_start[k] >= -guard_tolerance) return {static_cast<int>(k), step.t0, step.y0};
-    const Located found = locate(ode, side, main, step, k);
+    const Located found = exactly ? locate(ode, side, main, step, k) : Located{static_cast<int>(k), step.t1, step.y1};
     if (first.index < 0 || found.t < first.t) first = found;
   }
   return first;
@@ -151,8 +158,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   auto stepper = make_stepper(ode, options, counters);
   SideStepper side(ode, options, counters);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
-  const bool fixed_step = options.type == IntegratorType::generalized_alpha;
-  double dt = std::min(fixed_step ? options.generalized_alpha.step : options.first_step, t_end - t);
+  double dt = std::min(first_step(options), t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
   Eigen::VectorXd before = y;
   double last_event = t - 1;
@@ -183,8 +189,8 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (last) t = t_end;
     ++counters.steps;
 
-    const Located event = first_event(ode, side, *stepper, {t_before, before, t, y});
-    if (event.index >= 0) {
+    const Located event = first_event(ode, side, *stepper, {t_before, before, t, y}, options.locate_events);
+    if (event.index >= 0 && event.t < t) {
       t = event.t;
       y = event.y;
     } else if (!last) {

@@ -35,14 +35,16 @@ struct IntegrationOptions {
   IntegratorType type = IntegratorType::dopri5;
   Tolerances tolerances;
   double first_step = 1e-6;  ///< [s], of the methods that choose their step
+  double step = 1e-3;        ///< [s], of Adams-Bashforth-Moulton
   GeneralizedAlphaOptions generalized_alpha;
+  bool locate_events = true;  ///< false: an event happens at the end of the step in which it is due
 };
 
 /// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start
 /// where the step across them started, so that they have its full order and neither the steps nor the results depend on
-/// the output. An event is located where its guard is zero to 1e-12.
-/// Returns false if interrupted. Throws ComputationFailed on step underflow and on a cascade of events without progress
-/// in time; `y` and `t` are then the last good state.
+/// the output. An event is located where its guard is zero to 1e-12, unless the options let it come late: by up to a
+/// step, which leaves any method of first order. Returns false if interrupted. Throws ComputationFailed on step
+/// underflow and on a cascade of events without progress in time; `y` and `t` are then the last good state.
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters);
 

@@ -14,6 +14,8 @@ class Ode {
   virtual Eigen::Index size() const = 0;
   /// Writes f(y, t) into `dydt`, already of the right size. Allocates nothing.
   virtual void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) = 0;
+  /// Writes df/dy and df/dt, both already of the right size.
+  virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
   /// The same equations as an implicit method needs them, y = (q, q', ...); null where there are none.
   virtual SecondOrderSystem* second_order() { return nullptr; }
 };

@@ -1,7 +1,13 @@
 // The only file that includes Boost.Odeint.
+#define BOOST_UBLAS_NDEBUG  // uBLAS would check each factorization by multiplying it out
+
+#include <boost/numeric/odeint/stepper/adams_bashforth_moulton.hpp>
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/extrapolation_stepper.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/rosenbrock4.hpp>
+#include <boost/numeric/odeint/stepper/rosenbrock4_controller.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
@@ -9,12 +15,17 @@
 // specialises templates that the headers above declare
 #include <boost/numeric/odeint/external/eigen/eigen.hpp>
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 #include "core/dynamics/stepper.hpp"
 
 namespace vlbeam {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
+namespace ublas = boost::numeric::ublas;
 using State = Eigen::VectorXd;
 
 template <class Controlled>
@@ -39,9 +50,96 @@ std::unique_ptr<Stepper> wrap(const Controlled& controlled) {
   return std::make_unique<OdeintStepper<Controlled>>(controlled);
 }
 
+class AdamsBashforthMoulton final : public Stepper {
+ public:
+  explicit AdamsBashforthMoulton(double step) : step_(step) {}
+
+  bool try_step(Ode& ode, State& y, double& t, double& dt) override {
+    auto system = [&ode](const State& at, State& dydt, double time) { ode.rhs(at, dydt, time); };
+    next_.resize(y.size());
+    if (dt < step_) {
+      reset();  // the history is one of equal steps
+      single_->do_step(system, y, t, next_, dt);
+      t += dt;
+    } else {
+      // neither in place, which its first steps do not stand, nor of a size it finds out by itself
+      if (!sized_) multistep_->adjust_size(y);
+      sized_ = true;
+      multistep_->do_step(system, y, t, next_, step_);
+      t += step_;
+    }
+    y.swap(next_);
+    dt = step_;
+    return true;
+  }
+
+  void reset() override {
+    multistep_.emplace();
+    single_.emplace();
+    sized_ = false;
+  }
+
+ private:
+  using Starter = odeint::extrapolation_stepper<6, State>;
+  using Multistep = odeint::adams_bashforth_moulton<5, State, double, State, double, odeint::vector_space_algebra,
+                                                    odeint::default_operations, odeint::initially_resizer, Starter>;
+
+  double step_;
+  std::optional<Multistep> multistep_{std::in_place};
+  std::optional<Starter> single_{std::in_place};
+  bool sized_ = false;
+  State next_;
+};
+
+/// Hairer & Wanner's RODAS (1996), with the sign of d4 as it is there. Odeint has the other one, which makes the method
+/// one of first order where the equations depend on time.
+struct Rodas : odeint::default_rosenbrock_coefficients<double> {
+  const double d4 = -0.3620000000000023e-01;
+};
+
+/// Odeint has this method for uBLAS only.
+class Rosenbrock4 final : public Stepper {
+ public:
+  explicit Rosenbrock4(const Tolerances& tolerances) : tolerances_(tolerances) { reset(); }
+
+  bool try_step(Ode& ode, State& y, double& t, double& dt) override {
+    const Eigen::Index n = y.size();
+    y_.resize(static_cast<std::size_t>(n), false);
+    std::copy(y.begin(), y.end(), y_.begin());
+    at_.resize(n);
+    dydt_.resize(n);
+    auto derivative = [&](const Vector& at, Vector& dydt, double time) {
+      std::copy(at.begin(), at.end(), at_.begin());
+      ode.rhs(at_, dydt_, time);
+      std::copy(dydt_.begin(), dydt_.end(), dydt.begin());
+    };
+    auto jacobian = [&](const Vector& at, ublas::matrix<double>& dfdy, double time, Vector& dfdt) {
+      dfdy_.resize(n, n);
+      std::copy(at.begin(), at.end(), at_.begin());
+      ode.jacobian(at_, time, dfdy_, dydt_);
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(&dfdy(0, 0), n, n) = dfdy_;
+      std::copy(dydt_.begin(), dydt_.end(), dfdt.begin());
+    };
+    const auto outcome = controlled_->try_step(std::pair(derivative, jacobian), y_, t, dt);
+    if (outcome == odeint::success) std::copy(y_.begin(), y_.end(), y.begin());
+    return outcome == odeint::success;
+  }
+
+  void reset() override { controlled_.emplace(tolerances_.atol, tolerances_.rtol); }
+
+ private:
+  using Vector = ublas::vector<double>;
+
+  Tolerances tolerances_;
+  std::optional<odeint::rosenbrock4_controller<odeint::rosenbrock4<double, Rodas>>> controlled_;
+  Vector y_;
+  State at_, dydt_;
+  Eigen::MatrixXd dfdy_;
+};
+
 }  // namespace
 
-std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Tolerances& tolerances) {
+std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Tolerances& tolerances, double step) {
   const double atol = tolerances.atol, rtol = tolerances.rtol;
   switch (type) {
     case IntegratorType::cash_karp:
@@ -50,6 +148,10 @@ std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Toleranc
       return wrap(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(atol, rtol));
     case IntegratorType::bulirsch_stoer:
       return wrap(odeint::bulirsch_stoer<State>(atol, rtol));
+    case IntegratorType::adams_bashforth_moulton:
+      return std::make_unique<AdamsBashforthMoulton>(step);
+    case IntegratorType::rosenbrock4:
+      return std::make_unique<Rosenbrock4>(tolerances);
     case IntegratorType::dopri5:
     case IntegratorType::generalized_alpha:  // not one of Odeint's
       break;

@@ -44,6 +44,8 @@ class SecondOrderSystem {
                          double by_v, double by_a) = 0;
   /// Solves with the last factored matrix, in place.
   virtual void solve(Eigen::VectorXd& r) const = 0;
+  /// Jacobian of the same equations in first order, y = (q, q', ...): Ode::jacobian().
+  virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
 };
 
 }  // namespace vlbeam

@@ -6,19 +6,32 @@
 
 namespace vlbeam {
 
-enum class IntegratorType { dopri5, cash_karp, fehlberg78, bulirsch_stoer, generalized_alpha };
+enum class IntegratorType {
+  dopri5,
+  cash_karp,
+  fehlberg78,
+  bulirsch_stoer,
+  adams_bashforth_moulton,
+  rosenbrock4,
+  generalized_alpha
+};
+
+/// Whether a method takes steps of one given length; the others choose it by their tolerances.
+constexpr bool has_fixed_step(IntegratorType type) {
+  return type == IntegratorType::adams_bashforth_moulton || type == IntegratorType::generalized_alpha;
+}
 
 struct Tolerances {
   double rtol = 1e-9;
   double atol = 1e-9;
 };
 
-/// One step of a method with error control.
+/// One step of a method.
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// Tries one step of length `dt` from (t, y). When it meets the tolerances, moves y and t and proposes the next `dt`;
-  /// otherwise leaves them, shortens `dt` and returns false.
+  /// Tries one step of length `dt`, or of its fixed length if that is shorter, from (t, y). When it meets the
+  /// tolerances, moves y and t and proposes the next `dt`; otherwise leaves them, shortens `dt` and returns false.
   virtual bool try_step(Ode& ode, Eigen::VectorXd& y, double& t, double& dt) = 0;
   /// Forgets what it kept of earlier steps: for a state or an equation that is not the last step's.
   virtual void reset() = 0;
@@ -26,7 +39,13 @@ class Stepper {
   virtual void resume(const Stepper& /*other*/) { reset(); }
 };
 
-/// A Boost.Odeint method with step size control, ready for its first step.
-std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Tolerances& tolerances);
+/// A Boost.Odeint method, ready for its first step. Those that choose their step look at `tolerances`.
+/// Rosenbrock4 solves dense systems of the size of the state at each step: for stiff equations of at most some hundred
+/// unknowns, about 20 planar elements.
+///
+/// The Adams-Bashforth-Moulton method has five steps of length `step` [s] and order five, at two evaluations a step.
+/// Its step is fixed: what makes a multistep method cheap is its history at equal distances, and every event breaks
+/// that history anyway. Steps without it, the first four and shortened ones, are extrapolated and of sixth order.
+std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Tolerances& tolerances, double step);
 
 }  // namespace vlbeam

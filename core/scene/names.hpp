@@ -47,6 +47,8 @@ constexpr auto names(IntegratorType) {
                                                {cash_karp, "cash-karp"},
                                                {fehlberg78, "fehlberg78"},
                                                {bulirsch_stoer, "bulirsch-stoer"},
+                                               {adams_bashforth_moulton, "adams-bashforth-moulton"},
+                                               {rosenbrock4, "rosenbrock4"},
                                                {generalized_alpha, "generalized-alpha"}});
 }
 constexpr auto names(Constraints) {

@@ -83,11 +83,12 @@ struct IntegratorSpec {
   IntegratorType type = IntegratorType::dopri5;
   double rtol = 1e-9;                        ///< error-controlled methods
   double atol = 1e-9;                        ///< error-controlled methods
-  double step = 1e-3;                        ///< generalized-alpha [s]
+  double step = 1e-3;                        ///< methods of fixed step [s]
   double rho_inf = 0.9;                      ///< generalized-alpha: spectral radius at infinity
   NewtonKind newton = NewtonKind::modified;  ///< generalized-alpha
   double newton_tolerance = 1e-10;           ///< generalized-alpha: of Newton's correction, relative
   bool adaptive = false;                     ///< generalized-alpha: the step follows rtol and atol
+  bool locate_events = true;
 };
 
 struct OutputSpec {

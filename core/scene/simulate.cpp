@@ -73,7 +73,12 @@ class Run {
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
     const double wave_time = shortest * std::sqrt(beam.rhoA / std::max(beam.stiffness.EA, beam.stiffness.EI));
     const auto& integrator = scene_.integrator;
-    IntegrationOptions options{integrator.type, {integrator.rtol, integrator.atol}, first_step_courant * wave_time, {}};
+    IntegrationOptions options;
+    options.type = integrator.type;
+    options.tolerances = {integrator.rtol, integrator.atol};
+    options.first_step = first_step_courant * wave_time;
+    options.locate_events = integrator.locate_events;
+    options.step = integrator.step;
     options.generalized_alpha = {.step = integrator.step,
                                  .rho_inf = integrator.rho_inf,
                                  .newton = integrator.newton,

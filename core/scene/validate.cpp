@@ -122,15 +122,15 @@ void check_length_control(const Scene& scene) {
 }
 
 void check_integrator(const Scene& scene) {
-  const auto& integrator = scene.integrator;
+  const IntegratorSpec& integrator = scene.integrator;
   if (scene.constraints == Constraints::multipliers && integrator.type != IntegratorType::generalized_alpha) {
     refuse("/constraints", "\"multipliers\"",
            "\"" + std::string(to_string(integrator.type)) +
                "\" integrates minimal coordinates: take \"eliminated\", or the integrator \"generalized-alpha\"");
   }
-  if (integrator.type == IntegratorType::generalized_alpha && integrator.step > scene.duration) {
+  if (has_fixed_step(integrator.type) && integrator.step > scene.duration) {
     refuse("/integrator/step", number_text(integrator.step),
-           "it must not be longer than the duration, " + number_text(scene.duration) + " s");
+           "it must be at most the duration, " + number_text(scene.duration) + " [s]");
   }
 }
 

@@ -34,6 +34,12 @@ double gravity_share(double t, double ramp) {
   return s * s * s * s * (35 + s * (-84 + s * (70 - 20 * s)));
 }
 
+double gravity_share_rate(double t, double ramp) {
+  if (t >= ramp) return 0;
+  const double s = t / ramp, product = s * (1 - s);
+  return 140 * product * product * product / ramp;
+}
+
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
   adopt(chain);

@@ -33,6 +33,8 @@ struct BeamModel {
 /// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
 /// differentiable at both ends.
 double gravity_share(double t, double ramp);
+/// Its time derivative, 140 s^3 (1 - s)^3 / T_r [1/s].
+double gravity_share_rate(double t, double ramp);
 
 /// Quantities of the whole system at one instant.
 template <int D>
@@ -87,10 +89,15 @@ class BeamSystem final : public EventedOde {
   /// Gravity at time t [m/s^2].
   Vector gravity(double t) const { return model_.gravity * gravity_share(t, model_.gravity_ramp); }
   Eigen::VectorXd initial_state() const { return initial_; }
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
+    second_order()->jacobian(y, t, dfdy, dfdt);
+  }
   SecondOrderSystem* second_order() override;
   /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]).
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
+  /// Evaluations of the equations, as accelerations or as a residual.
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
+  void count_evaluation() { ++rhs_evaluations_; }
 
   /// Mesh and motion at state y.
   ChainState<D> chain(const Eigen::VectorXd& y) const;

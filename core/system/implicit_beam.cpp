@@ -180,6 +180,7 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
 template <int D>
 double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                  Eigen::VectorXd& r) {
+  system_.count_evaluation();
   const Eigen::Index first = coordinates() - multipliers();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
@@ -250,17 +251,17 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     for (int c = 0; c < D; ++c) tangent_.add_border(0);
     tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
   }
-  if (with_multipliers()) {
-    add_constraints(by_a);
-  } else {
-    constrain_tangent();
-  }
 }
 
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
   assemble(q, v, a, t, by_v, by_a);
+  if (with_multipliers()) {
+    add_constraints(by_a);
+  } else {
+    constrain_tangent();
+  }
   return tangent_.factor();
 }
 template <int D>
@@ -299,14 +300,11 @@ void ImplicitBeam<D>::constrain_tangent() {
 template <int D>
 void ImplicitBeam<D>::add_constraints(double by_a) {
   constraint_scale_ = reference_mass_ * by_a;
-  const typename BorderedBlockTridiagonal<B>::Corner corner = tangent_.corner;
-  const bool moving = tangent_.borders() > 0;
   for (const auto& constraint : constraints_) {
     auto& border = tangent_.add_border(constraint.node);
     border.column[0] = border.row[0] = constraint_scale_ * constraint.direction;
     if (constraint.tied) border.column[1] = border.row[1] = -constraint_scale_ * constraint.direction;
   }
-  if (moving) tangent_.corner.topLeftCorner(corner.rows(), corner.cols()) = corner;
 }
 
 template <int D>

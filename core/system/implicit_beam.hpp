@@ -34,6 +34,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
 
   /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]), at a
   /// state y and time t.
@@ -64,12 +65,14 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// Residual without constraints.
   double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                        Eigen::VectorXd& r) const;
+  /// The tangent before constraints and factorization.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                 double by_a);
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
   void add_constraints(double by_a);
+  void add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   template <class Function>
   void at_end_nodes(const Function& function) const;
 
@@ -80,6 +83,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
   Eigen::VectorXd y_, dydt_, free_;
+  Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian
+  Eigen::MatrixXd stiffness_, damping_;
 };
 
 extern template class ImplicitBeam<2>;

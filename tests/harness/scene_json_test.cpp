@@ -87,6 +87,18 @@ TEST(SceneJson, SectionByStiffness) {
   EXPECT_FALSE(scene_to_json(scene)["beam"]["material"].contains("density"));
 }
 
+TEST(SceneJson, MethodsOfFixedStepShareTheirOption) {
+  for (const char* type : {"adams-bashforth-moulton", "generalized-alpha"}) {
+    Json json = example_scene();
+    json["integrator"] = {{"type", type}, {"step", 1e-4}, {"locate_events", false}};
+    const Scene scene = scene_from_json(json);
+    EXPECT_EQ(scene.integrator.step, 1e-4);
+    EXPECT_FALSE(scene.integrator.locate_events);
+    EXPECT_EQ(scene_to_json(scene)["integrator"]["step"], 1e-4);
+  }
+  EXPECT_FALSE(scene_to_json(Scene{})["integrator"].contains("step"));
+}
+
 TEST(SceneJson, SpatialScenesHaveThreeComponents) {
   Json json = example_scene();
   json["dimension"] = 3;
@@ -119,7 +131,6 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"/beam/material/youngs modulus", "5", "/beam/material/youngs modulus",
                              "\"youngs_modulus\""},
                     BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/constraint", "\"eliminated\""},
-                    BadScene{"/integrator/step", "0.1"},
                     BadScene{"/supports/0/clmap", "\"full\"", "/supports/0/clmap", "\"clamp\""}, BadScene{"/a~1b", "1"},
                     BadScene{"/beam/curve/radius", "1"}, BadScene{"/supports/0/at=start", "1"}));
 
@@ -132,7 +143,8 @@ INSTANTIATE_TEST_SUITE_P(MistypedValues, BadInput,
                                          BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
                                          BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""},
                                          BadScene{"/beam/weights", "[1, 1, 1]"}, BadScene{"/beam/elements", "20.0"},
-                                         BadScene{"/length_control/enabled", "1"}, BadScene{"/supports", "{}"},
+                                         BadScene{"/length_control/enabled", "1"},
+                                         BadScene{"/integrator/locate_events", "\"no\""}, BadScene{"/supports", "{}"},
                                          BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
                                          BadScene{"/output/configurations", "0.5"},
                                          BadScene{"/output/configurations", "[0, true]"}));
@@ -153,6 +165,9 @@ INSTANTIATE_TEST_SUITE_P(
     WrongCompany, BadInput,
     testing::Values(BadScene{"/beam/section/EA", "5", "/beam/section/EA", "/beam/section/type is \"stiffness\""},
                     BadScene{"/supports/0/type", "\"pin\"", "/supports/0/clamp", "/supports/0/type is \"clamp\""},
+                    BadScene{"/integrator/step", "0.1", "/integrator/step",
+                             "/integrator/type is \"adams-bashforth-moulton\" or \"generalized-alpha\""},
+                    BadScene{"/integrator/rho_inf", "0.5", "/integrator/rho_inf"},
                     BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1, "rhoA": 1})",
                              "/beam/material/density"},
                     BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1, "rhoA": 1, "radius": 1})",

@@ -70,6 +70,10 @@ expect(scene, changed(supports=[{"at": "middle", "type": "pin"}]), False, "a sup
 expect(scene, changed(sliding_mass={"mass": 1}), False, "a mass without position")
 expect(scene, changed(beam__elemnts=4), False, "an unknown key")
 expect(scene, changed(duration=0), False, "no duration")
+for method in ("adams-bashforth-moulton", "generalized-alpha"):
+    expect(scene, changed(integrator={"type": method, "step": 1e-4}), True, "a fixed step")
+expect(scene, changed(integrator={"type": "rosenbrock4", "step": 1e-4}), False, "the step of a method that chooses it")
+expect(scene, changed(integrator={"step": 1e-4}), False, "the step of the default method")
 expect(scene, changed(beam__elements=2.5), False, "half an element")
 
 # What the program itself writes.

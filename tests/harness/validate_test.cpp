@@ -73,6 +73,16 @@ const Rule ranges[] = {
     {"/length_control/hysteresis", [](Scene& s) { s.length_control.hysteresis = -0.1; }},
     {"/integrator/rtol", [](Scene& s) { s.integrator.rtol = 0; }},
     {"/integrator/atol", [](Scene& s) { s.integrator.atol = nan; }},
+    {"/integrator/step",
+     [](Scene& s) {
+       s.integrator.type = IntegratorType::adams_bashforth_moulton;
+       s.integrator.step = 0;
+     }},
+    {"/integrator/rho_inf",
+     [](Scene& s) {
+       s.integrator.type = IntegratorType::generalized_alpha;
+       s.integrator.rho_inf = 1.1;
+     }},
     {"/duration", [](Scene& s) { s.duration = 0; }},
     {"/output/interval", [](Scene& s) { s.output.interval = 0; }},
     {"/output/configurations/1",
@@ -108,6 +118,16 @@ const Rule rules[] = {
     {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = 1.5; }},
     {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = -0.5; }},
     {"/sliding_mass/separation_distance", [](Scene& s) { s.sliding_mass->separation_distance = 0.025; }},
+    {"/integrator/step",
+     [](Scene& s) {
+       s.integrator.type = IntegratorType::generalized_alpha;
+       s.integrator.step = 1.01 * s.duration;
+     }},
+    {"/integrator/step",
+     [](Scene& s) {
+       s.integrator.type = IntegratorType::adams_bashforth_moulton;
+       s.integrator.step = 1.01 * s.duration;
+     }},
     {"/sliding_mass/separation_distance", [](Scene& s) { s.sliding_mass->separation_distance = 0; }},
     {"/length_control/upper", [](Scene& s) { s.length_control.upper = 1.49; }},
     {"/length_control/upper", [](Scene& s) { s.length_control.upper = 2; }},

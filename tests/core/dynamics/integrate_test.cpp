@@ -205,5 +205,71 @@ TEST_P(Integrate, MayBeInterrupted) {
   EXPECT_LT(t_, 10);
 }
 
+/// The Adams-Bashforth-Moulton method and an oscillator that a wall throws back four times until t = 10.
+class Multistep : public ::testing::Test {
+ protected:
+  struct Outcome {
+    State y;
+    SolverCounters counters;
+    FunctionOde ode;
+  };
+
+  Outcome run(double step, const std::vector<double>& sample_times = {}) {
+    Outcome outcome{Eigen::Vector2d(1, 0), {}, oscillator()};
+    outcome.ode.guard = [](const State& y, double) { return 0.3 - y[0]; };
+    outcome.ode.on_event = [](int, State& y) { y[1] = -y[1]; };
+    options_.type = IntegratorType::adams_bashforth_moulton;
+    options_.step = step;
+    double t = 0;
+    EXPECT_TRUE(integrate(outcome.ode, outcome.y, t, 10, sample_times, options_, outcome.counters));
+    return outcome;
+  }
+  double error(double step) { return std::abs(run(step).y[0] - std::cos(10 - 8 * std::acos(0.3))); }
+
+  IntegrationOptions options_;
+};
+
+TEST_F(Multistep, KeepsItsOrderAcrossLocatedEvents) {
+  EXPECT_EQ(run(0.01).ode.events.size(), 4U);
+  const double coarse = error(0.04), fine = error(0.01);
+  EXPECT_NEAR(std::log2(coarse / fine) / 2, 5, 0.4) << coarse << " " << fine;
+}
+
+TEST_F(Multistep, LosesItsOrderWhereEventsComeLate) {
+  options_.locate_events = false;
+  const auto seen = run(0.04).ode.events;
+  ASSERT_EQ(seen.size(), 4U);
+  EXPECT_NEAR(std::remainder(seen.front().t, 0.04), 0, 1e-12) << "at the end of a step";
+  EXPECT_GT(seen.front().t, std::acos(0.3));
+  EXPECT_LE(std::log2(error(0.04) / error(0.0025)) / 4, 1.5);
+}
+
+TEST_F(Multistep, SamplesChangeNeitherStepsNorDigits) {
+  const auto quiet = run(0.01);
+  std::vector<double> times;
+  for (int i = 0; i <= 3000; ++i) times.push_back(10 * i / 3000.0);
+  const auto watched = run(0.01, times);
+  EXPECT_EQ(watched.y, quiet.y);
+  EXPECT_EQ(watched.counters.steps, quiet.counters.steps);
+  ASSERT_EQ(watched.ode.samples.size(), times.size());
+  const double fall = std::acos(0.3);
+  for (const auto& [t, y] : watched.ode.samples) {
+    EXPECT_NEAR(y[0], std::cos(std::remainder(t, 2 * fall)), 1e-9) << t;
+  }
+}
+
+TEST_F(Multistep, AStepOutsideTheDomainIsRepeatedShorter) {
+  // y' = -y is not defined where y < 0: a step of 10 s leads there
+  FunctionOde ode(1, [](const State& y, double) -> State { return scalar(y[0] < 0 ? nan : -y[0]); });
+  options_.type = IntegratorType::adams_bashforth_moulton;
+  options_.step = 10;
+  State y = scalar(1);
+  double t = 0;
+  SolverCounters counters;
+  EXPECT_TRUE(integrate(ode, y, t, 10, {}, options_, counters));
+  EXPECT_GT(counters.rejected, 0U);
+  EXPECT_NEAR(y[0], std::exp(-10), 1e-4);
+}
+
 }  // namespace
 }  // namespace vlbeam::test

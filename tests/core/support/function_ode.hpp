@@ -22,6 +22,15 @@ class FunctionOde : public EventedOde {
     EXPECT_EQ(dydt.size(), y.size());
     dydt = f_(y, t);
   }
+  /// By central differences.
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
+    constexpr double step = 5e-7;
+    for (Eigen::Index k = 0; k < y.size(); ++k) {
+      const Eigen::VectorXd d = step * Eigen::VectorXd::Unit(y.size(), k);
+      dfdy.col(k) = (f_(y + d, t) - f_(y - d, t)) / (2 * step);
+    }
+    dfdt = (f_(y, t + step) - f_(y, t - step)) / (2 * step);
+  }
   Guards guards(const Eigen::VectorXd& y, double t) const override {
     Guards values;
     values.fill(-1);
@@ -61,7 +70,9 @@ inline FunctionOde oscillator() {
   return {2, [](const Eigen::VectorXd& y, double) -> Eigen::VectorXd { return Eigen::Vector2d(y[1], -y[0]); }};
 }
 
-inline constexpr std::array<IntegratorType, 4> integrators{IntegratorType::dopri5, IntegratorType::cash_karp,
-                                                           IntegratorType::fehlberg78, IntegratorType::bulirsch_stoer};
+/// The methods that choose their step.
+inline constexpr std::array<IntegratorType, 5> integrators{IntegratorType::dopri5, IntegratorType::cash_karp,
+                                                           IntegratorType::fehlberg78, IntegratorType::bulirsch_stoer,
+                                                           IntegratorType::rosenbrock4};
 
 }  // namespace vlbeam::test
