@@ -7,6 +7,7 @@ namespace vlbeam {
 namespace {
 
 constexpr double slow_contraction = 0.2;  // of a modified Newton iteration: a new tangent is then worth its cost
+constexpr double rounding = 1e-9;         // corrections below, and no longer falling, are rounding of a stiff tangent
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
 
 class GeneralizedAlpha final : public Stepper {
@@ -29,6 +30,7 @@ class GeneralizedAlpha final : public Stepper {
     const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
     if (start_.h > 0 && h != start_.h) {
       start_.a = start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration);
+      start_.h = h;
     }
 
     // predictor: the velocity goes on. An acceleration carried on would throw stiff modes, whose period is shorter than
@@ -120,6 +122,7 @@ class GeneralizedAlpha final : public Stepper {
       if (++with_this_tangent > 1) {
         const double contraction = correction / previous;
         if (contraction < 0.5 && contraction / (1 - contraction) * correction <= options_.newton_tolerance) return true;
+        if (contraction > 0.5 && correction <= rounding) return true;
         if (fresh && contraction > 1) return false;
         if (contraction > slow_contraction) tangent_by_a_ = 0;
       }

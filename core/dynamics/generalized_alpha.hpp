@@ -19,7 +19,7 @@ struct GeneralizedAlphaOptions {
   double step = 1e-3;    ///< [s]; the longest, and the first, where the step adapts
   double rho_inf = 0.9;  ///< spectral radius at infinity, 0 (strongest damping) to 1 (none)
   NewtonKind newton = NewtonKind::modified;
-  double newton_tolerance = 1e-10;  ///< of the correction relative to the coordinates' size
+  double newton_tolerance = 1e-12;  ///< of the correction relative to the coordinates' size
   int newton_iterations = 15;       ///< beyond which the step is halved
   bool adaptive = false;            ///< the step follows the tolerances
   Tolerances tolerances;            ///< of an adaptive step

@@ -86,7 +86,7 @@ struct IntegratorSpec {
   double step = 1e-3;                        ///< methods of fixed step [s]
   double rho_inf = 0.9;                      ///< generalized-alpha: spectral radius at infinity
   NewtonKind newton = NewtonKind::modified;  ///< generalized-alpha
-  double newton_tolerance = 1e-10;           ///< generalized-alpha: of Newton's correction, relative
+  double newton_tolerance = 1e-12;           ///< generalized-alpha: of Newton's correction, relative
   bool adaptive = false;                     ///< generalized-alpha: the step follows rtol and atol
   bool locate_events = true;
 };
