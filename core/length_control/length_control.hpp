@@ -13,6 +13,7 @@ struct LengthControl {
   double upper = 1.5;          ///< an element longer than upper (1 + hysteresis) L_std is cut
   double hysteresis = 1e-3;
   MergePolicy merge = MergePolicy::point_fit;
+  VelocityTransfer velocities = VelocityTransfer::nodal;
 
   double trigger_length() const { return upper * (1 + hysteresis) * standard_length; }
 };

@@ -91,8 +91,12 @@ BeamModel<D> build_model(const Scene& scene) {
   }
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
-  model.length_control = {control.enabled, standard_length(scene), control.upper, control.hysteresis,
-                          is_polynomial(scene.beam.element) ? MergePolicy::unit : control.merge};
+  model.length_control = {control.enabled,
+                          standard_length(scene),
+                          control.upper,
+                          control.hysteresis,
+                          is_polynomial(scene.beam.element) ? MergePolicy::unit : control.merge,
+                          control.velocities};
   return model;
 }
 

@@ -41,6 +41,11 @@ constexpr auto names(JointSlopes) {
 constexpr auto names(MergePolicy) {
   return std::to_array<Named<MergePolicy>>({{MergePolicy::point_fit, "point-fit"}, {MergePolicy::unit, "unit"}});
 }
+constexpr auto names(VelocityTransfer) {
+  using enum VelocityTransfer;
+  return std::to_array<Named<VelocityTransfer>>(
+      {{nodal, "nodal"}, {projected, "projected"}, {conservative, "conservative"}});
+}
 constexpr auto names(IntegratorType) {
   using enum IntegratorType;
   return std::to_array<Named<IntegratorType>>({{dopri5, "dopri5"},

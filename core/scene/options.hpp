@@ -329,6 +329,12 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "weights of a merged element",
                  .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
           scene.length_control.merge);
+  visitor(Option{.pointer = "/length_control/velocities",
+                 .unit = "",
+                 .description = "velocities after length control: nodes keep theirs, or the old field is projected, or "
+                                "projected and scaled to the old total energy",
+                 .source = "Ding & Ouyang 2022 is nodal"},
+          scene.length_control.velocities);
 
   visitor(
       Option{.pointer = "/constraints",

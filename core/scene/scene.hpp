@@ -77,6 +77,7 @@ struct LengthControlSpec {
   double upper = 1.5;        ///< trigger length over L_std
   double hysteresis = 1e-3;  ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
   MergePolicy merge = MergePolicy::point_fit;
+  VelocityTransfer velocities = VelocityTransfer::nodal;
 };
 
 struct IntegratorSpec {

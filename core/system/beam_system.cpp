@@ -105,6 +105,20 @@ std::optional<Vec<double, D>> BeamSystem<D>::mass_position(const Eigen::VectorXd
 }
 
 template <int D>
+typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double* q, const double* rate,
+                                                                    double t) const {
+  const auto j = static_cast<std::size_t>(joint_);
+  const double x = q[nodal_], x_rate = rate[nodal_];
+  const MovingLaw<D> moving = moving_law(t);
+  return {
+      equations<MovingEnds::b, D>(model_.strain_law, {element_nodes<D>(q, joint_ - 1), mesh_.x[j - 1], x},
+                                  {element_nodes<D>(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_,
+                                  moving),
+      equations<MovingEnds::a, D>(model_.strain_law, {element_nodes<D>(q, joint_), x, mesh_.x[j + 1]},
+                                  {element_nodes<D>(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving)};
+}
+
+template <int D>
 void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
   ++rhs_evaluations_;
   const double* q = y.data();
@@ -116,24 +130,17 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   double dissipation = left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
 
   if (has_joint()) {
-    const auto j = static_cast<std::size_t>(joint_);
-    const double x = q[nodal_], x_rate = rate[nodal_];
-    const MovingLaw<D> moving = moving_law(t);
-    const auto left = equations<MovingEnds::b, D>(
-        model_.strain_law, {element_nodes<D>(q, joint_ - 1), mesh_.x[j - 1], x},
-        {element_nodes<D>(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_, moving);
-    const auto right = equations<MovingEnds::a, D>(model_.strain_law, {element_nodes<D>(q, joint_), x, mesh_.x[j + 1]},
-                                                   {element_nodes<D>(rate, joint_), x_rate, 0}, mesh_.weights[j],
-                                                   right_table_, moving);
-    position<D>(force, joint_ - 1) += left.force[0];
-    slope<D>(force, joint_ - 1) += left.force[1];
-    position<D>(force, joint_) += left.force[2] + right.force[0] + model_.joint->mass * moving.gravity;
-    slope<D>(force, joint_) += left.force[3] + right.force[1];
-    position<D>(force, joint_ + 1) += right.force[2];
-    slope<D>(force, joint_ + 1) += right.force[3];
-    force[nodal_] = left.force_b + right.force_a;
-    dissipation += left.dissipation + right.dissipation;
-    if (!solve_with_joint(*left_, *right_, left, right, *model_.joint, force, force[nodal_])) {
+    const JointElements at_joint = joint_elements(q, rate, t);
+    const auto &before = at_joint.left, &behind = at_joint.right;
+    position<D>(force, joint_ - 1) += before.force[0];
+    slope<D>(force, joint_ - 1) += before.force[1];
+    position<D>(force, joint_) += before.force[2] + behind.force[0] + model_.joint->mass * g;
+    slope<D>(force, joint_) += before.force[3] + behind.force[1];
+    position<D>(force, joint_ + 1) += behind.force[2];
+    slope<D>(force, joint_ + 1) += behind.force[3];
+    force[nodal_] = before.force_b + behind.force_a;
+    dissipation += before.dissipation + behind.dissipation;
+    if (!solve_with_joint(*left_, *right_, before, behind, *model_.joint, force, force[nodal_])) {
       dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
       return;
     }
@@ -219,8 +226,12 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     observe_elements(state, lowest, highest, t, points, seen);
     return seen.energy;
   };
-  const Energy before = energies(record.before, ledger_points);
-  const double own_before = energies(record.before, model_.quadrature_points).total();
+  const bool transfers = !leaving && model_.length_control.velocities != VelocityTransfer::nodal;
+  // a projection changes velocities everywhere
+  const Energy before = transfers ? observe(y, t, ledger_points).energy : energies(record.before, ledger_points);
+  const double own_before =
+      (transfers ? observe(y, t, model_.quadrature_points).energy : energies(record.before, model_.quadrature_points))
+          .total();
 
   const Eigen::VectorXd old = y;
   if (leaving) {
@@ -235,8 +246,18 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     y.segment<D>(nodal_) = old.segment<D>(joint_at);
     y.segment<D>(coordinates_ + nodal_) = old.segment<D>(old_coordinates + joint_at);
   }
-  record.jump = energies(record.after, ledger_points) - before;
-  record.discrete_jump = energies(record.after, model_.quadrature_points).total() - own_before;
+  if (transfers) {
+    project_velocities(record.before, lowest, highest, y, t);
+    if (model_.length_control.velocities == VelocityTransfer::conservative) {
+      restore_energy(own_before - observe(y, t, model_.quadrature_points).energy.total(), y, t);
+    }
+    record.after = this->chain(y);
+    record.jump = observe(y, t, ledger_points).energy - before;
+    record.discrete_jump = observe(y, t, model_.quadrature_points).energy.total() - own_before;
+  } else {
+    record.jump = energies(record.after, ledger_points) - before;
+    record.discrete_jump = energies(record.after, model_.quadrature_points).total() - own_before;
+  }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (on_event) on_event(record);
 }

@@ -122,7 +122,22 @@ class BeamSystem final : public EventedOde {
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points) const;
 
  private:
+  struct JointElements {
+    MovingEquations<double, D> left, right;
+  };
+
   void adopt(const ChainState<D>& chain);
+  JointElements joint_elements(const double* q, const double* rate, double t) const;
+  /// Solves M a = f in place; false where the mass matrix is singular. `elements` is null without a joint.
+  bool solve_mass(const JointElements* elements, double* f) const;
+  void multiply_mass(const JointElements* elements, const double* rate, double* out) const;
+  /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
+  Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
+  /// Replaces the rates in `y`, a state of the mesh made from `before`, by the projection of the old velocity field.
+  void project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t) const;
+  /// Scales the velocity fluctuation, which carries neither linear nor angular momentum, so that the kinetic energy
+  /// grows by `missing` [J], as far as that is possible.
+  void restore_energy(double missing, Eigen::VectorXd& y, double t) const;
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;

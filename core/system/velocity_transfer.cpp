@@ -1,0 +1,150 @@
+// Velocities of a new mesh from the field of the old one, and the energy that the change has cost.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/system/beam_system.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int transfer_points = 12;    // on each piece between nodes of either mesh
+constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
+
+/// Material velocity of `chain` at the material coordinate x.
+template <int D>
+PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport transport) {
+  const auto q = chain.coordinates(k), rate = chain.rates(k);
+  const MovingKinematics<double, D> kinematics(q, rate, transport, chain.mesh.weights[static_cast<std::size_t>(k)]);
+  const double u = (x - q.x_a) / (q.x_b - q.x_a);
+  return kinematics.at(u, rational_shape(kinematics.weights(), u));
+}
+
+}  // namespace
+
+template <int D>
+bool BeamSystem<D>::solve_mass(const JointElements* elements, double* f) const {
+  if (elements == nullptr) {
+    solve_without_joint(*left_, *right_, f);
+    return true;
+  }
+  return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, f, f[nodal_]);
+}
+
+template <int D>
+void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* rate, double* out) const {
+  std::fill(out, out + coordinates_, 0.0);
+  left_->add_inertia(rate, out);
+  right_->add_inertia(rate, out);
+  if (elements == nullptr) return;
+  auto add = [&](const MovingEquations<double, D>& eq, const std::array<Vector, 4>& border, double corner, int k) {
+    const auto e = element_nodes<D>(rate, k);
+    const std::array<Vector, 4> nodal{e.r_a, e.s_a, e.r_b, e.s_b};
+    std::array<Vector, 4> sum;
+    for (std::size_t i = 0; i < 4; ++i) {
+      sum[i] = border[i] * rate[nodal_];
+      for (std::size_t j = 0; j < 4; ++j) sum[i] += eq.mass[i][j] * nodal[j];
+      out[nodal_] += border[i].dot(nodal[i]);
+    }
+    out[nodal_] += corner * rate[nodal_];
+    position<D>(out, k) += sum[0];
+    slope<D>(out, k) += sum[1];
+    position<D>(out, k + 1) += sum[2];
+    slope<D>(out, k + 1) += sum[3];
+  };
+  add(elements->left, elements->left.mass_b, elements->left.mass_bb, joint_ - 1);
+  add(elements->right, elements->right.mass_a, elements->right.mass_aa, joint_);
+  position<D>(out, joint_) += model_.joint->mass * position<D>(rate, joint_);
+}
+
+template <int D>
+Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first,
+                                               int last) const {
+  Eigen::VectorXd momentum = Eigen::VectorXd::Zero(coordinates_);
+  const auto& rule = gauss_legendre(transfer_points);
+  const double start = after.mesh.x[static_cast<std::size_t>(first)],
+               end = after.mesh.x[static_cast<std::size_t>(last)];
+  std::vector<double> pieces;
+  std::set_union(before.mesh.x.begin(), before.mesh.x.end(), after.mesh.x.begin(), after.mesh.x.end(),
+                 std::back_inserter(pieces));
+  auto element_at = [](const ChainState<D>& chain, double x) {
+    const auto& nodes = chain.mesh.x;
+    return static_cast<int>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x) - nodes.begin()) - 1;
+  };
+  for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
+    const double a = pieces[piece], length = pieces[piece + 1] - a;
+    if (a + length / 2 < start || a + length / 2 > end) continue;
+    const int from = element_at(before, a + length / 2), to = element_at(after, a + length / 2);
+    for (const auto& [u, weight] : rule) {
+      const double x = a + u * length;
+      const auto was = motion_at(before, from, x, model_.transport), is = motion_at(after, to, x, model_.transport);
+      const Vector excess = (was.v - is.v) * (weight * length * model_.section.rhoA);
+      auto nodal = momentum.segment<2 * node_size<D>>(node_size<D> * to);
+      for (int i = 0; i < 4; ++i) nodal.template segment<D>(i * D) += is.s[static_cast<std::size_t>(i)] * excess;
+      if (to + 1 == joint_) momentum[nodal_] += is.y_b.dot(excess);
+      if (to == joint_) momentum[nodal_] += is.y_a.dot(excess);
+    }
+  }
+  return momentum;
+}
+
+template <int D>
+void BeamSystem<D>::project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y,
+                                       double t) const {
+  Eigen::VectorXd correction = excess_momentum(before, chain(y), first, last);
+  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
+  if (solve_mass(&elements, correction.data())) y.segment(coordinates_, coordinates_) += correction;
+}
+
+template <int D>
+void BeamSystem<D>::restore_energy(double missing, Eigen::VectorXd& y, double t) const {
+  constexpr int rotations = D == 2 ? 1 : 3, modes = D + rotations;
+  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
+  auto rate = y.segment(coordinates_, coordinates_);
+  // momenta of the rigid motions, and what the supports leave of these
+  Eigen::MatrixXd momentum(coordinates_, modes), motion(coordinates_, modes);
+  for (int mode = 0; mode < modes; ++mode) {
+    Eigen::VectorXd rigid = Eigen::VectorXd::Zero(coordinates_);
+    for (int k = 0; k <= mesh_.last(); ++k) {
+      auto r_rate = position<D>(rigid.data(), k);
+      auto s_rate = slope<D>(rigid.data(), k);
+      if (mode < D) {
+        r_rate[mode] = 1;
+        continue;
+      }
+      const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // in the plane of axes a and b
+      const auto r = position<D>(y.data(), k), s = slope<D>(y.data(), k);
+      r_rate[a] = -r[b];
+      r_rate[b] = r[a];
+      s_rate[a] = -s[b];
+      s_rate[b] = s[a];
+    }
+    multiply_mass(&elements, rigid.data(), momentum.col(mode).data());
+    motion.col(mode) = momentum.col(mode);
+    if (!solve_mass(&elements, motion.col(mode).data())) return;
+  }
+  const Eigen::MatrixXd metric = momentum.transpose() * motion;
+  const Eigen::VectorXd share = metric.fullPivLu().solve(momentum.transpose() * rate);
+  const Eigen::VectorXd fluctuation = rate - motion * share;
+  Eigen::VectorXd of_fluctuation(coordinates_);
+  multiply_mass(&elements, fluctuation.data(), of_fluctuation.data());
+  const double twice_kinetic = fluctuation.dot(of_fluctuation);
+  if (!(twice_kinetic > 0)) return;
+  // T(v + s w) = T(v) + (s + s^2/2) w.M w, for w is orthogonal to what else there is
+  const double root = 1 + 2 * missing / twice_kinetic;
+  const double scaling = root > 0 ? std::min(std::sqrt(root) - 1, largest_scaling) : -1;
+  rate += scaling * fluctuation;
+}
+
+template bool BeamSystem<2>::solve_mass(const JointElements*, double*) const;
+template void BeamSystem<2>::multiply_mass(const JointElements*, const double*, double*) const;
+template Eigen::VectorXd BeamSystem<2>::excess_momentum(const ChainState<2>&, const ChainState<2>&, int, int) const;
+template void BeamSystem<2>::project_velocities(const ChainState<2>&, int, int, Eigen::VectorXd&, double) const;
+template void BeamSystem<2>::restore_energy(double, Eigen::VectorXd&, double) const;
+template bool BeamSystem<3>::solve_mass(const JointElements*, double*) const;
+template void BeamSystem<3>::multiply_mass(const JointElements*, const double*, double*) const;
+template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, const ChainState<3>&, int, int) const;
+template void BeamSystem<3>::project_velocities(const ChainState<3>&, int, int, Eigen::VectorXd&, double) const;
+template void BeamSystem<3>::restore_energy(double, Eigen::VectorXd&, double) const;
+
+}  // namespace vlbeam
