@@ -233,6 +233,8 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
       (transfers ? observe(y, t, model_.quadrature_points).energy : energies(record.before, model_.quadrature_points))
           .total();
 
+  const Eigen::VectorXd momenta_before = transfers ? momenta(y, t) : Eigen::VectorXd();
+
   const Eigen::VectorXd old = y;
   if (leaving) {
     separate(record.after, direction, model_.length_control, model_.transport);
@@ -249,7 +251,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (transfers) {
     project_velocities(record.before, lowest, highest, y, t);
     if (model_.length_control.velocities == VelocityTransfer::conservative) {
-      restore_energy(own_before - observe(y, t, model_.quadrature_points).energy.total(), y, t);
+      restore(momenta_before, own_before, y, t);
     }
     record.after = this->chain(y);
     record.jump = observe(y, t, ledger_points).energy - before;

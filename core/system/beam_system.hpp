@@ -135,9 +135,13 @@ class BeamSystem final : public EventedOde {
   Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
   /// Replaces the rates in `y`, a state of the mesh made from `before`, by the projection of the old velocity field.
   void project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t) const;
-  /// Scales the velocity fluctuation, which carries neither linear nor angular momentum, so that the kinetic energy
-  /// grows by `missing` [J], as far as that is possible.
-  void restore_energy(double missing, Eigen::VectorXd& y, double t) const;
+  /// M phi of the rigid motions phi at the positions `y`: translations, then rotations about the origin.
+  Eigen::MatrixXd rigid_momenta(const JointElements* elements, const Eigen::VectorXd& y) const;
+  /// Linear and angular momentum of beam and mass, by the model's own points.
+  Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t) const;
+  /// Gives the rates in `y` these momenta, by the least change, and this total energy, by scaling the velocity
+  /// fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
+  void restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const;
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;

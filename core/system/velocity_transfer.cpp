@@ -11,10 +11,12 @@ namespace {
 constexpr int transfer_points = 12;    // on each piece between nodes of either mesh
 constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 
-/// Material velocity of `chain` at the material coordinate x.
+/// Motion of the material point x, in element k of `chain`.
 template <int D>
-PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport transport) {
+PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport of_joint) {
   const auto q = chain.coordinates(k), rate = chain.rates(k);
+  const bool at_joint = k == chain.joint || k + 1 == chain.joint;
+  const WeightTransport transport = at_joint ? of_joint : WeightTransport::frozen;
   const MovingKinematics<double, D> kinematics(q, rate, transport, chain.mesh.weights[static_cast<std::size_t>(k)]);
   const double u = (x - q.x_a) / (q.x_b - q.x_a);
   return kinematics.at(u, rational_shape(kinematics.weights(), u));
@@ -97,14 +99,12 @@ void BeamSystem<D>::project_velocities(const ChainState<D>& before, int first, i
 }
 
 template <int D>
-void BeamSystem<D>::restore_energy(double missing, Eigen::VectorXd& y, double t) const {
-  constexpr int rotations = D == 2 ? 1 : 3, modes = D + rotations;
-  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
-  auto rate = y.segment(coordinates_, coordinates_);
-  // momenta of the rigid motions, and what the supports leave of these
-  Eigen::MatrixXd momentum(coordinates_, modes), motion(coordinates_, modes);
-  for (int mode = 0; mode < modes; ++mode) {
-    Eigen::VectorXd rigid = Eigen::VectorXd::Zero(coordinates_);
+Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements* elements, const Eigen::VectorXd& y) const {
+  constexpr int rotations = D == 2 ? 1 : 3;
+  Eigen::MatrixXd momenta(coordinates_, D + rotations);
+  Eigen::VectorXd rigid(coordinates_);
+  for (int mode = 0; mode < D + rotations; ++mode) {
+    rigid.setZero();
     for (int k = 0; k <= mesh_.last(); ++k) {
       auto r_rate = position<D>(rigid.data(), k);
       auto s_rate = slope<D>(rigid.data(), k);
@@ -112,25 +112,44 @@ void BeamSystem<D>::restore_energy(double missing, Eigen::VectorXd& y, double t)
         r_rate[mode] = 1;
         continue;
       }
-      const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // in the plane of axes a and b
+      const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
       const auto r = position<D>(y.data(), k), s = slope<D>(y.data(), k);
       r_rate[a] = -r[b];
       r_rate[b] = r[a];
       s_rate[a] = -s[b];
       s_rate[b] = s[a];
     }
-    multiply_mass(&elements, rigid.data(), momentum.col(mode).data());
-    motion.col(mode) = momentum.col(mode);
+    multiply_mass(elements, rigid.data(), momenta.col(mode).data());
+  }
+  return momenta;
+}
+
+template <int D>
+Eigen::VectorXd BeamSystem<D>::momenta(const Eigen::VectorXd& y, double t) const {
+  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
+  return rigid_momenta(&elements, y).transpose() * y.segment(coordinates_, coordinates_);
+}
+
+template <int D>
+void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const {
+  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
+  auto rate = y.segment(coordinates_, coordinates_);
+  // momenta of the rigid motions, and of these motions what the supports leave
+  const Eigen::MatrixXd rigid = rigid_momenta(&elements, y);
+  Eigen::MatrixXd motion = rigid;
+  for (Eigen::Index mode = 0; mode < motion.cols(); ++mode) {
     if (!solve_mass(&elements, motion.col(mode).data())) return;
   }
-  const Eigen::MatrixXd metric = momentum.transpose() * motion;
-  const Eigen::VectorXd share = metric.fullPivLu().solve(momentum.transpose() * rate);
-  const Eigen::VectorXd fluctuation = rate - motion * share;
+  const Eigen::FullPivLU<Eigen::MatrixXd> metric(rigid.transpose() * motion);
+  rate += motion * metric.solve(momenta - rigid.transpose() * rate);
+
+  const Eigen::VectorXd fluctuation = rate - motion * metric.solve(momenta);
   Eigen::VectorXd of_fluctuation(coordinates_);
   multiply_mass(&elements, fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);
   if (!(twice_kinetic > 0)) return;
   // T(v + s w) = T(v) + (s + s^2/2) w.M w, for w is orthogonal to what else there is
+  const double missing = total - observe(y, t, model_.quadrature_points).energy.total();
   const double root = 1 + 2 * missing / twice_kinetic;
   const double scaling = root > 0 ? std::min(std::sqrt(root) - 1, largest_scaling) : -1;
   rate += scaling * fluctuation;
@@ -140,11 +159,15 @@ template bool BeamSystem<2>::solve_mass(const JointElements*, double*) const;
 template void BeamSystem<2>::multiply_mass(const JointElements*, const double*, double*) const;
 template Eigen::VectorXd BeamSystem<2>::excess_momentum(const ChainState<2>&, const ChainState<2>&, int, int) const;
 template void BeamSystem<2>::project_velocities(const ChainState<2>&, int, int, Eigen::VectorXd&, double) const;
-template void BeamSystem<2>::restore_energy(double, Eigen::VectorXd&, double) const;
+template Eigen::MatrixXd BeamSystem<2>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;
+template Eigen::VectorXd BeamSystem<2>::momenta(const Eigen::VectorXd&, double) const;
+template void BeamSystem<2>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 template bool BeamSystem<3>::solve_mass(const JointElements*, double*) const;
 template void BeamSystem<3>::multiply_mass(const JointElements*, const double*, double*) const;
 template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, const ChainState<3>&, int, int) const;
 template void BeamSystem<3>::project_velocities(const ChainState<3>&, int, int, Eigen::VectorXd&, double) const;
-template void BeamSystem<3>::restore_energy(double, Eigen::VectorXd&, double) const;
+template Eigen::MatrixXd BeamSystem<3>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;
+template Eigen::VectorXd BeamSystem<3>::momenta(const Eigen::VectorXd&, double) const;
+template void BeamSystem<3>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 
 }  // namespace vlbeam
