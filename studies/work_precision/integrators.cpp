@@ -34,10 +34,12 @@ Table evaluations_table(const std::vector<Climb>& climbs) {
                           "rejected", "events"}};
   for (const Climb& climb : climbs) {
     for (const Rung& rung : climb.rungs) {
+      // how far a capped run came is a matter of the machine
+      const auto count = [&](std::size_t n) { return rung.ending == Ending::capped ? Json() : Json(n); };
       table.rows.push_back({climb.ladder.problem, climb.ladder.element, climb.ladder.integrator.name,
                             climb.ladder.integrator.setting(rung.value), to_string(rung.ending),
-                            number(climb.error(rung)), rung.solver.rhs_evaluations, rung.solver.steps,
-                            rung.solver.rejected, rung.events});
+                            number(climb.error(rung)), count(rung.solver.rhs_evaluations), count(rung.solver.steps),
+                            count(rung.solver.rejected), count(rung.events)});
     }
   }
   return table;

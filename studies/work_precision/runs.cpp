@@ -27,14 +27,13 @@ Rung run(const Scene& scene, const Integrator& integrator, double cap_seconds) {
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  const double most_steps = integrator.element_steps / scene.beam.elements;
   const auto undisturbed = StudyContext::until_interrupted();
   Rung rung;
   double steps = 0;
   const RunResult result = simulate(scene, [&](double t) {
     if (!undisturbed(t)) throw std::runtime_error("interrupted");
     rung.reached = t;
-    return ++steps <= most_steps && elapsed() <= cap_seconds;
+    return ++steps <= integrator.most_steps && elapsed() <= cap_seconds;
   });
   rung.seconds = elapsed();
   rung.ending = result.status == RunStatus::interrupted ? Ending::capped
@@ -62,7 +61,7 @@ std::vector<Integrator> read_integrators(const Json& config, const std::string& 
     integrator.fixed_step = entry.contains("steps");
     const Json& values = entry.at(integrator.fixed_step ? "steps" : "tolerances");
     integrator.values = (values.is_object() ? values.at(problem) : values).get<std::vector<double>>();
-    integrator.element_steps = entry.at("element_steps").get<double>();
+    integrator.most_steps = entry.at("most_steps").get<double>();
     integrators.push_back(std::move(integrator));
   }
   return integrators;

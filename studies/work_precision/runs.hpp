@@ -15,7 +15,7 @@ struct Integrator {
   Json scene;                  ///< /integrator of the scene, without step and tolerances
   bool fixed_step = false;     ///< the rungs are steps [s], not tolerances
   std::vector<double> values;  ///< coarse to fine
-  double element_steps = 0;    ///< steps times elements beyond which a run is capped
+  double most_steps = 0;       ///< beyond which a run is capped
 
   /// "rtol = atol = 1e-6" or "step = 1e-3 s".
   std::string setting(double value) const;
@@ -62,8 +62,8 @@ struct Rung {
   double seconds = 0;  ///< wall time, the fastest of a few runs where these are short
 };
 
-/// Climbs until a run is capped: after `cap_seconds`, or after the steps that take about so long, whichever comes
-/// first. The count of steps is there so that the same runs are capped everywhere.
+/// Climbs until a run is capped: after `cap_seconds`, or after a number of steps that none of the runs worth
+/// showing needs, so that the same runs are capped on machines of another speed.
 std::vector<Rung> climb(const Ladder& ladder, double cap_seconds);
 
 /// "3.2 ms"

@@ -11,25 +11,27 @@ csv = data . (timed ? "times.timing.csv" : "evaluations.csv")
 set logscale xy
 set format xy "10^{%T}"
 set yrange [*:3]
-set ylabel "max(|Δx_i|, |Δ{/:Bold r}_{end}|, |Δ{/:Bold r}_{mass}|) / L at the end"
+ylabel_text = "max(|Δx_i|, |Δ{/:Bold r}_{end}|, |Δ{/:Bold r}_{mass}|) / L at the end"
 set xlabel timed ? "wall time [s]" : "evaluations of the equations"
-if (timed) { set xrange [*:real(cap) * 1.5] }
+if (timed) { set xrange [2e-3:real(cap) * 1.5] }
 panels = words(elements)
-set multiplot layout 1,panels title title_text
+set multiplot layout 1,panels title title_text margins 0.08,0.74,0.12,0.84 spacing 0.08
 is(e, n) = strcol("problem") eq problem && strcol("element") eq e && strcol("integrator") eq n
 ended(e, n, what) = is(e, n) && strcol("ending") eq what
+spread(error, i) = error == 1 ? 0.6 ** i : error  # capped from the first rung on: no error to show, but apart
 do for [p = 1:panels] {
   e = word(elements, p)
   set title e
-  if (p == panels) { set key outside right center noautotitle samplen 2 } else { set key off }
+  set ylabel p == 1 ? ylabel_text : ""
+  if (p == panels) { set key at screen 0.995,0.5 right center noautotitle samplen 2 } else { set key off }
   if (timed) {
     set arrow 1 from first real(cap),graph 0 to first real(cap),graph 1 nohead dashtype 3 linecolor rgb "#888888"
-    plot for [i = 1:words(names)] csv using (is(e, word(names, i)) ? column("seconds") : NaN): \
-           (ended(e, word(names, i), "completed") ? column("error") : ended(e, word(names, i), "capped") ? column("shown_at") : NaN) \
+    plot for [i = 1:words(names)] csv using (ended(e, word(names, i), "capped") ? real(cap) : is(e, word(names, i)) ? column("seconds") : NaN): \
+           (ended(e, word(names, i), "completed") ? column("error") : ended(e, word(names, i), "capped") && column("shown_at") < 1 ? column("shown_at") : NaN) \
            with lines linewidth 1.5 linecolor rgb word(colours, i), \
          for [i = 1:words(names)] csv using (ended(e, word(names, i), "completed") ? column("seconds") : NaN):"error" \
            with points pointtype int(word(marks, i)) pointsize 0.8 linecolor rgb word(colours, i) title word(names, i), \
-         for [i = 1:words(names)] csv using (ended(e, word(names, i), "capped") ? real(cap) : NaN):"shown_at" \
+         for [i = 1:words(names)] csv using (ended(e, word(names, i), "capped") ? real(cap) : NaN):(spread(column("shown_at"), i)) \
            with points pointtype int(word(marks, i)) - 1 pointsize 1.1 linecolor rgb word(colours, i)
   } else {
     plot for [i = 1:words(names)] csv using (ended(e, word(names, i), "completed") ? column("evaluations") : NaN):"error" \
