@@ -1,0 +1,127 @@
+#include "studies/work_precision/meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/options.hpp"
+
+namespace vlbeam::work_precision {
+namespace {
+
+struct Climb {
+  Ladder ladder;
+  int elements = 0;
+  bool exact = false;  ///< leaves no temporal error worth the name
+  std::vector<Rung> rungs;
+};
+
+/// A run with its errors over the beam's length.
+struct Measured {
+  const Climb* climb;
+  const Rung* rung;
+  double total, spatial, temporal;
+};
+
+}  // namespace
+
+void compare_meshes(StudyReport& report, const StudyContext& context, const State& converged) {
+  const Json& config = context.config.at("meshes");
+  const double cap = context.config.at("cap_seconds").get<double>();
+  std::vector<Climb> climbs;
+  for (const Json& element : config.at("elements")) {
+    for (const int n : config.at("counts").get<std::vector<int>>()) {
+      const Json scene = merged(context.config.at("scene"), {{"beam", {{"element", element}, {"elements", n}}},
+                                                             {"duration", config.at("duration")}});
+      const auto add = [&](const char* key, bool exact) {
+        for (const Integrator& integrator : read_integrators(config.at(key), "meshes")) {
+          climbs.push_back({{"meshes", element.get<std::string>(), scene, integrator}, n, exact, {}});
+        }
+      };
+      add("exact", true);
+      add("integrators", false);
+    }
+  }
+  const auto outcomes =
+      context.sweep(climbs, [&](const Climb& climb) { return work_precision::climb(climb.ladder, cap); });
+  for (std::size_t i = 0; i < climbs.size(); ++i) {
+    if (outcomes[i]) climbs[i].rungs = *outcomes[i];
+    if (!outcomes[i]) {
+      report.cases.push_back({.options = {{"elements", climbs[i].elements},
+                                          {"element", climbs[i].ladder.element},
+                                          {"integrator", climbs[i].ladder.integrator.name}},
+                              .results = Json::object(),
+                              .failure = outcomes[i].failure});
+    }
+  }
+
+  Table errors{
+      .name = "total_errors",
+      .caption = "error at the end against the converged beam, and what mesh and integrator leave of it",
+      .columns = {"element", "elements", "integrator", "setting", "total", "spatial", "temporal", "evaluations"}};
+  std::vector<Measured> points;
+  for (const Climb& climb : climbs) {
+    if (climb.exact) continue;
+    const auto exact = std::ranges::find_if(climbs, [&](const Climb& other) {
+      return other.exact && other.elements == climb.elements && other.ladder.element == climb.ladder.element;
+    });
+    if (exact == climbs.end() || exact->rungs.empty() || exact->rungs.back().ending != Ending::completed) continue;
+    const State& mesh = exact->rungs.back().state;
+    const double spatial = position_error(mesh, converged);
+    report.measured["spatial_error/" + climb.ladder.element + "/N" + std::to_string(climb.elements)] = spatial;
+    for (const Rung& rung : climb.rungs) {
+      if (rung.ending != Ending::completed) continue;
+      const double total = position_error(rung.state, converged), temporal = position_error(rung.state, mesh);
+      if (!std::isfinite(total)) continue;
+      points.push_back({&climb, &rung, total, spatial, temporal});
+      errors.rows.push_back({climb.ladder.element, climb.elements, climb.ladder.integrator.name,
+                             climb.ladder.integrator.setting(rung.value), total, spatial, temporal,
+                             rung.solver.rhs_evaluations});
+    }
+  }
+  report.measured["converged_error"] = converged.error;
+
+  std::ranges::sort(points, {}, [](const Measured& point) { return point.rung->seconds; });
+  Table times{.name = "total_error_times",
+              .caption = "total error against wall time",
+              .columns = {"element", "elements", "integrator", "setting", "total", "temporal", "seconds"},
+              .timing = true};
+  Table front = times;
+  front.name = "pareto_front";
+  front.caption = "the runs of which none is as good and faster";
+  double best = std::numeric_limits<double>::infinity();
+  for (const Measured& point : points) {
+    const Integrator& integrator = point.climb->ladder.integrator;
+    times.rows.push_back({point.climb->ladder.element, point.climb->elements, integrator.name,
+                          integrator.setting(point.rung->value), point.total, point.temporal, point.rung->seconds});
+    if (!(point.total < best)) continue;
+    best = point.total;
+    front.rows.push_back(times.rows.back());
+  }
+  Table advice{.name = "advice_total_error",
+               .caption = "the fastest mesh and integrator for a wanted total error",
+               .columns = {"wanted", "advice"},
+               .timing = true};
+  for (const double wanted : config.at("wanted_errors").get<std::vector<double>>()) {
+    const auto found = std::ranges::find_if(points, [&](const Measured& point) { return point.total <= wanted; });
+    std::string text = "For " + number_text(wanted) + " none of these meshes is fine enough.";
+    if (found != points.end()) {
+      const Integrator& integrator = found->climb->ladder.integrator;
+      text = "For " + number_text(wanted) + " use N = " + std::to_string(found->climb->elements) + " " +
+             found->climb->ladder.element + " and " + integrator.name + " with " +
+             integrator.setting(found->rung->value) + ": " + milliseconds(found->rung->seconds) + ".";
+    }
+    advice.rows.push_back({wanted, text});
+  }
+  report.tables.push_back(errors);
+  report.tables.push_back(times);
+  report.tables.push_back(front);
+  report.tables.push_back(advice);
+  report.figures.push_back({.name = "total_error_times",
+                            .caption = "Total error of the falling beam at 0.5 s against wall time over meshes, "
+                                       "elements and integrators, and its Pareto front",
+                            .script = "meshes.gp",
+                            .timing = true});
+}
+
+}  // namespace vlbeam::work_precision
