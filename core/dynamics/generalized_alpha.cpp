@@ -19,7 +19,10 @@ class GeneralizedAlpha final : public Stepper {
         alpha_m_((2 * options.rho_inf - 1) / (options.rho_inf + 1)),
         alpha_f_(options.rho_inf / (options.rho_inf + 1)),
         gamma_(0.5 + alpha_f_ - alpha_m_),
-        beta_(0.25 * (gamma_ + 0.5) * (gamma_ + 0.5)) {}
+        beta_(0.25 * (gamma_ + 0.5) * (gamma_ + 0.5)) {
+    history_.reserve(static_cast<std::size_t>(options.newton_iterations));
+    if (counters) counters->longest.reserve(history_.capacity());
+  }
 
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const Eigen::Index n = system_.coordinates();

@@ -84,5 +84,41 @@ TEST(RightHandSide, AllocatesNothing) {
   }
 }
 
+template <int D>
+void expect_steady_steps(int joint, double damping, Constraints constraints, NewtonKind newton) {
+  Random random(12);
+  const ChainShape shape{.elements = 9, .joint = joint, .rational = true};
+  auto model = model_of<D>(shape, random);
+  model.section.damping = damping;
+  model.start = Support<D>::direction_clamp(random.vector<D>());
+  model.constraints = constraints;
+  BeamSystem<D> system(model, random_chain<D>(shape, random));
+  Eigen::VectorXd y = system.initial_state();
+  NewtonCounters counters;
+  GeneralizedAlphaOptions options;
+  options.newton = newton;
+  const auto stepper = make_generalized_alpha(*system.second_order(), options, &counters);
+  double t = 0, dt = 1e-3;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(stepper->try_step(system, y, t, dt));
+  const std::size_t before = allocations, tangents = counters.tangents;
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(stepper->try_step(system, y, t, dt));
+  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_GE(counters.tangents, tangents + (newton == NewtonKind::full ? 20U : 0U));
+}
+
+TEST(GeneralizedAlphaStep, AllocatesNothingOnceItIsGoing) {
+  if (!VLBEAM_COUNTS_ALLOCATIONS) GTEST_SKIP() << "not under a sanitizer";
+  for (const int joint : {no_joint, 1, 4}) {
+    for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
+      for (const auto newton : {NewtonKind::modified, NewtonKind::full}) {
+        SCOPED_TRACE(joint);
+        expect_steady_steps<2>(joint, 0, constraints, newton);
+        expect_steady_steps<2>(joint, 0.01, constraints, newton);
+        expect_steady_steps<3>(joint, 0, constraints, newton);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vlbeam::test
