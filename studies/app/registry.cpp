@@ -8,12 +8,14 @@ namespace vlbeam {
 
 // One declaration and one line of the list for each folder studies/<name>/.
 Study falling_beam_study();
+Study weights_study();
 Study work_precision_study();
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
         falling_beam_study(),
+        weights_study(),
         work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
-#include "studies/falling_beam/measures.hpp"
+#include "studies/harness/measures.hpp"
 #include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/scene/build.hpp"
-#include "studies/falling_beam/measures.hpp"
+#include "studies/harness/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {

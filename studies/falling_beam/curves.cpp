@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "studies/falling_beam/measures.hpp"
+#include "studies/harness/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {
@@ -143,27 +143,6 @@ Table histories(const Runs& runs, const char* sweep, const std::vector<int>& mes
   return table;
 }
 
-/// The stretch of material coordinates an event changes.
-struct Stretch {
-  double begin = 0;
-  double cut = 0;  ///< the joint: segmented on one side, merged on the other
-  double end = 0;
-  bool forward = true;
-};
-
-Stretch changed_by(const Event& event) {
-  const auto& x = event.before.x;
-  const auto at = std::ranges::lower_bound(x, event.joint_position - 1e-9);
-  const auto j = at - x.begin();
-  const auto last = static_cast<std::ptrdiff_t>(x.size()) - 1;
-  const auto node = [&](std::ptrdiff_t k) {
-    return x[static_cast<std::size_t>(std::clamp(k, std::ptrdiff_t{0}, last))];
-  };
-  // Forward: the element behind the joint is cut, the two ahead are merged. Backward: the other way round.
-  const bool forward = node(j) - node(j - 1) > node(j + 1) - node(j);
-  return forward ? Stretch{node(j - 1), node(j), node(j + 2), true} : Stretch{node(j - 2), node(j), node(j + 1), false};
-}
-
 /// Shapes before and after the first two events: Figure 12.
 void add_length_control(StudyReport& report, const Runs& runs, const char* sweep, int n, int points) {
   Table curves{.name = std::string("length_control_") + sweep,
@@ -214,7 +193,6 @@ Table shape_changes(const Runs& runs, double t) {
                   "and sums of the jumps of energy [J]",
               .columns = {"sweep", "elements", "element", "events", "segmented_side", "merged_side", "kinetic_jumps",
                           "elastic_jumps"}};
-  constexpr int points = 100;
   for (const Setting& setting : settings) {
     for (const Run* run : runs.select(setting.sweep, {.clamp = direction})) {
       double segmented = 0;
@@ -225,14 +203,9 @@ Table shape_changes(const Runs& runs, double t) {
       for (const Event* event : events) {
         kinetic += std::abs(event->energy_jump.kinetic);
         elastic += std::abs(event->energy_jump.axial + event->energy_jump.bending);
-        const Stretch stretch = changed_by(*event);
-        for (int i = 0; i <= points; ++i) {
-          const double x = stretch.begin + (stretch.end - stretch.begin) * i / points;
-          const auto a = point_at(event->before, x);
-          const auto b = point_at(event->after, x);
-          double& worst = (x <= stretch.cut) == stretch.forward ? segmented : merged;
-          worst = std::max(worst, std::hypot(a[0] - b[0], a[1] - b[1]));
-        }
+        const Displacement moved = displacement_by(*event);
+        segmented = std::max(segmented, moved.segmented);
+        merged = std::max(merged, moved.merged);
       }
       const double standard = beam_length_m / run->scene.beam.elements;
       table.rows.push_back({setting.sweep, run->scene.beam.elements, to_string(run->scene.beam.element), events.size(),

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "core/scene/build.hpp"
-#include "studies/falling_beam/measures.hpp"
 #include "studies/falling_beam/tables.hpp"
+#include "studies/harness/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {

@@ -1,12 +1,13 @@
-#include "studies/falling_beam/measures.hpp"
+#include "studies/harness/measures.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "core/geometry/rational_cubic.hpp"
 
-namespace vlbeam::falling_beam {
+namespace vlbeam {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -106,4 +107,30 @@ std::array<double, 2> point_at(const Configuration& shape, double x) {
   return {r[0], r[1]};
 }
 
-}  // namespace vlbeam::falling_beam
+Stretch changed_by(const Event& event) {
+  const auto& x = event.before.x;
+  const auto at = std::ranges::lower_bound(x, event.joint_position - 1e-9);
+  const auto j = at - x.begin();
+  const auto last = static_cast<std::ptrdiff_t>(x.size()) - 1;
+  const auto node = [&](std::ptrdiff_t k) {
+    return x[static_cast<std::size_t>(std::clamp(k, std::ptrdiff_t{0}, last))];
+  };
+  // Forward: the element behind the joint is cut, the two ahead are merged. Backward: the other way round.
+  const bool forward = node(j) - node(j - 1) > node(j + 1) - node(j);
+  return forward ? Stretch{node(j - 1), node(j), node(j + 2), true} : Stretch{node(j - 2), node(j), node(j + 1), false};
+}
+
+Displacement displacement_by(const Event& event) {
+  constexpr int points = 100;
+  const Stretch stretch = changed_by(event);
+  Displacement largest;
+  for (int i = 0; i <= points; ++i) {
+    const double x = stretch.begin + (stretch.end - stretch.begin) * i / points;
+    const auto a = point_at(event.before, x), b = point_at(event.after, x);
+    double& side = (x <= stretch.cut) == stretch.forward ? largest.segmented : largest.merged;
+    side = std::max(side, std::hypot(a[0] - b[0], a[1] - b[1]));
+  }
+  return largest;
+}
+
+}  // namespace vlbeam

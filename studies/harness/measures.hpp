@@ -5,8 +5,9 @@
 
 #include "core/scene/result.hpp"
 
-/// What is measured of a run of the falling beam.
-namespace vlbeam::falling_beam {
+namespace vlbeam {
+
+// What is measured of runs with a sliding mass.
 
 inline constexpr double beam_length_m = 1;  ///< L [m]; positions are compared in units of it
 
@@ -44,7 +45,24 @@ double energy_without_jumps(const RunResult& result, const Sample& sample);
 /// Largest |E - E_0 - jumps| over the samples up to time t, by the 25-point rule, over the largest kinetic energy.
 double ledger_gap(const RunResult& result, double t);
 
+/// The stretch of material coordinates an event changes.
+struct Stretch {
+  double begin = 0;
+  double cut = 0;  ///< the joint: segmented on one side, merged on the other
+  double end = 0;
+  bool forward = true;
+};
+
+Stretch changed_by(const Event& event);
+
+/// Largest displacement of a material point by a length-control event [m].
+struct Displacement {
+  double segmented = 0;  ///< on the side that is cut
+  double merged = 0;     ///< on the side that loses a node
+};
+Displacement displacement_by(const Event& event);
+
 /// Point of the beam with material coordinate x [m].
 std::array<double, 2> point_at(const Configuration& shape, double x);
 
-}  // namespace vlbeam::falling_beam
+}  // namespace vlbeam

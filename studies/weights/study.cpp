@@ -1,0 +1,250 @@
+// What length control costs: weights of merged elements and velocities of the new mesh, on the falling beam with a
+// sliding mass (Ding & Ouyang 2022, §6.1).
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/scene/build.hpp"
+#include "studies/harness/measures.hpp"
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double early = 0.5, late = 0.65;  // [s], before and after the whip
+
+struct Case {
+  std::string group;  ///< mesh | reference | implicit
+  Scene scene;
+};
+
+std::string key_of(ElementKind element) { return element == ElementKind::ale_ancf ? "ancf" : "rancf"; }
+
+std::string key_of(const Case& item) {
+  const Scene& scene = item.scene;
+  return key_of(scene.beam.element) + "_" + std::string(to_string(scene.length_control.velocities)) + "_n" +
+         std::to_string(scene.beam.elements);
+}
+
+std::vector<Case> read_cases(const Json& config) {
+  std::vector<Case> cases;
+  const Scene base = scene_from_json(config.at("scene"));
+  auto with = [&](const char* group, int n, ElementKind element, VelocityTransfer velocities) -> Case& {
+    Case item{group, base};
+    item.scene.beam.elements = n;
+    item.scene.beam.element = element;
+    item.scene.length_control.velocities = velocities;
+    return cases.emplace_back(std::move(item));
+  };
+  for (const auto element : {ElementKind::ale_rancf, ElementKind::ale_ancf}) {
+    for (const auto& velocities : names(VelocityTransfer{})) {
+      for (const int n : config.at("elements").get<std::vector<int>>()) with("mesh", n, element, velocities.value);
+      const Json& implicit = config.at("implicit");
+      for (const double step : implicit.at("steps").get<std::vector<double>>()) {
+        auto& integrator = with("implicit", implicit.at("elements"), element, velocities.value).scene.integrator;
+        integrator.type = IntegratorType::generalized_alpha;
+        integrator.step = step;
+        integrator.rho_inf = implicit.at("rho_inf");
+      }
+    }
+  }
+  for (const int n : config.at("reference").get<std::vector<int>>()) {
+    with("reference", n, ElementKind::ale_ancf, VelocityTransfer::conservative);
+  }
+  return cases;
+}
+
+double cost(const Case& item) {
+  const double n = item.scene.beam.elements;
+  return (item.group == "implicit" ? 100 / item.scene.integrator.step : 4e3 * n) * n * quadrature_points(item.scene);
+}
+
+/// Sums over the length-control events until `late`.
+struct Jumps {
+  double kinetic = 0, elastic = 0, total = 0, largest = 0, moved = 0;
+};
+
+Jumps jumps_of(const RunResult& result) {
+  Jumps sum;
+  for (const Event* event : merges_until(result, late)) {
+    sum.kinetic += std::abs(event->energy_jump.kinetic);
+    sum.elastic += std::abs(event->energy_jump.axial + event->energy_jump.bending);
+    sum.total += event->discrete_jump;
+    sum.largest = std::max(sum.largest, std::abs(event->discrete_jump));
+    sum.moved = std::max(sum.moved, displacement_by(*event).merged);
+  }
+  return sum;
+}
+
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+class Report {
+ public:
+  Report(const StudyContext& context, const std::vector<Case>& cases)
+      : folder_(context.folder.string()),
+        cases_(cases),
+        outcomes_(context.sweep(
+            cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost)) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].group == "reference" && outcomes_[i]) {
+        coarser_ = reference_;
+        reference_ = &*outcomes_[i];
+      }
+    }
+  }
+
+  StudyReport operator()() {
+    add_cases();
+    if (reference_ != nullptr && coarser_ != nullptr) {
+      for (const double t : {early, late}) {
+        report_.measured["reference_error_" + time_key(t)] = position_error(*coarser_, *reference_, t);
+      }
+    }
+    add_meshes();
+    add_implicit();
+    const GnuplotVariables variables{{"folder", folder_}};
+    report_.figures = {{.name = "errors",
+                        .caption = "Error against the number of elements, before and after the whip",
+                        .script = "errors.gp",
+                        .variables = variables},
+                       {.name = "jumps",
+                        .caption = "Energy that length control gains and loses",
+                        .script = "jumps.gp",
+                        .variables = variables},
+                       {.name = "temporal",
+                        .caption = "Generalized-alpha: temporal error against the step",
+                        .script = "temporal.gp",
+                        .variables = variables}};
+    return std::move(report_);
+  }
+
+ private:
+  static std::string time_key(double t) { return t == early ? "early" : "late"; }
+
+  void add_cases() {
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const Scene& scene = cases_[i].scene;
+      Json options = {{"group", cases_[i].group},
+                      {"elements", scene.beam.elements},
+                      {"element", to_string(scene.beam.element)},
+                      {"velocities", to_string(scene.length_control.velocities)},
+                      {"integrator", to_string(scene.integrator.type)}};
+      if (has_fixed_step(scene.integrator.type)) options["step"] = scene.integrator.step;
+      StudyCase item{.options = std::move(options), .results = {}, .failure = outcomes_[i].failure};
+      if (outcomes_[i]) {
+        const RunResult& result = *outcomes_[i];
+        const Jumps jumps = jumps_of(result);
+        item.results = {{"events", merges_until(result, late).size()},
+                        {"kinetic_jumps", jumps.kinetic},
+                        {"elastic_jumps", jumps.elastic},
+                        {"total_jump", jumps.total},
+                        {"largest_jump", jumps.largest},
+                        {"rhs_evaluations", result.solver.rhs_evaluations}};
+      }
+      report_.cases.push_back(std::move(item));
+    }
+  }
+
+  void add_meshes() {
+    Table table{
+        .name = "meshes",
+        .caption = "Until 0.65 s, each run against N = " + reference_name() +
+                   ": error at 0.5 s and at 0.65 s, sums of the jumps at length-control events [J], the largest "
+                   "jump of the total energy by the model's own points [J], the largest displacement of a "
+                   "material point over the element length, and Table 2's sigma",
+        .columns = {"element", "velocities", "elements", "events", "error_early", "error_late", "kinetic_jumps",
+                    "elastic_jumps", "total_jump", "largest_jump", "moved", "sigma"}};
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].group != "mesh" || !outcomes_[i]) continue;
+      const Scene& scene = cases_[i].scene;
+      const RunResult& result = *outcomes_[i];
+      const Jumps jumps = jumps_of(result);
+      const double nan = std::nan("");
+      const double at_early = reference_ ? position_error(result, *reference_, early) : nan,
+                   at_late = reference_ ? position_error(result, *reference_, late) : nan;
+      const double moved = jumps.moved * scene.beam.elements, sigma = weight_set(result, late).sigma;
+      table.rows.push_back({to_string(scene.beam.element), to_string(scene.length_control.velocities),
+                            scene.beam.elements, merges_until(result, late).size(), number_or_null(at_early),
+                            number_or_null(at_late), jumps.kinetic, jumps.elastic, jumps.total, jumps.largest, moved,
+                            sigma});
+      const std::string key = key_of(cases_[i]);
+      report_.measured["kinetic_jumps_" + key] = jumps.kinetic;
+      report_.measured["elastic_jumps_" + key] = jumps.elastic;
+      report_.measured["largest_jump_" + key] = jumps.largest / result.max_kinetic;
+      report_.measured["moved_" + key] = moved;
+      report_.measured["sigma_" + key] = sigma;
+      if (std::isfinite(at_early)) report_.measured["error_early_" + key] = at_early;
+      if (std::isfinite(at_late)) report_.measured["error_late_" + key] = at_late;
+      if (scene.length_control.velocities != VelocityTransfer::nodal) {
+        const std::string nodal = key_of(scene.beam.element) + "_nodal_n" + std::to_string(scene.beam.elements);
+        report_.measured["kinetic_jumps_share_" + key] = jumps.kinetic / report_.measured.at("kinetic_jumps_" + nodal);
+      }
+    }
+    report_.tables.push_back(std::move(table));
+  }
+
+  /// Temporal errors: against the same mesh and velocities by the error-controlled method of the scene.
+  void add_implicit() {
+    Table table{.name = "temporal",
+                .caption = "Generalized-alpha to 0.65 s on one mesh: error against the same mesh converged in time",
+                .columns = {"element", "velocities", "step", "error_early", "error_late", "newton_iterations"}};
+    std::map<std::string, std::vector<double>> steps, errors;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].group != "implicit" || !outcomes_[i]) continue;
+      const Scene& scene = cases_[i].scene;
+      const auto same = [&](const Case& other) { return other.group == "mesh" && key_of(other) == key_of(cases_[i]); };
+      const auto found = std::ranges::find_if(cases_, same);
+      if (found == cases_.end()) continue;
+      const auto& exact = outcomes_[static_cast<std::size_t>(found - cases_.begin())];
+      if (!exact) continue;
+      const double at_early = position_error(*outcomes_[i], *exact, early),
+                   at_late = position_error(*outcomes_[i], *exact, late);
+      table.rows.push_back({to_string(scene.beam.element), to_string(scene.length_control.velocities),
+                            scene.integrator.step, number_or_null(at_early), number_or_null(at_late),
+                            outcomes_[i]->solver.newton.iterations});
+      const std::string key = key_of(cases_[i]);
+      steps[key].push_back(scene.integrator.step);
+      errors[key].push_back(at_late);
+    }
+    for (const auto& [key, late_errors] : errors) {
+      report_.measured["temporal_order_" + key] =
+          std::log(late_errors.front() / late_errors.back()) / std::log(steps[key].front() / steps[key].back());
+      report_.measured["temporal_finest_" + key] = late_errors.back();
+    }
+    report_.tables.push_back(std::move(table));
+  }
+
+  std::string reference_name() const {
+    int n = 0;
+    for (const Case& item : cases_) {
+      if (item.group == "reference") n = item.scene.beam.elements;
+    }
+    return std::to_string(n);
+  }
+
+  std::string folder_;
+  const std::vector<Case>& cases_;
+  std::vector<Outcome<RunResult>> outcomes_;
+  const RunResult* reference_ = nullptr;
+  const RunResult* coarser_ = nullptr;
+  StudyReport report_;
+};
+
+StudyReport run(const StudyContext& context) {
+  const auto cases = read_cases(context.config);
+  return Report(context, cases)();
+}
+
+}  // namespace
+
+Study weights_study();
+
+Study weights_study() {
+  return {.name = "weights",
+          .title = "Weights and velocities at length control: what merging costs in error and in energy",
+          .run = run};
+}
+
+}  // namespace vlbeam
