@@ -33,9 +33,11 @@ std::array<int, Pack::width> lane_offsets(int count) {
 
 }  // namespace
 
+// Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
+// calls.
 template <int D>
 template <StrainLaw Law, bool Bending, bool Damped>
-double Span<D>::forces(const double* q, const double* rate, double* force) const {
+[[gnu::flatten]] double Span<D>::forces(const double* q, const double* rate, double* force) const {
   constexpr int stride = node_size<D>;
   double dissipation = 0;
   for (const auto& pack : packs_) {
@@ -77,8 +79,9 @@ void Span<D>::add_inertia(const double* a, double* out) const {
 
 template <int D>
 template <StrainLaw Law, bool Bending, bool Damped>
-void Span<D>::tangents(const double* q, [[maybe_unused]] const double* rate, [[maybe_unused]] double by_v, double by_a,
-                       NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const {
+[[gnu::flatten]] void Span<D>::tangents(const double* q, [[maybe_unused]] const double* rate,
+                                        [[maybe_unused]] double by_v, double by_a, NodeTangent<D>* diagonal,
+                                        NodeTangent<D>* upper, NodeTangent<D>* lower) const {
   using Matrix = Eigen::Matrix<double, D, D>;
   for (const auto& pack : packs_) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
