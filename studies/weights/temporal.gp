@@ -5,6 +5,7 @@ set multiplot layout 1,2 title "Generalized-alpha through the whip to 0.65 s: er
 set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
+set xrange [1e-4:1.3e-3]
 set xlabel "step (s)"
 set ylabel "max(|{/Symbol D}x_i|, |{/Symbol D}{/:Bold r}_{end}|, |{/Symbol D}{/:Bold r}_{mass}|) / L"
 set key bottom right
