@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace vlbeam {
@@ -119,8 +121,10 @@ class BorderedBlockTridiagonal {
   Corner corner;  ///< among the border's unknowns; new ones are zero
 
  private:
-  static Eigen::Map<Vector> block(double* x, int k) { return Eigen::Map<Vector>(x + B * k); }
-  static Eigen::Map<const Vector> block(const double* x, int k) { return Eigen::Map<const Vector>(x + B * k); }
+  static Eigen::Map<Vector> block(double* x, int k) { return Eigen::Map<Vector>(x + std::ptrdiff_t{B} * k); }
+  static Eigen::Map<const Vector> block(const double* x, int k) {
+    return Eigen::Map<const Vector>(x + std::ptrdiff_t{B} * k);
+  }
 
   int reached(const Border& b) const { return std::min(reach, nodes() - b.first); }
   double row_times(const Border& b, const double* x) const {

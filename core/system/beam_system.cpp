@@ -161,7 +161,7 @@ template <int D>
 std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> BeamSystem<D>::reactions(const Eigen::VectorXd& y, double t) {
   second_order();
   const std::size_t evaluations = rhs_evaluations_;  // those of the integrator
-  const auto forces = implicit_->reactions(y, t);
+  auto forces = implicit_->reactions(y, t);
   rhs_evaluations_ = evaluations;
   return forces;
 }

@@ -25,7 +25,7 @@ MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint
 
 template <int D>
 double ImplicitBeam<D>::Constraint::operator()(const double* q, bool rate) const {
-  const Eigen::Map<const NodeVector> here(q + B * node), next(q + B * (node + 1));
+  const Eigen::Map<const NodeVector> here(q + Eigen::Index{B} * node), next(q + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
   return rate ? direction.dot(here) : direction.dot(here - anchor);
 }
@@ -114,7 +114,8 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
     const int node = constraint.node + (constraint.tied ? 1 : 0);
-    const double lacking = constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + B * node));
+    const double lacking =
+        constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + Eigen::Index{B} * node));
     a[a.size() - multipliers() + static_cast<Eigen::Index>(i)] = (constraint.tied ? 1 : -1) * lacking / reference_mass_;
   }
 }
@@ -188,7 +189,8 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
     const auto& constraint = constraints_[i];
     const Eigen::Index at = first + static_cast<Eigen::Index>(i);
     const double multiplier = reference_mass_ * a[at];
-    Eigen::Map<NodeVector> here(r.data() + B * constraint.node), next(r.data() + B * (constraint.node + 1));
+    Eigen::Map<NodeVector> here(r.data() + Eigen::Index{B} * constraint.node),
+        next(r.data() + Eigen::Index{B} * (constraint.node + 1));
     here += multiplier * constraint.direction;
     if (constraint.tied) next -= multiplier * constraint.direction;
     r[at] = constraint(q.data(), false);
@@ -217,8 +219,8 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   const int shift = cut();  // of the nodes behind the joint
   auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
   system_.left().add_tangent(q.data(), v.data(), by_v, by_a, diagonal, upper, lower);
-  system_.right().add_tangent(q.data() + B * shift, v.data() + B * shift, by_v, by_a, diagonal + shift, upper + shift,
-                              lower + shift);
+  system_.right().add_tangent(q.data() + Eigen::Index{B} * shift, v.data() + Eigen::Index{B} * shift, by_v, by_a,
+                              diagonal + shift, upper + shift, lower + shift);
   if (system_.has_joint()) {
     const int j = system_.joint();
     const auto ju = static_cast<std::size_t>(j);
