@@ -37,13 +37,14 @@ class GeneralizedAlpha final : public Stepper {
 
     double previous = 0, dissipation = 0;
     bool fresh = false;
-    if (by_a != tangent_by_a_) tangent_by_a_ = 0;
+    if (by_a != tangent_by_a_ || system_.factorizations() != factorization_) tangent_by_a_ = 0;
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(q_, v_, acceleration_, t + h, r_);
       if (!r_.allFinite()) return stalled(dt, h);
       if (tangent_by_a_ == 0) {
         if (!system_.linearize(q_, v_, acceleration_, t + h, by_v, by_a)) return stalled(dt, h);
         tangent_by_a_ = by_a;
+        factorization_ = system_.factorizations();
         fresh = true;
       }
       system_.solve(r_);
@@ -116,6 +117,7 @@ class GeneralizedAlpha final : public Stepper {
   GeneralizedAlphaOptions options_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
+  std::size_t factorization_ = 0;
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   Memory start_, end_;       ///< at the start and at the end of the last step
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;

@@ -17,8 +17,19 @@ constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the en
 constexpr int longest_cascade = 8;         // events at one instant
 
 std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options) {
-  if (options.type != IntegratorType::generalized_alpha) return make_odeint_stepper(options.type, options.tolerances);
-  return make_generalized_alpha(*ode.second_order(), options.generalized_alpha);
+  if (options.type == IntegratorType::generalized_alpha) {
+    return make_generalized_alpha(*ode.second_order(), options.generalized_alpha);
+  }
+  if (options.type == IntegratorType::energy_momentum) {
+    return make_energy_momentum(*ode.second_order(), options.energy_momentum);
+  }
+  return make_odeint_stepper(options.type, options.tolerances);
+}
+
+double first_step(const IntegrationOptions& options) {
+  if (!has_fixed_step(options.type)) return options.first_step;
+  return options.type == IntegratorType::generalized_alpha ? options.generalized_alpha.step
+                                                           : options.energy_momentum.step;
 }
 
 /// A method that met an undefined state may propose no usable step at all.
@@ -100,8 +111,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   auto stepper = make_stepper(ode, options);
   SideStepper side(ode, options);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
-  const bool fixed_step = options.type == IntegratorType::generalized_alpha;
-  double dt = std::min(fixed_step ? options.generalized_alpha.step : options.first_step, t_end - t);
+  double dt = std::min(first_step(options), t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
   Eigen::VectorXd before = y;
   double last_event = t - 1;

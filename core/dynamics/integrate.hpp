@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/dynamics/energy_momentum.hpp"
 #include "core/dynamics/generalized_alpha.hpp"
 #include "core/dynamics/ode.hpp"
 #include "core/dynamics/stepper.hpp"
@@ -35,6 +36,7 @@ struct IntegrationOptions {
   Tolerances tolerances;
   double first_step = 1e-6;  ///< [s], of the methods that choose their step
   GeneralizedAlphaOptions generalized_alpha;
+  EnergyMomentumOptions energy_momentum;
 };
 
 /// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start

@@ -52,6 +52,7 @@ std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Toleranc
       return wrap(odeint::bulirsch_stoer<State>(atol, rtol));
     case IntegratorType::dopri5:
     case IntegratorType::generalized_alpha:  // not one of Odeint's
+    case IntegratorType::energy_momentum:
       break;
   }
   return wrap(odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(atol, rtol));

@@ -6,7 +6,12 @@
 
 namespace vlbeam {
 
-enum class IntegratorType { dopri5, cash_karp, fehlberg78, bulirsch_stoer, generalized_alpha };
+enum class IntegratorType { dopri5, cash_karp, fehlberg78, bulirsch_stoer, generalized_alpha, energy_momentum };
+
+/// Whether a method takes steps of one given length; the others choose it by their tolerances.
+constexpr bool has_fixed_step(IntegratorType type) {
+  return type == IntegratorType::generalized_alpha || type == IntegratorType::energy_momentum;
+}
 
 struct Tolerances {
   double rtol = 1e-9;

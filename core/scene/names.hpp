@@ -47,7 +47,8 @@ constexpr auto names(IntegratorType) {
                                                {cash_karp, "cash-karp"},
                                                {fehlberg78, "fehlberg78"},
                                                {bulirsch_stoer, "bulirsch-stoer"},
-                                               {generalized_alpha, "generalized-alpha"}});
+                                               {generalized_alpha, "generalized-alpha"},
+                                               {energy_momentum, "energy-momentum"}});
 }
 constexpr auto names(Section::Type) {
   using enum Section::Type;

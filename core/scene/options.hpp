@@ -54,16 +54,23 @@ struct Range {
   }
 };
 
-/// An option that means something only while another option has a certain value.
+/// An option that means something only while another option has one of certain values.
 struct Condition {
-  std::string_view pointer;  ///< the other option; empty: no condition
-  std::string_view value;    ///< the name it must have
-  bool holds = true;         ///< whether it has, in the scene being visited
+  std::string_view pointer = {};              ///< the other option; empty: no condition
+  std::vector<std::string_view> values = {};  ///< the names it may have
+  bool holds = true;                          ///< whether it has one, in the scene being visited
+
+  /// "a", or "a" or "b".
+  std::string text() const {
+    std::string text;
+    for (const auto value : values) text += (text.empty() ? "\"" : " or \"") + std::string(value) + "\"";
+    return text;
+  }
 };
 
-template <NamedEnum E>
-constexpr Condition only_if(std::string_view pointer, E is, E must_be) {
-  return {.pointer = pointer, .value = to_string(must_be), .holds = is == must_be};
+template <NamedEnum E, std::same_as<E>... Es>
+Condition only_if(std::string_view pointer, E is, Es... one_of) {
+  return {.pointer = pointer, .values = {to_string(one_of)...}, .holds = ((is == one_of) || ...)};
 }
 
 /// One line of the table. `pointer` is a JSON pointer; a segment `at=start` stands for that entry of a list whose key
@@ -335,20 +342,19 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "absolute tolerance of a step, of the methods that choose their step",
                  .range = Range::positive()},
           scene.integrator.atol);
-  const Condition generalized_alpha =
-      only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha);
   visitor(Option{.pointer = "/integrator/step",
                  .unit = "s",
-                 .description = "length of a step",
+                 .description = "length of a step, of the methods that do not choose it",
                  .range = Range::positive(),
-                 .when = generalized_alpha},
+                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha,
+                                 IntegratorType::energy_momentum)},
           scene.integrator.step);
   visitor(Option{.pointer = "/integrator/rho_inf",
                  .unit = "-",
                  .description = "spectral radius at infinity: 1 keeps energy, 0 damps high frequencies most",
                  .source = "Arnold & Bruels 2007",
                  .range = {.low = 0, .high = 1},
-                 .when = generalized_alpha},
+                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
           scene.integrator.rho_inf);
 
   visitor(Option{.pointer = "/duration", .unit = "s", .description = "simulated time", .range = Range::positive()},

@@ -81,7 +81,7 @@ struct IntegratorSpec {
   IntegratorType type = IntegratorType::dopri5;
   double rtol = 1e-9;    ///< error-controlled methods
   double atol = 1e-9;    ///< error-controlled methods
-  double step = 1e-3;    ///< generalized-alpha [s]
+  double step = 1e-3;    ///< methods of fixed step [s]
   double rho_inf = 0.9;  ///< generalized-alpha: spectral radius at infinity
 };
 

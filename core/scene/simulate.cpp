@@ -73,9 +73,10 @@ class Run {
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
     const double wave_time = shortest * std::sqrt(beam.rhoA / std::max(beam.stiffness.EA, beam.stiffness.EI));
     const auto& integrator = scene_.integrator;
-    IntegrationOptions options{integrator.type, {integrator.rtol, integrator.atol}, first_step_courant * wave_time, {}};
+    IntegrationOptions options{integrator.type, {integrator.rtol, integrator.atol}, first_step_courant * wave_time, {}, {}};
     options.generalized_alpha.step = integrator.step;
     options.generalized_alpha.rho_inf = integrator.rho_inf;
+    options.energy_momentum.step = integrator.step;
 
     Eigen::VectorXd y = system_.initial_state();
     double t = 0;

@@ -235,6 +235,7 @@ template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
   refresh();
+  ++factorizations_;
   by_a_ = by_a;
   const auto& model = system_.model();
   const auto& mesh = system_.mesh();

@@ -5,6 +5,7 @@
 #include "core/beam/block_tridiagonal.hpp"
 #include "core/dynamics/second_order.hpp"
 #include "core/system/beam_system.hpp"
+#include "core/system/conserving_step.hpp"
 
 namespace vlbeam {
 
@@ -16,7 +17,7 @@ template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system) {}
+  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system), conserving_step_(system) {}
 
   Eigen::Index coordinates() const override { return system_.coordinates(); }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
@@ -25,6 +26,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
+                             const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override {
+    return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
+  }
 
  private:
   static constexpr int B = node_size<D>;
@@ -43,6 +48,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void at_end_nodes(const Function& function) const;
 
   BeamSystem<D>& system_;
+  ConservingStep<D> conserving_step_;
   std::size_t revision_ = static_cast<std::size_t>(-1);
   std::vector<FixedElement> fixed_;
   BorderedBlockTridiagonal<B> tangent_;

@@ -181,8 +181,8 @@ class Reader {
       }
     } else if (!option.when.holds) {
       throw InvalidInput(field, "this key",
-                         "it is used only where " + file_.in_file(option.when.pointer) + " is \"" +
-                             std::string(option.when.value) + "\"");
+                         "it is used only where " + file_.in_file(option.when.pointer) + " is " +
+                             option.when.text());
     } else if (!read(*value, option, member)) {
       throw InvalidInput(field, excerpt(*value), "it must be " + allowed_text<T>(option));
     }

@@ -147,8 +147,10 @@ class SceneSchemaBuilder {
       target.erase(target.begin(), target.begin() + static_cast<std::ptrdiff_t>(depth));
     }
     const auto standard = defaults_.find(std::string(option.when.pointer));
-    const bool by_default = standard != defaults_.end() && standard->second == option.when.value;
-    Json rule = {{"if", where(condition, 0, {{"const", option.when.value}}, !by_default)}};
+    const auto& values = option.when.values;
+    const bool by_default = standard != defaults_.end() && std::ranges::find(values, standard->second) != values.end();
+    const Json is = values.size() == 1 ? Json{{"const", values.front()}} : Json{{"enum", values}};
+    Json rule = {{"if", where(condition, 0, is, !by_default)}};
     if (option.required) rule["then"] = where(target, 0, true, true);
     rule["else"] = where(target, 0, false, false);
     Json& rules = (*scope)["allOf"];
