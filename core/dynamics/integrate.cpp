@@ -19,15 +19,19 @@ constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int longest_cascade = 8;         // events at one instant
 
 std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters) {
-  if (options.type != IntegratorType::generalized_alpha) {
-    return make_odeint_stepper(options.type, options.tolerances, options.step);
+  if (options.type == IntegratorType::generalized_alpha) {
+    return make_generalized_alpha(*ode.second_order(), options.generalized_alpha, &counters.newton);
   }
-  return make_generalized_alpha(*ode.second_order(), options.generalized_alpha, &counters.newton);
+  if (options.type == IntegratorType::energy_momentum) {
+    return make_energy_momentum(*ode.second_order(), options.energy_momentum);
+  }
+  return make_odeint_stepper(options.type, options.tolerances, options.step);
 }
 
 double first_step(const IntegrationOptions& options) {
   if (!has_fixed_step(options.type)) return options.first_step;
-  return options.type == IntegratorType::generalized_alpha ? options.generalized_alpha.step : options.step;
+  if (options.type == IntegratorType::generalized_alpha) return options.generalized_alpha.step;
+  return options.type == IntegratorType::energy_momentum ? options.energy_momentum.step : options.step;
 }
 
 /// A method that met an undefined state may propose no usable step at all.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/dynamics/energy_momentum.hpp"
 #include "core/dynamics/generalized_alpha.hpp"
 #include "core/dynamics/ode.hpp"
 #include "core/dynamics/stepper.hpp"
@@ -37,6 +38,7 @@ struct IntegrationOptions {
   double first_step = 1e-6;  ///< [s], of the methods that choose their step
   double step = 1e-3;        ///< [s], of Adams-Bashforth-Moulton
   GeneralizedAlphaOptions generalized_alpha;
+  EnergyMomentumOptions energy_momentum;
   bool locate_events = true;  ///< false: an event happens at the end of the step in which it is due
 };
 

@@ -154,6 +154,7 @@ std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Toleranc
       return std::make_unique<Rosenbrock4>(tolerances);
     case IntegratorType::dopri5:
     case IntegratorType::generalized_alpha:  // not one of Odeint's
+    case IntegratorType::energy_momentum:
       break;
   }
   return wrap(odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(atol, rtol));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace vlbeam {
 
@@ -39,13 +40,24 @@ class SecondOrderSystem {
   virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const {
     return {};
   }
-  /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da. Returns false where it is singular.
+  /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before, for whichever
+  /// stepper. Returns false where it is singular.
   virtual bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                          double by_v, double by_a) = 0;
   /// Solves with the last factored matrix, in place.
   virtual void solve(Eigen::VectorXd& r) const = 0;
   /// Jacobian of the same equations in first order, y = (q, q', ...): Ode::jacobian().
   virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
+  /// Residual of a step of length h from (q0, v0) at time t to (q1, v1), q1 = q0 + h (v0 + v1)/2, that keeps energy:
+  /// the change of momentum over h minus a mean force, near M a - Q in the middle of the step. Returns the mean power
+  /// lost to damping [W]. Constraints must be eliminated.
+  virtual double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
+                                     const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) = 0;
+  /// Counts the calls of linearize(): tells who keeps a factored matrix whether it still is his.
+  std::size_t factorizations() const { return factorizations_; }
+
+ protected:
+  std::size_t factorizations_ = 0;
 };
 
 }  // namespace vlbeam

@@ -13,12 +13,14 @@ enum class IntegratorType {
   bulirsch_stoer,
   adams_bashforth_moulton,
   rosenbrock4,
-  generalized_alpha
+  generalized_alpha,
+  energy_momentum
 };
 
 /// Whether a method takes steps of one given length; the others choose it by their tolerances.
 constexpr bool has_fixed_step(IntegratorType type) {
-  return type == IntegratorType::adams_bashforth_moulton || type == IntegratorType::generalized_alpha;
+  return type == IntegratorType::adams_bashforth_moulton || type == IntegratorType::generalized_alpha ||
+         type == IntegratorType::energy_momentum;
 }
 
 struct Tolerances {

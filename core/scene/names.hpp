@@ -54,7 +54,8 @@ constexpr auto names(IntegratorType) {
                                                {bulirsch_stoer, "bulirsch-stoer"},
                                                {adams_bashforth_moulton, "adams-bashforth-moulton"},
                                                {rosenbrock4, "rosenbrock4"},
-                                               {generalized_alpha, "generalized-alpha"}});
+                                               {generalized_alpha, "generalized-alpha"},
+                                               {energy_momentum, "energy-momentum"}});
 }
 constexpr auto names(Constraints) {
   using enum Constraints;

@@ -360,7 +360,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "length of a step, of the methods that do not choose it; at most the duration",
                  .range = Range::positive(),
                  .when = only_if(integrator_type, scene.integrator.type, IntegratorType::adams_bashforth_moulton,
-                                 IntegratorType::generalized_alpha)},
+                                 IntegratorType::generalized_alpha, IntegratorType::energy_momentum)},
           scene.integrator.step);
   visitor(Option{.pointer = "/integrator/rho_inf",
                  .unit = "-",

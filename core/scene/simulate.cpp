@@ -78,7 +78,7 @@ class Run {
     options.tolerances = {integrator.rtol, integrator.atol};
     options.first_step = first_step_courant * wave_time;
     options.locate_events = integrator.locate_events;
-    options.step = integrator.step;
+    options.step = options.energy_momentum.step = integrator.step;
     options.generalized_alpha = {.step = integrator.step,
                                  .rho_inf = integrator.rho_inf,
                                  .newton = integrator.newton,

@@ -121,6 +121,19 @@ void check_length_control(const Scene& scene) {
   }
 }
 
+void check_energy_momentum(const Scene& scene) {
+  if (scene.integrator.type != IntegratorType::energy_momentum || !scene.sliding_mass) return;
+  const auto quoted = [](std::string_view name) { return "\"" + std::string(name) + "\""; };
+  if (scene.formulation != Formulation::variational) {
+    refuse("/formulation", quoted(to_string(scene.formulation)),
+           "\"energy-momentum\" with a sliding mass needs \"variational\": the virtual work has no energy to keep");
+  }
+  if (scene.weights == WeightTransport::transported && scene.beam.element == ElementKind::ale_rancf) {
+    refuse("/weights", quoted(to_string(scene.weights)),
+           "\"energy-momentum\" with a sliding mass needs \"frozen\" weights, or \"ALE-ANCF\" elements");
+  }
+}
+
 void check_integrator(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
   if (scene.constraints == Constraints::multipliers && integrator.type != IntegratorType::generalized_alpha) {
@@ -160,6 +173,7 @@ void validate(const Scene& scene) {
   check_sliding_mass(scene);
   check_length_control(scene);
   check_integrator(scene);
+  check_energy_momentum(scene);
   check_output(scene);
 }
 

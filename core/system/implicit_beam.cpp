@@ -258,6 +258,7 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
+  ++factorizations_;
   assemble(q, v, a, t, by_v, by_a);
   if (with_multipliers()) {
     add_constraints(by_a);

@@ -5,6 +5,7 @@
 #include "core/beam/block_tridiagonal.hpp"
 #include "core/dynamics/second_order.hpp"
 #include "core/system/beam_system.hpp"
+#include "core/system/conserving_step.hpp"
 
 namespace vlbeam {
 
@@ -21,7 +22,7 @@ template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system) {}
+  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system), conserving_step_(system) {}
 
   Eigen::Index coordinates() const override;
   Eigen::Index multipliers() const override;
@@ -34,6 +35,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
+                             const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override {
+    return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
+  }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
 
   /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]), at a
@@ -77,6 +82,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void at_end_nodes(const Function& function) const;
 
   BeamSystem<D>& system_;
+  ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable std::vector<Constraint> constraints_;
   mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier

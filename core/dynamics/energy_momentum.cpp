@@ -1,0 +1,91 @@
+#include "core/dynamics/energy_momentum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vlbeam {
+namespace {
+
+constexpr double slow_contraction = 0.1;  // an iteration that gains less asks for a new tangent
+constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+
+class EnergyMomentum final : public Stepper {
+ public:
+  EnergyMomentum(SecondOrderSystem& system, const EnergyMomentumOptions& options)
+      : system_(system), options_(options) {}
+
+  bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
+    const Eigen::Index n = system_.coordinates();
+    const double h = std::min(dt, options_.step);
+    q0_ = y.head(n);
+    v0_ = y.segment(n, n);
+    r_.resize(n);
+    if (acceleration_.size() != n) acceleration_.setZero(n);
+    v1_ = v0_ + h * acceleration_;
+
+    double previous = 0, dissipation = 0;
+    if (h != tangent_step_ || system_.factorizations() != factorization_) tangent_step_ = 0;
+    for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
+      q1_ = q0_ + (h / 2) * (v0_ + v1_);
+      dissipation = system_.conserving_residual(q0_, v0_, q1_, v1_, t, h, r_);
+      if (!r_.allFinite()) break;
+      if (tangent_step_ == 0 && !linearize(t, h)) break;
+      system_.solve(r_);  // twice the correction of q_1
+      v1_ -= (4 / h) * r_;
+      const double correction = 2 * r_.lpNorm<Eigen::Infinity>() / std::max(1.0, q1_.lpNorm<Eigen::Infinity>());
+      if (!std::isfinite(correction)) break;
+      const bool at_rounding = correction <= rounding ||
+                               (iteration > 0 && correction <= options_.newton_tolerance && correction > previous / 2);
+      if (at_rounding) {
+        accept(y, t, h, n, dissipation);
+        dt = options_.step;
+        return true;
+      }
+      if (iteration > 0 && correction > slow_contraction * previous) tangent_step_ = 0;
+      previous = correction;
+    }
+    dt = h / 2;
+    reset();
+    return false;
+  }
+
+  void reset() override {
+    acceleration_.resize(0);
+    tangent_step_ = 0;
+  }
+
+ private:
+  bool linearize(double t, double h) {
+    middle_q_ = (q0_ + q1_) / 2;
+    middle_v_ = (v0_ + v1_) / 2;
+    acceleration_ = (v1_ - v0_) / h;
+    if (!system_.linearize(middle_q_, middle_v_, acceleration_, t + h / 2, 2 / h, 4 / (h * h))) return false;
+    tangent_step_ = h;
+    factorization_ = system_.factorizations();
+    return true;
+  }
+
+  void accept(Eigen::VectorXd& y, double& t, double h, Eigen::Index n, double dissipation) {
+    y.head(n) = q0_ + (h / 2) * (v0_ + v1_);
+    y.segment(n, n) = v1_;
+    if (y.size() > 2 * n) y[2 * n] += h * dissipation;
+    acceleration_ = (v1_ - v0_) / h;
+    t += h;
+  }
+
+  SecondOrderSystem& system_;
+  EnergyMomentumOptions options_;
+  double tangent_step_ = 0;  ///< the step that the factored tangent was made for; 0 for none
+  std::size_t factorization_ = 0;
+  Eigen::VectorXd acceleration_;  ///< mean of the last step, which predicts the next one
+  Eigen::VectorXd q0_, v0_, q1_, v1_, r_, middle_q_, middle_v_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const EnergyMomentumOptions& options) {
+  return std::make_unique<EnergyMomentum>(system, options);
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+
+#include "core/dynamics/second_order.hpp"
+#include "core/dynamics/stepper.hpp"
+
+namespace vlbeam {
+
+/// Options of the energy-momentum method.
+struct EnergyMomentumOptions {
+  double step = 1e-3;               ///< [s]
+  double newton_tolerance = 1e-11;  ///< a correction, relative to the coordinates' size, that rounding may leave
+  int newton_iterations = 30;       ///< beyond which the step is halved
+};
+
+/// Implicit method that keeps the system's total energy, whatever the step: q_1 = q_0 + h (v_0 + v_1)/2 and a change of
+/// momentum by the discrete gradient of the Lagrangian (SecondOrderSystem::conserving_residual). Second order,
+/// symmetric in time; steps of fixed length unless Newton stalls.
+///
+/// What is left of an iteration goes straight into the energy, so that Newton's iteration runs until rounding stops it:
+/// on velocities, for the rounding of q_1 - q_0 is no error of energy then. Its matrix is the tangent of the equations
+/// of motion in the middle of the step, which differs from the residual's derivative by terms of first order in the
+/// step's change of shape; it is kept from step to step while the iteration contracts.
+std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const EnergyMomentumOptions& options);
+
+}  // namespace vlbeam
