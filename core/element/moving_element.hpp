@@ -243,7 +243,7 @@ struct ShapeTabulation {
 ///   x_A,
 /// L the Lagrangian per length: between events energy is conserved for any number of points.
 template <StrainLaw Law, bool Bending, class Real, int D, MovingEnds Ends = MovingEnds::both>
-[[gnu::flatten]] MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q,
+MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q,
                                                            const MovingCoordinates<Real, D>& rate,
                                                            const WeightFunction& weights, const ShapeTabulation& table,
                                                            const MovingLaw<D>& law) {
