@@ -109,6 +109,22 @@ Table advice_table(const std::vector<Climb>& climbs, const Json& config, const s
   return table;
 }
 
+/// Observed orders where a problem asks for one: "order": {"integrator": ..., "steps": [...]}.
+void fit_orders(StudyReport& report, const std::vector<Climb>& climbs, const Json& problems) {
+  for (const Climb& climb : climbs) {
+    const Ladder& ladder = climb.ladder;
+    const Json order = problems.at(ladder.problem).value("order", Json::object());
+    if (order.value("integrator", "") != ladder.integrator.name) continue;
+    const auto steps = order.at("steps").get<std::vector<double>>();
+    std::vector<double> errors;
+    for (const double step : steps) {
+      const auto rung = std::ranges::find(climb.rungs, step, &Rung::value);
+      errors.push_back(rung == climb.rungs.end() ? nan : climb.error(*rung));
+    }
+    report.fits.push_back(fit_order(ladder.problem + "/" + ladder.element, steps, errors, {.fitted = steps.size()}));
+  }
+}
+
 /// What all figures of one problem need: names, colours by family, marks.
 GnuplotVariables style(const Json& config) {
   GnuplotVariables style{{"names", ""}, {"colours", ""}, {"marks", ""}};
@@ -192,6 +208,7 @@ void compare_integrators(StudyReport& report, const StudyContext& context, const
     }
   }
 
+  fit_orders(report, climbs, config.at("problems"));
   report.tables.push_back(evaluations_table(climbs));
   report.tables.push_back(times_table(climbs));
   report.tables.push_back(advice_table(

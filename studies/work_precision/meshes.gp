@@ -15,7 +15,7 @@ set title "Falling beam: total error over meshes, elements and integrators"
 csv = data . "total_error_times.timing.csv"
 colour(n) = n <= 5 ? 0xc6dbef : n <= 8 ? 0x6baed6 : n <= 14 ? 0x2171b5 : n <= 28 ? 0xfd8d3c : 0xa63603
 is(e, n) = strcol("element") eq e && strcol("integrator") eq n
-array names[3] = ["dopri5", "fehlberg78", "generalized-alpha(0.8)"]
+array names[3] = ["dopri5", "fehlberg78", "generalized-alpha(0.6)"]
 array marks[3] = [6, 10, 4]
 plot data . "pareto_front.timing.csv" using "seconds":"total" with steps linewidth 1.5 linecolor rgb "#000000" title "Pareto front", \
      for [i = 1:3] csv using (is("ALE-RANCF", names[i]) ? column("seconds") : NaN):"total":(colour(column("elements"))) \

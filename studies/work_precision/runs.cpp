@@ -60,8 +60,13 @@ std::vector<Integrator> read_integrators(const Json& config, const std::string& 
     integrator.scene = entry.at("integrator");
     integrator.fixed_step = entry.contains("steps");
     const Json& values = entry.at(integrator.fixed_step ? "steps" : "tolerances");
-    integrator.values = (values.is_object() ? values.at(problem) : values).get<std::vector<double>>();
+    const std::string key = values.contains(problem) ? problem : "others";
+    integrator.values = (values.is_object() ? values.at(key) : values).get<std::vector<double>>();
     integrator.most_steps = entry.at("most_steps").get<double>();
+    if (entry.contains("fine")) {
+      integrator.fine_below = entry.at("fine").at("below").get<double>();
+      integrator.fine = entry.at("fine").at("integrator");
+    }
     integrators.push_back(std::move(integrator));
   }
   return integrators;
@@ -97,7 +102,7 @@ std::vector<Rung> climb(const Ladder& ladder, double cap_seconds) {
   std::vector<Rung> rungs;
   const Integrator& integrator = ladder.integrator;
   for (const double value : integrator.values) {
-    Json choice = integrator.scene;
+    Json choice = value < integrator.fine_below ? merged(integrator.scene, integrator.fine) : integrator.scene;
     for (const char* key : {"rtol", "atol"}) {
       if (!integrator.fixed_step) choice[key] = value;
     }

@@ -16,12 +16,15 @@ struct Integrator {
   bool fixed_step = false;     ///< the rungs are steps [s], not tolerances
   std::vector<double> values;  ///< coarse to fine
   double most_steps = 0;       ///< beyond which a run is capped
+  double fine_below = 0;       ///< rungs below it use `fine`
+  Json fine = Json::object();  ///< patch of `scene`
 
   /// "rtol = atol = 1e-6" or "step = 1e-3 s".
   std::string setting(double value) const;
 };
 
-/// Where the integrators of a sweep stand in `config`; `problem` picks the rungs where they differ by problem.
+/// Where the integrators of a sweep stand in `config`; `problem` picks the rungs where they differ by problem, "others"
+/// those of a problem that is not named.
 std::vector<Integrator> read_integrators(const Json& config, const std::string& problem);
 
 /// A position of everything at one time, to measure errors against.
