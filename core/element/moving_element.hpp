@@ -243,10 +243,9 @@ struct ShapeTabulation {
 ///   x_A,
 /// L the Lagrangian per length: between events energy is conserved for any number of points.
 template <StrainLaw Law, bool Bending, class Real, int D, MovingEnds Ends = MovingEnds::both>
-MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q,
-                                                           const MovingCoordinates<Real, D>& rate,
-                                                           const WeightFunction& weights, const ShapeTabulation& table,
-                                                           const MovingLaw<D>& law) {
+MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
+                                          const WeightFunction& weights, const ShapeTabulation& table,
+                                          const MovingLaw<D>& law) {
   using Vector = Vec<Real, D>;
   using Kinematics = MovingKinematics<Real, D, Ends>;
   MovingEquations<Real, D> eq;

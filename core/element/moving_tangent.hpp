@@ -75,10 +75,11 @@ struct DampingTangent {
 /// kinematics of unit vectors are their derivatives, and what remains is that of the stresses. Only the column of the
 /// moving end, one direction, is left to automatic differentiation.
 template <MovingEnds Ends, StrainLaw Law, bool Bending, int D>
-Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(
-    const MovingCoordinates<double, D>& q, const MovingCoordinates<double, D>& rate,
-    const MovingCoordinates<double, D>& a, double by_v, double by_a, const WeightFunction& weights,
-    const ShapeTabulation& table, const MovingLaw<D>& law) {
+Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinates<double, D>& q,
+                                                           const MovingCoordinates<double, D>& rate,
+                                                           const MovingCoordinates<double, D>& a, double by_v,
+                                                           double by_a, const WeightFunction& weights,
+                                                           const ShapeTabulation& table, const MovingLaw<D>& law) {
   static_assert(Ends != MovingEnds::both);
   constexpr bool at_a = Ends == MovingEnds::a;
   constexpr int N = 4 * D + 1;
