@@ -7,6 +7,7 @@
 namespace vlbeam {
 
 // One declaration and one line of the list for each folder studies/<name>/.
+Study energy_drift_study();
 Study falling_beam_study();
 Study weights_study();
 Study work_precision_study();
@@ -14,6 +15,7 @@ Study work_precision_study();
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
+        energy_drift_study(),
         falling_beam_study(),
         weights_study(),
         work_precision_study(),
