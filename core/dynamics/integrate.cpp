@@ -41,6 +41,13 @@ void shorten(double& dt, double tried, Stepper& stepper) {
   stepper.reset();
 }
 
+[[noreturn]] void underflow(double t, double dt) {
+  std::ostringstream what;
+  what << "step underflow: the integrator needs steps below " << dt
+       << " s; the scene may be too stiff for an explicit method, an element too short or the curve degenerate";
+  throw ComputationFailed(what.str(), t);
+}
+
 /// Steps that start from the beginning of the current step and leave the main stepper alone.
 class SideStepper {
  public:
@@ -60,6 +67,8 @@ class SideStepper {
         if (last) break;
       } else {
         shorten(dt, tried, *stepper_);
+        const double smallest = std::max(1e-12 * (to - from), 1e-15 * std::abs(to));
+        if (dt < smallest) underflow(t, smallest);  // below, t itself would stand still
       }
     }
     return y_;
@@ -146,13 +155,6 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
     if (first.index < 0 || found.t < first.t) first = found;
   }
   return first;
-}
-
-[[noreturn]] void underflow(double t, double dt) {
-  std::ostringstream what;
-  what << "step underflow: the integrator needs steps below " << dt
-       << " s; the scene may be too stiff for an explicit method, an element too short or the curve degenerate";
-  throw ComputationFailed(what.str(), t);
 }
 
 }  // namespace
