@@ -9,6 +9,7 @@
 #include "core/beam/support.hpp"
 #include "core/element/fixed_element.hpp"
 #include "core/element/pack.hpp"
+#include "core/element/rest_curve.hpp"
 
 namespace vlbeam {
 
@@ -25,10 +26,11 @@ class Span {
   using Vector = Vec<double, D>;
   using Components = typename Support<D>::Components;
 
-  /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side. Throws std::invalid_argument for a
-  /// mass matrix that is not positive definite (too few quadrature points).
+  /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` is null for a straight,
+  /// unstrained rest shape. Throws std::invalid_argument for a mass matrix that is not positive definite (too few
+  /// quadrature points).
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section, StrainLaw law,
-       const QuadratureRule& rule);
+       const QuadratureRule& rule, const RestCurve<D>* rest);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -60,6 +62,7 @@ class Span {
   /// What elements of equal length and weights share: their bases, four to a pack, and rhoA times their mass.
   struct Tables {
     FixedBasis<Pack> basis;
+    std::vector<RestStrain<Pack>> rest;  ///< at the points of the basis; empty without a rest shape
     std::array<std::array<std::array<double, 4>, 4>, Pack::width> mass;
   };
   struct PackOfElements {
@@ -76,22 +79,31 @@ class Span {
   using Tangents = void (Span::*)(const double*, const double*, double, double, NodeTangent<D>*, NodeTangent<D>*,
                                   NodeTangent<D>*) const;
 
+  using RestForces = void (Span::*)(const double*, double*) const;
+  using RestTangents = void (Span::*)(const double*, NodeTangent<D>*, NodeTangent<D>*, NodeTangent<D>*) const;
+
   template <StrainLaw Law, bool Bending, bool Damped>
   double forces(const double* q, const double* rate, double* force) const;
+  template <StrainLaw Law, bool Bending>
+  void rest_forces(const double* q, double* force) const;
+  template <StrainLaw Law, bool Bending>
+  void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   template <StrainLaw Law, bool Bending, bool Damped>
   void tangents(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                 NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   template <StrainLaw Law, bool Bending, bool Damped>
-  void use_kernels();
-  void choose_kernels(StrainLaw law);
-  void build_packs(const Mesh& mesh, const QuadratureRule& rule);
+  void use_kernels(bool curved_at_rest);
+  void choose_kernels(StrainLaw law, bool curved_at_rest);
+  void build_packs(const Mesh& mesh, const QuadratureRule& rule, const RestCurve<D>* rest);
   void factor(const Mesh& mesh, const QuadratureRule& rule);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
   BeamSection section_;
   Forces forces_ = nullptr;
+  RestForces rest_forces_ = nullptr;  ///< null for a straight rest shape
   Tangents tangents_ = nullptr;
+  RestTangents rest_tangents_ = nullptr;
   std::vector<PackOfElements> packs_;
   std::vector<Pivot> pivots_;  ///< from the outer node inwards, without the open node
   NodeBlock<D> open_mass_;

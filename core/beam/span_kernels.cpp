@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/beam/span.hpp"
+#include "core/element/fixed_rest.hpp"
 #include "core/element/fixed_tangent.hpp"
 
 namespace vlbeam {
@@ -31,6 +32,36 @@ std::array<int, Pack::width> lane_offsets(int count) {
   return offset;
 }
 
+/// Adds a ChordTangent, stiffness(i, j), of the element between the first node and the next. Unknowns r_A, s_A, r_B,
+/// s_B: r_A enters through minus the chord r_B - r_A, r_B through the chord.
+template <int D, class Stiffness>
+void add_chord_tangent(const Stiffness& stiffness, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+                       NodeTangent<D>* lower) {
+  auto add = [&](NodeTangent<D>& block, int row, int column, double sign, std::size_t chord_row,
+                 std::size_t chord_column) {
+    block.template block<D, D>(row * D, column * D) += sign * stiffness(chord_row, chord_column);
+  };
+  auto &aa = diagonal[0], &ab = upper[0], &ba = lower[1], &bb = diagonal[1];
+  add(aa, 0, 0, 1, 0, 0), add(aa, 0, 1, -1, 0, 1), add(aa, 1, 0, -1, 1, 0), add(aa, 1, 1, 1, 1, 1);
+  add(ab, 0, 0, -1, 0, 0), add(ab, 0, 1, -1, 0, 2), add(ab, 1, 0, 1, 1, 0), add(ab, 1, 1, 1, 1, 2);
+  add(ba, 0, 0, -1, 0, 0), add(ba, 0, 1, 1, 0, 1), add(ba, 1, 0, -1, 2, 0), add(ba, 1, 1, 1, 2, 1);
+  add(bb, 0, 0, 1, 0, 0), add(bb, 0, 1, 1, 0, 2), add(bb, 1, 0, 1, 2, 0), add(bb, 1, 1, 1, 2, 2);
+}
+
+/// Adds the forces on the first `count` elements of a pack to the nodes from `out` on.
+template <int D>
+void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
+  constexpr int stride = node_size<D>;
+  for (int i = 0; i < count; ++i, out += stride) {
+    for (int c = 0; c < D; ++c) {
+      out[c] -= f.r_b[c][i];
+      out[D + c] += f.s_a[c][i];
+      out[stride + c] += f.r_b[c][i];
+      out[stride + D + c] += f.s_b[c][i];
+    }
+  }
+}
+
 }  // namespace
 
 // Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
@@ -38,25 +69,28 @@ std::array<int, Pack::width> lane_offsets(int count) {
 template <int D>
 template <StrainLaw Law, bool Bending, bool Damped>
 [[gnu::flatten]] double Span<D>::forces(const double* q, const double* rate, double* force) const {
-  constexpr int stride = node_size<D>;
   double dissipation = 0;
   for (const auto& pack : packs_) {
     const auto offset = lane_offsets<D>(pack.count);
     const auto e = load_elements<D>(q, pack.first, offset);
     const auto e_rate = Damped ? load_elements<D>(rate, pack.first, offset) : e;
     const auto f = fixed_force<Law, Bending, Damped, Pack, D>(pack.tables->basis, e, e_rate, section_);
-    double* out = force + stride * pack.first;
-    for (int i = 0; i < pack.count; ++i, out += stride) {
-      for (int c = 0; c < D; ++c) {
-        out[c] -= f.r_b[c][i];
-        out[D + c] += f.s_a[c][i];
-        out[stride + c] += f.r_b[c][i];
-        out[stride + D + c] += f.s_b[c][i];
-      }
-      if constexpr (Damped) dissipation += f.dissipation[i];
+    add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
+    if constexpr (Damped) {
+      for (int i = 0; i < pack.count; ++i) dissipation += f.dissipation[i];
     }
   }
   return dissipation;
+}
+
+template <int D>
+template <StrainLaw Law, bool Bending>
+void Span<D>::rest_forces(const double* q, double* force) const {
+  for (const auto& pack : packs_) {
+    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
+    const auto f = rest_force<Law, Bending, Pack, D>(pack.tables->basis, pack.tables->rest, e, section_);
+    add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
+  }
 }
 
 template <int D>
@@ -102,18 +136,32 @@ template <StrainLaw Law, bool Bending, bool Damped>
         return result;
       };
       const auto& m = pack.tables->mass[static_cast<std::size_t>(i)];
-      // unknowns r_A, s_A, r_B, s_B: r_A enters through minus the chord r_B - r_A, r_B through the chord
-      auto add = [&](NodeTangent<D>& block, std::size_t row, std::size_t column, double sign, std::size_t chord_row,
-                     std::size_t chord_column) {
-        auto part = block.template block<D, D>(row % 2 * D, column % 2 * D);
-        part += sign * stiffness(chord_row, chord_column);
-        part.diagonal().array() += by_a * m[row][column];
+      auto add_mass = [&](NodeTangent<D>& block, std::size_t row, std::size_t column) {
+        for (std::size_t r = 0; r < 2; ++r) {
+          for (std::size_t c = 0; c < 2; ++c) {
+            block.template block<D, D>(static_cast<int>(r) * D, static_cast<int>(c) * D).diagonal().array() +=
+                by_a * m[row + r][column + c];
+          }
+        }
       };
-      auto &aa = diagonal[k], &ab = upper[k], &ba = lower[k + 1], &bb = diagonal[k + 1];
-      add(aa, 0, 0, 1, 0, 0), add(aa, 0, 1, -1, 0, 1), add(aa, 1, 0, -1, 1, 0), add(aa, 1, 1, 1, 1, 1);
-      add(ab, 0, 2, -1, 0, 0), add(ab, 0, 3, -1, 0, 2), add(ab, 1, 2, 1, 1, 0), add(ab, 1, 3, 1, 1, 2);
-      add(ba, 2, 0, -1, 0, 0), add(ba, 2, 1, 1, 0, 1), add(ba, 3, 0, -1, 2, 0), add(ba, 3, 1, 1, 2, 1);
-      add(bb, 2, 2, 1, 0, 0), add(bb, 2, 3, 1, 0, 2), add(bb, 3, 2, 1, 2, 0), add(bb, 3, 3, 1, 2, 2);
+      add_mass(diagonal[k], 0, 0), add_mass(upper[k], 0, 2), add_mass(lower[k + 1], 2, 0);
+      add_mass(diagonal[k + 1], 2, 2);
+      add_chord_tangent<D>(stiffness, diagonal + k, upper + k, lower + k);
+    }
+  }
+}
+
+template <int D>
+template <StrainLaw Law, bool Bending>
+void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+                            NodeTangent<D>* lower) const {
+  for (const auto& pack : packs_) {
+    for (int i = 0; i < pack.count; ++i) {
+      const int k = pack.first + i;
+      const auto tangent =
+          rest_tangent<Law, Bending, D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
+      add_chord_tangent<D>([&](std::size_t row, std::size_t column) { return tangent[row][column]; }, diagonal + k,
+                           upper + k, lower + k);
     }
   }
 }
@@ -122,30 +170,35 @@ template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
   (this->*tangents_)(q, rate, by_v, by_a, diagonal, upper, lower);
+  if (rest_tangents_ != nullptr) (this->*rest_tangents_)(q, diagonal, upper, lower);
 }
 
 template <int D>
 template <StrainLaw Law, bool Bending, bool Damped>
-void Span<D>::use_kernels() {
+void Span<D>::use_kernels(bool curved_at_rest) {
   forces_ = &Span::forces<Law, Bending, Damped>;
+  if (!curved_at_rest) return;
+  rest_forces_ = &Span::rest_forces<Law, Bending>;
+  rest_tangents_ = &Span::rest_tangents<Law, Bending>;
   tangents_ = &Span::tangents<Law, Bending, Damped>;
 }
 
 template <int D>
-void Span<D>::choose_kernels(StrainLaw law) {
+void Span<D>::choose_kernels(StrainLaw law, bool curved_at_rest) {
   auto choose = [&]<StrainLaw Law>() {
     if (section_.bends()) {
-      section_.damped() ? use_kernels<Law, true, true>() : use_kernels<Law, true, false>();
+      section_.damped() ? use_kernels<Law, true, true>(curved_at_rest) : use_kernels<Law, true, false>(curved_at_rest);
     } else {
-      section_.damped() ? use_kernels<Law, false, true>() : use_kernels<Law, false, false>();
+      section_.damped() ? use_kernels<Law, false, true>(curved_at_rest)
+                        : use_kernels<Law, false, false>(curved_at_rest);
     }
   };
   law == StrainLaw::green ? choose.template operator()<StrainLaw::green>()
                           : choose.template operator()<StrainLaw::engineering>();
 }
 
-template void Span<2>::choose_kernels(StrainLaw);
-template void Span<3>::choose_kernels(StrainLaw);
+template void Span<2>::choose_kernels(StrainLaw, bool);
+template void Span<3>::choose_kernels(StrainLaw, bool);
 template void Span<2>::add_inertia(const double*, double*) const;
 template void Span<3>::add_inertia(const double*, double*) const;
 template void Span<2>::add_tangent(const double*, const double*, double, double, NodeTangent<2>*, NodeTangent<2>*,

@@ -1,45 +1,11 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
-#include "core/element/quadrature.hpp"
+#include "core/element/moving_points.hpp"
 #include "core/element/section.hpp"
-#include "core/element/shape_functions.hpp"
-#include "core/element/transport.hpp"
 
 namespace vlbeam {
-
-// A variable-length element: the rational cubic of an ordinary element between two ends whose material coordinates
-// x_A(t), x_B(t) move (ALE-RANCF, Ding & Ouyang 2022, section 3). Its position at a material point x is
-//   r(x, t) = S(x; x_A, x_B) e,   velocity v = S e' + y_A x_A' + y_B x_B',   acceleration S e'' + y_A x_A'' + y_B x_B''
-//   + r_v,
-// where y_A = dr/dx_A and y_B = dr/dx_B at fixed x (N = [S, y_A, y_B], Eq. 14-15).
-
-/// Which ends' material coordinates may change; what the other would add is then not computed.
-enum class MovingEnds { a, b, both };
-
-/// Generalized coordinates of one element, or their rates.
-template <class Real, int D>
-struct MovingCoordinates {
-  NodalCubic<Real, D> e;
-  Real x_a, x_b;
-};
-
-/// The rational cubic W(x) of `transported` weights: Bernstein coefficients on a reference interval of material
-/// coordinates. With `frozen` weights only the coefficients count, whatever the element's current interval.
-struct WeightFunction {
-  Weights<double> w = unit_weights;
-  double x_a = 0, x_b = 1;
-
-  /// The weights on the interval [a, b], its W continued analytically where it reaches beyond the reference.
-  template <class Real>
-  Weights<Real> on(const Real& a, const Real& b) const {
-    const Weights<Real> reference{Real(w[0]), Real(w[1]), Real(w[2]), Real(w[3])};
-    const double inverse = 1 / (x_b - x_a);
-    return restrict_cubic(reference, Real((a - x_a) * inverse), Real((b - x_a) * inverse));
-  }
-};
 
 /// Equations of motion of one element: M q'' = Q with q = (r_A, s_A, r_B, s_B, x_A, x_B).
 /// The block of the nodal coordinates is a scalar matrix times the identity.
@@ -53,163 +19,6 @@ struct MovingEquations {
   Real dissipation;  ///< power lost to Kelvin-Voigt damping [W]
 };
 
-/// Motion of one point of a variable-length element, at u, as functions of its coordinates and their rates.
-/// Derivatives with respect to the material coordinate at fixed time carry a subscript of x's.
-template <class Real, int D>
-struct PointMotion {
-  std::array<Real, 4> s, s_x, s_xx;  ///< shape functions of (r_A, s_A, r_B, s_B)
-  Vec<Real, D> r, r_x, r_xx, r_xxx;
-  Vec<Real, D> y_a, y_a_x, y_a_xx;  ///< dr/dx_A at fixed x
-  Vec<Real, D> y_b, y_b_x, y_b_xx;  ///< dr/dx_B at fixed x
-  Vec<Real, D> v, v_x, v_xx;        ///< velocity of the material point
-  Vec<Real, D> remainder;           ///< r_v: acceleration at q'' = 0
-};
-
-/// Kinematics of a variable-length element in one configuration, evaluated at any number of points.
-template <class Real, int D, MovingEnds Ends = MovingEnds::both>
-class MovingKinematics {
- public:
-  using Vector = Vec<Real, D>;
-  static constexpr bool a_moves = Ends != MovingEnds::b, b_moves = Ends != MovingEnds::a;
-
-  MovingKinematics(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
-                   WeightTransport transport, const WeightFunction& weights)
-      : q_(q), rate_(rate), transported_(transport == WeightTransport::transported) {
-    l_ = q.x_b - q.x_a;
-    inverse_ = Real(1) / l_;
-    inverse2_ = inverse_ * inverse_;
-    l_rate_ = rate.x_b - rate.x_a;
-    if (transported_) {
-      weights_ = weights.on(q.x_a, q.x_b);
-      prepare_transport();
-    } else {
-      for (std::size_t i = 0; i < 4; ++i) weights_[i] = Real(weights.w[i]);
-    }
-  }
-
-  const Real& length() const { return l_; }
-  const Real& length_rate() const { return l_rate_; }
-  const Weights<Real>& weights() const { return weights_; }
-  /// Velocity of the reference point u along the beam, c = x_A' (1 - u) + x_B' u.
-  Real mesh_velocity(double u) const { return rate_.x_a * (1 - u) + rate_.x_b * u; }
-
-  /// `f` holds the shape functions of `weights()` at u. Nothing is set for an end that does not move.
-  /// Tabulated ones are plain numbers, whatever `Real` is.
-  template <class Shape>
-  [[gnu::always_inline]] PointMotion<Real, D> at(double u, const ShapeTable<Shape>& f) const {
-    PointMotion<Real, D> point;
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (i % 2 == 0) {
-        point.s[i] = f[i][0];
-        point.s_x[i] = inverse_ * f[i][1];
-        point.s_xx[i] = inverse2_ * f[i][2];
-      } else {
-        point.s[i] = l_ * f[i][0];
-        point.s_x[i] = f[i][1];
-        point.s_xx[i] = inverse_ * f[i][2];
-      }
-    }
-    point.r = combine(point.s, q_.e);
-    point.r_x = combine(point.s_x, q_.e);
-    point.r_xx = combine(point.s_xx, q_.e);
-    point.r_xxx = derivative(f, 3, q_.e) * Real(inverse2_ * inverse_);
-    if (transported_) {
-      transport_weights(point);
-    } else {
-      freeze_weights(u, f, point);
-    }
-    return point;
-  }
-
- private:
-  static Vector combine(const std::array<Real, 4>& s, const NodalCubic<Real, D>& e) {
-    return e.r_a * s[0] + e.s_a * s[1] + e.r_b * s[2] + e.s_b * s[3];
-  }
-  template <class Shape>
-  Vector derivative(const ShapeTable<Shape>& f, std::size_t n, const NodalCubic<Real, D>& e) const {
-    return e.r_a * f[0][n] + e.r_b * f[2][n] + (e.s_a * f[1][n] + e.s_b * f[3][n]) * l_;
-  }
-
-  /// Constant weights: u and l change under a fixed material point.
-  template <class Shape>
-  [[gnu::always_inline]] void freeze_weights(double u, const ShapeTable<Shape>& f, PointMotion<Real, D>& point) const {
-    auto slopes = [&](std::size_t n, const NodalCubic<Real, D>& e) -> Vector {
-      return e.s_a * f[1][n] + e.s_b * f[3][n];
-    };
-    const Real ul = inverse_ * u, vl = inverse_ * (1 - u);
-    const Vector d1 = derivative(f, 1, q_.e), d2 = derivative(f, 2, q_.e);
-    const Vector d3 = derivative(f, 3, q_.e);
-    const Vector g0 = slopes(0, q_.e), g1 = slopes(1, q_.e), g2 = slopes(2, q_.e);
-    const Vector w1 = derivative(f, 1, rate_.e);
-    point.v = combine(point.s, rate_.e);
-    point.v_x = w1 * inverse_;
-    point.v_xx = combine(point.s_xx, rate_.e);
-    if constexpr (a_moves) {
-      point.y_a = -d1 * vl - g0;
-      point.y_a_x = (d1 * inverse_ - d2 * vl - g1) * inverse_;
-      point.y_a_xx = (d2 * Real(Real(2) * inverse_) - d3 * vl - g2) * inverse2_;
-      point.v += point.y_a * rate_.x_a;
-      point.v_x += point.y_a_x * rate_.x_a;
-      point.v_xx += point.y_a_xx * rate_.x_a;
-    }
-    if constexpr (b_moves) {
-      point.y_b = -d1 * ul + g0;
-      point.y_b_x = (-d1 * inverse_ - d2 * ul + g1) * inverse_;
-      point.y_b_xx = (-d2 * Real(Real(2) * inverse_) - d3 * ul + g2) * inverse2_;
-      point.v += point.y_b * rate_.x_b;
-      point.v_x += point.y_b_x * rate_.x_b;
-      point.v_xx += point.y_b_xx * rate_.x_b;
-    }
-    const Real u_rate = -mesh_velocity(u) * inverse_;
-    const Real u_rate2 = Real(-2) * u_rate * l_rate_ * inverse_;  // second derivative of u at fixed x
-    point.remainder = slopes(0, rate_.e) * Real(Real(2) * l_rate_) + (w1 + g1 * l_rate_) * Real(Real(2) * u_rate) +
-                      d2 * Real(u_rate * u_rate) + d1 * u_rate2;
-  }
-
-  /// Weights that belong to the material points: the ordinary element between moving ends, pulled back to the
-  /// nodes by the nodal material velocities V = (r_A' - s_A x_A', s_A' - k_A x_A', ...), k = r_xx at that end.
-  void prepare_transport() {
-    const auto at_a = rational_shape(weights_, Real(0)), at_b = rational_shape(weights_, Real(1));
-    const Real inverse3 = inverse2_ * inverse_;
-    k_a_ = derivative(at_a, 2, q_.e) * inverse2_;
-    k_b_ = derivative(at_b, 2, q_.e) * inverse2_;
-    const Vector j_a = derivative(at_a, 3, q_.e) * inverse3, j_b = derivative(at_b, 3, q_.e) * inverse3;
-    material_ = {rate_.e.r_a - q_.e.s_a * rate_.x_a, rate_.e.s_a - k_a_ * rate_.x_a, rate_.e.r_b - q_.e.s_b * rate_.x_b,
-                 rate_.e.s_b - k_b_ * rate_.x_b};
-    const Vector kv_a = derivative(at_a, 2, material_) * inverse2_, kv_b = derivative(at_b, 2, material_) * inverse2_;
-    const Real xa2 = rate_.x_a * rate_.x_a, xb2 = rate_.x_b * rate_.x_b;
-    remainder_ = {k_a_ * xa2 - rate_.e.s_a * Real(Real(2) * rate_.x_a), -kv_a * Real(Real(2) * rate_.x_a) - j_a * xa2,
-                  k_b_ * xb2 - rate_.e.s_b * Real(Real(2) * rate_.x_b), -kv_b * Real(Real(2) * rate_.x_b) - j_b * xb2};
-  }
-
-  void transport_weights(PointMotion<Real, D>& point) const {
-    auto moving_end = [&](const std::array<Real, 4>& s, std::size_t i, const Vector& slope, const Vector& k) -> Vector {
-      return -(slope * s[i] + k * s[i + 1]);
-    };
-    if constexpr (a_moves) {
-      point.y_a = moving_end(point.s, 0, q_.e.s_a, k_a_);
-      point.y_a_x = moving_end(point.s_x, 0, q_.e.s_a, k_a_);
-      point.y_a_xx = moving_end(point.s_xx, 0, q_.e.s_a, k_a_);
-    }
-    if constexpr (b_moves) {
-      point.y_b = moving_end(point.s, 2, q_.e.s_b, k_b_);
-      point.y_b_x = moving_end(point.s_x, 2, q_.e.s_b, k_b_);
-      point.y_b_xx = moving_end(point.s_xx, 2, q_.e.s_b, k_b_);
-    }
-    point.v = combine(point.s, material_);
-    point.v_x = combine(point.s_x, material_);
-    point.v_xx = combine(point.s_xx, material_);
-    point.remainder = combine(point.s, remainder_);
-  }
-
-  MovingCoordinates<Real, D> q_, rate_;
-  bool transported_;
-  Real l_, inverse_, inverse2_, l_rate_;
-  Weights<Real> weights_;
-  Vector k_a_, k_b_;
-  NodalCubic<Real, D> material_, remainder_;
-};
-
 /// What the equations of a variable-length element are made of.
 template <int D>
 struct MovingLaw {
@@ -217,20 +26,7 @@ struct MovingLaw {
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2], at the current time
-};
-
-/// Shape functions at the points of a rule for one set of weights; with frozen weights they hold until the next
-/// length-control event, so that the rational element then costs what the polynomial one costs.
-struct ShapeTabulation {
-  QuadratureRule rule;
-  std::vector<ShapeTable<double>> shape;
-
-  ShapeTabulation() = default;
-  ShapeTabulation(const QuadratureRule& rule_, const Weights<double>& w) : rule(rule_) {
-    for (const auto& point : rule) {
-      shape.push_back(w == unit_weights ? hermite_shape(point.u) : rational_shape(w, point.u));
-    }
-  }
+  const RestCurve<D>* rest = nullptr;               ///< null for a straight, unstrained one
 };
 
 /// Mass matrix and generalized forces of one variable-length element.
@@ -241,7 +37,8 @@ struct ShapeTabulation {
 /// x_A), which adds to the virtual work
 ///   - sum w rhoA (l' N^T v + l c (N_x^T v + N^T v_x)),  sum w (L + l u L_x) on x_B,  sum w (-L + l (1 - u) L_x) on
 ///   x_A,
-/// L the Lagrangian per length: between events energy is conserved for any number of points.
+/// L the Lagrangian per length: between events energy is conserved for any number of points. Where the rest strains
+/// jump inside the element its pieces have points of their own, and the same holds for each piece.
 template <StrainLaw Law, bool Bending, class Real, int D, MovingEnds Ends = MovingEnds::both>
 MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
                                           const WeightFunction& weights, const ShapeTabulation& table,
@@ -259,59 +56,63 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
 
   const Kinematics kinematics(q, rate, law.transport, weights);
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
-  const Real& l = kinematics.length();
   const double rhoA = law.section.rhoA;
   const Vector gravity = law.gravity.template cast<Real>();
   const bool variational = law.formulation == Formulation::variational;
 
-  for (std::size_t g = 0; g < table.rule.size(); ++g) {
-    const double u = table.rule[g].u;
-    const double w = table.rule[g].weight;
-    const PointMotion<Real, D> at =
-        reshaped ? kinematics.at(u, rational_shape(kinematics.weights(), Real(u))) : kinematics.at(u, table.shape[g]);
-    const ElasticStress<Law, Bending, Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+  const auto motion = [&](const auto& u, const auto& shape) { return kinematics.at(u, shape); };
+  for_each_point(
+      kinematics, table, reshaped, law.rest, motion, [&](const auto& point, const auto& at, const auto* rest) {
+        const ElasticStress<Law, Bending, Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+        Vector p = elastic.p, m = elastic.m;
+        Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
+        Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
+        if (rest != nullptr) {
+          const RestStress<Law, Bending, Real, D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
+                                                            law.rest->curvature_regularization());
+          p += from_rest.p;
+          m += from_rest.m;
+          stored += from_rest.axial + from_rest.bending;
+          stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) + from_rest.along;
+        }
+        const Real& wl = point.weight;
+        if (law.section.damped()) {
+          const DampingStress<Law, Bending, Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
+                                                             law.section.damping, law.section.curvature_regularization);
+          p += viscous.p;
+          m += viscous.m;
+          eq.dissipation += wl * viscous.power;
+        }
 
-    Vector p = elastic.p, m = elastic.m;
-    if (law.section.damped()) {
-      const DampingStress<Law, Bending, Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
-                                                         law.section.damping, law.section.curvature_regularization);
-      p += viscous.p;
-      m += viscous.m;
-      eq.dissipation += l * w * viscous.power;
-    }
-
-    const Real wl = l * w;
-    const Real mu = wl * rhoA;
-    // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
-    Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
-    if (variational) {
-      const Real c = kinematics.mesh_velocity(u);
-      f0 -= (at.v * kinematics.length_rate() + at.v_x * Real(l * c)) * Real(w * rhoA);
-      f1 -= at.v * Real(mu * c);
-      const Real lagrangian =
-          Real(0.5 * rhoA) * at.v.dot(at.v) - elastic.axial - elastic.bending + Real(rhoA) * gravity.dot(at.r);
-      const Real slope =
-          Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - elastic.p.dot(at.r_xx) - elastic.m.dot(at.r_xxx);
-      if constexpr (Kinematics::a_moves) eq.force_a += (l * slope * (1 - u) - lagrangian) * w;
-      if constexpr (Kinematics::b_moves) eq.force_b += (l * slope * u + lagrangian) * w;
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
-      const Real mi = mu * at.s[i];
-      for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] += mi * at.s[j];
-      if constexpr (Kinematics::a_moves) eq.mass_a[i] += at.y_a * mi;
-      if constexpr (Kinematics::b_moves) eq.mass_b[i] += at.y_b * mi;
-    }
-    if constexpr (Kinematics::a_moves) {
-      eq.force_a += f0.dot(at.y_a) + f1.dot(at.y_a_x) + f2.dot(at.y_a_xx);
-      eq.mass_aa += mu * at.y_a.dot(at.y_a);
-    }
-    if constexpr (Kinematics::b_moves) {
-      eq.force_b += f0.dot(at.y_b) + f1.dot(at.y_b_x) + f2.dot(at.y_b_xx);
-      eq.mass_bb += mu * at.y_b.dot(at.y_b);
-    }
-    if constexpr (Kinematics::a_moves && Kinematics::b_moves) eq.mass_ab += mu * at.y_a.dot(at.y_b);
-  }
+        const Real mu = wl * rhoA;
+        // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
+        Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
+        if (variational) {
+          const Real mu_c = mu * point.mesh_velocity;
+          f0 -= at.v * Real(point.weight_rate * rhoA) + at.v_x * mu_c;
+          f1 -= at.v * mu_c;
+          const Real lagrangian = Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
+          const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
+          if constexpr (Kinematics::a_moves) eq.force_a += lagrangian_x * point.reach_a - lagrangian * point.grows_a;
+          if constexpr (Kinematics::b_moves) eq.force_b += lagrangian_x * point.reach_b + lagrangian * point.grows_b;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+          eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
+          const Real mi = mu * at.s[i];
+          for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] += mi * at.s[j];
+          if constexpr (Kinematics::a_moves) eq.mass_a[i] += at.y_a * mi;
+          if constexpr (Kinematics::b_moves) eq.mass_b[i] += at.y_b * mi;
+        }
+        if constexpr (Kinematics::a_moves) {
+          eq.force_a += f0.dot(at.y_a) + f1.dot(at.y_a_x) + f2.dot(at.y_a_xx);
+          eq.mass_aa += mu * at.y_a.dot(at.y_a);
+        }
+        if constexpr (Kinematics::b_moves) {
+          eq.force_b += f0.dot(at.y_b) + f1.dot(at.y_b_x) + f2.dot(at.y_b_xx);
+          eq.mass_bb += mu * at.y_b.dot(at.y_b);
+        }
+        if constexpr (Kinematics::a_moves && Kinematics::b_moves) eq.mass_ab += mu * at.y_a.dot(at.y_b);
+      });
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) eq.mass[i][j] = eq.mass[j][i];
   }

@@ -5,6 +5,7 @@
 
 #include "core/element/elastic_tangent.hpp"
 #include "core/element/moving_element.hpp"
+#include "core/element/rest_tangent.hpp"
 
 namespace vlbeam {
 
@@ -95,76 +96,98 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinat
                                                     law.transport, weights);
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
   const bool variational = law.formulation == Formulation::variational;
-  const double l = kinematics.length(), l_rate = kinematics.length_rate(), rhoA = law.section.rhoA;
+  const double rhoA = law.section.rhoA;
   const double end_acceleration = at_a ? a.x_a : a.x_b;
 
-  for (std::size_t g = 0; g < table.rule.size(); ++g) {
-    const double u = table.rule[g].u, w = table.rule[g].weight;
-    const ShapeTable<double> shape = reshaped ? rational_shape(kinematics.weights(), u) : table.shape[g];
-    const PointMotion<double, D> at = kinematics.at(u, shape);
-    const PointMotion<double, 4> by = variation.at(u, shape);
-    const Vector &y = at_a ? at.y_a : at.y_b, &y_x = at_a ? at.y_a_x : at.y_b_x, &y_xx = at_a ? at.y_a_xx : at.y_b_xx;
-    const Row &by_y = at_a ? by.y_a : by.y_b, &by_y_x = at_a ? by.y_a_x : by.y_b_x,
-              &by_y_xx = at_a ? by.y_a_xx : by.y_b_xx;
-    const ElasticStress<Law, Bending, double, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
-    const ElasticTangent<Law, Bending, double, D> k(at.r_x, at.r_xx, law.section.stiffness);
-    const double wl = w * l, mu = wl * rhoA;
-    const double c = variational ? kinematics.mesh_velocity(u) : 0, c_rate = variational ? l_rate : 0;
+  struct Motion {
+    PointMotion<double, D> at;
+    PointMotion<double, 4> by;
+  };
+  const auto motion_at = [&](double u, const ShapeTable<double>& shape) -> Motion {
+    return {kinematics.at(u, shape), variation.at(u, shape)};
+  };
+  for_each_point(
+      kinematics, table, reshaped, law.rest, motion_at, [&](const auto& point, const Motion& motion, const auto* rest) {
+        const auto& [at, by] = motion;
+        const Vector &y = at_a ? at.y_a : at.y_b, &y_x = at_a ? at.y_a_x : at.y_b_x,
+                     &y_xx = at_a ? at.y_a_xx : at.y_b_xx;
+        const Row &by_y = at_a ? by.y_a : by.y_b, &by_y_x = at_a ? by.y_a_x : by.y_b_x,
+                  &by_y_xx = at_a ? by.y_a_xx : by.y_b_xx;
+        const ElasticStress<Law, Bending, double, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+        const ElasticTangent<Law, Bending, double, D> k(at.r_x, at.r_xx, law.section.stiffness);
+        const double wl = point.weight, mu = wl * rhoA;
+        const double mu_c = variational ? mu * point.mesh_velocity : 0;
+        const double mu_rate = variational ? point.weight_rate * rhoA : 0;
 
-    // the forces conjugate to r, r_x and r_xx of moving_equations, inertia included, and their derivatives: multiples
-    // of the identity from inertia, matrices from the stresses
-    const Vector acceleration = a.e.r_a * at.s[0] + a.e.s_a * at.s[1] + a.e.r_b * at.s[2] + a.e.s_b * at.s[3] +
-                                y * end_acceleration + at.remainder;
-    Vector p = elastic.p, m = elastic.m;
-    const Row by_acceleration = by_a * by.r + end_acceleration * by_y + by.remainder;
-    const Row by_f0 = -mu * by_acceleration - w * rhoA * (c_rate * by.v + l * c * by.v_x);
-    const Row by_f1 = -mu * c * by.v;
-    std::array<Matrix, 4> by_p, by_m, by_elastic_p, by_elastic_m;
-    for (int j = 0; j < 4; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      by_elastic_p[i] = k.pp * by.r_x[j] + k.pm * by.r_xx[j];
-      by_elastic_m[i] = k.pm.transpose() * by.r_x[j] + k.mm * by.r_xx[j];
-      by_p[i] = by_elastic_p[i];
-      by_m[i] = by_elastic_m[i];
-    }
-    if (law.section.damped()) {
-      const DampingTangent<Law, Bending, D> viscous(at, law.section);
-      p += viscous.viscous_p;
-      m += viscous.viscous_m;
-      for (int j = 0; j < 4; ++j) {
-        const auto i = static_cast<std::size_t>(j);
-        const std::array<double, 4> by_rates{by.r_x[j], by.r_xx[j], by.v_x[j], by.v_xx[j]};
-        for (std::size_t n = 0; n < 4; ++n) {
-          by_p[i] += viscous.p[n] * by_rates[n];
-          by_m[i] += viscous.m[n] * by_rates[n];
+        // the forces conjugate to r, r_x and r_xx of moving_equations, inertia included, and their derivatives:
+        // multiples of the identity from inertia, matrices from the stresses
+        const Vector acceleration = a.e.r_a * at.s[0] + a.e.s_a * at.s[1] + a.e.r_b * at.s[2] + a.e.s_b * at.s[3] +
+                                    y * end_acceleration + at.remainder;
+        Vector elastic_p = elastic.p, elastic_m = elastic.m;
+        Matrix pp = k.pp, pm = k.pm, mm = k.mm;
+        Vector along_by_slope = Vector::Zero(), along_by_second = Vector::Zero();
+        if (rest != nullptr) {
+          const RestTangent<Law, Bending, D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
+                                                       law.rest->curvature_regularization());
+          elastic_p += from_rest.p;
+          elastic_m += from_rest.m;
+          pp += from_rest.pp;
+          pm += from_rest.pm;
+          mm += from_rest.mm;
+          along_by_slope = from_rest.along_by_slope;
+          along_by_second = from_rest.along_by_second;
         }
-      }
-    }
-    const Vector f0 = (law.gravity - acceleration) * mu - (at.v * c_rate + at.v_x * (l * c)) * (w * rhoA);
-    const Vector f1 = p * -wl - at.v * (mu * c), f2 = m * -wl;
+        Vector p = elastic_p, m = elastic_m;
+        const Row by_acceleration = by_a * by.r + end_acceleration * by_y + by.remainder;
+        const Row by_f0 = -mu * by_acceleration - mu_rate * by.v - mu_c * by.v_x;
+        const Row by_f1 = -mu_c * by.v;
+        std::array<Matrix, 4> by_p, by_m, by_elastic_p, by_elastic_m;
+        for (int j = 0; j < 4; ++j) {
+          const auto i = static_cast<std::size_t>(j);
+          by_elastic_p[i] = pp * by.r_x[j] + pm * by.r_xx[j];
+          by_elastic_m[i] = pm.transpose() * by.r_x[j] + mm * by.r_xx[j];
+          by_p[i] = by_elastic_p[i];
+          by_m[i] = by_elastic_m[i];
+        }
+        if (law.section.damped()) {
+          const DampingTangent<Law, Bending, D> viscous(at, law.section);
+          p += viscous.viscous_p;
+          m += viscous.viscous_m;
+          for (int j = 0; j < 4; ++j) {
+            const auto i = static_cast<std::size_t>(j);
+            const std::array<double, 4> by_rates{by.r_x[j], by.r_xx[j], by.v_x[j], by.v_xx[j]};
+            for (std::size_t n = 0; n < 4; ++n) {
+              by_p[i] += viscous.p[n] * by_rates[n];
+              by_m[i] += viscous.m[n] * by_rates[n];
+            }
+          }
+        }
+        const Vector f0 = (law.gravity - acceleration) * mu - at.v * mu_rate - at.v_x * mu_c;
+        const Vector f1 = p * -wl - at.v * mu_c, f2 = m * -wl;
 
-    for (int j = 0; j < 4; ++j) {
-      const auto jj = static_cast<std::size_t>(j);
-      for (int i = 0; i < 4; ++i) {
-        auto block = tangent.template block<D, D>(i * D, j * D);
-        block += (wl * by.r_x[i]) * by_p[jj];
-        if constexpr (Bending) block += (wl * by.r_xx[i]) * by_m[jj];
-        block.diagonal().array() -= by.r[i] * by_f0[j] + by.r_x[i] * by_f1[j];
-      }
-      Vector end = y * by_f0[j] + f0 * by_y[j] + y_x * by_f1[j] + f1 * by_y_x[j] + f2 * by_y_xx[j] -
-                   wl * (by_p[jj].transpose() * y_x + by_m[jj].transpose() * y_xx);
-      if (variational) {
-        const Vector by_lagrangian =
-            rhoA * (at.v * by.v[j] + law.gravity * by.r[j]) - elastic.p * by.r_x[j] - elastic.m * by.r_xx[j];
-        const Vector by_slope = rhoA * (at.v * by.v_x[j] + at.v_x * by.v[j] + law.gravity * by.r_x[j]) -
-                                by_elastic_p[jj].transpose() * at.r_xx - elastic.p * by.r_xx[j] -
-                                by_elastic_m[jj].transpose() * at.r_xxx - elastic.m * by.r_xxx[j];
-        end += at_a ? Vector((by_slope * (l * (1 - u)) - by_lagrangian) * w)
-                    : Vector((by_slope * (l * u) + by_lagrangian) * w);
-      }
-      tangent.template block<1, D>(N - 1, j * D) -= end.transpose();
-    }
-  }
+        for (int j = 0; j < 4; ++j) {
+          const auto jj = static_cast<std::size_t>(j);
+          for (int i = 0; i < 4; ++i) {
+            auto block = tangent.template block<D, D>(i * D, j * D);
+            block += (wl * by.r_x[i]) * by_p[jj];
+            if constexpr (Bending) block += (wl * by.r_xx[i]) * by_m[jj];
+            block.diagonal().array() -= by.r[i] * by_f0[j] + by.r_x[i] * by_f1[j];
+          }
+          Vector end = y * by_f0[j] + f0 * by_y[j] + y_x * by_f1[j] + f1 * by_y_x[j] + f2 * by_y_xx[j] -
+                       wl * (by_p[jj].transpose() * y_x + by_m[jj].transpose() * y_xx);
+          if (variational) {
+            const Vector by_lagrangian =
+                rhoA * (at.v * by.v[j] + law.gravity * by.r[j]) - elastic_p * by.r_x[j] - elastic_m * by.r_xx[j];
+            const Vector by_slope = rhoA * (at.v * by.v_x[j] + at.v_x * by.v[j] + law.gravity * by.r_x[j]) -
+                                    by_elastic_p[jj].transpose() * at.r_xx - elastic_p * by.r_xx[j] -
+                                    by_elastic_m[jj].transpose() * at.r_xxx - elastic_m * by.r_xxx[j] -
+                                    along_by_slope * by.r_x[j] - along_by_second * by.r_xx[j];
+            end += at_a ? Vector(by_slope * (wl * point.reach_a) - by_lagrangian * point.grows_a)
+                        : Vector(by_slope * (wl * point.reach_b) + by_lagrangian * point.grows_b);
+          }
+          tangent.template block<1, D>(N - 1, j * D) -= end.transpose();
+        }
+      });
 
   using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
   auto along_end = [](const MovingCoordinates<double, D>& from, double scale) {

@@ -1,5 +1,6 @@
 #include "core/length_control/length_control.hpp"
 
+#include "core/length_control/least_change.hpp"
 #include "core/length_control/segmentation.hpp"
 
 namespace vlbeam {
@@ -14,12 +15,16 @@ void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
   slope<D>(chain.rate.data(), k) = node.v_x;
 }
 
-/// Gives element k of `chain` the weights of one that has lost node `deleted` of the chain `before`.
+/// Gives element k of `chain` the shape of one that has lost node `deleted` of the chain `before`.
 template <int D>
-MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted, MergePolicy policy) {
+MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted,
+                         const LengthControl& control, StrainLaw strain_law, const MovingLaw<D>& law) {
+  if (control.merge == MergePolicy::least_change) {
+    return least_change(chain, before, k, control.rational, strain_law, law);
+  }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
-  if (policy == MergePolicy::point_fit) {
+  if (control.merge == MergePolicy::point_fit && control.rational) {
     const double l = q.x_b - q.x_a;
     const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;
     merged = point_fit<D>(q.e, l, u, position<D>(before.q.data(), deleted));
@@ -32,7 +37,7 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
 
 template <int D>
 MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                                WeightTransport transport) {
+                                StrainLaw strain_law, const MovingLaw<D>& law) {
   const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
   const int j = before.joint;
@@ -40,13 +45,13 @@ MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const
   const auto& x = before.mesh.x;
   const double x_new = forward ? x[static_cast<std::size_t>(cut)] + control.standard_length
                                : x[static_cast<std::size_t>(cut) + 1] - control.standard_length;
-  const auto node = segment(before, cut, x_new, transport);
+  const auto node = segment(before, cut, x_new, law.transport);
   place_node(chain, j, node);
   chain.copy_node(deleted, before, j);
   chain.joint = deleted;
   chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
   chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
-  return merge_into(chain, merged, before, deleted, control.merge);
+  return merge_into(chain, merged, before, deleted, control, strain_law, law);
 }
 
 template <int D>
@@ -81,8 +86,10 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
   chain.joint_rate = 0;
 }
 
-template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
-template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
+template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, StrainLaw,
+                                         const MovingLaw<2>&);
+template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, StrainLaw,
+                                         const MovingLaw<3>&);
 template void separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
 template void separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
 

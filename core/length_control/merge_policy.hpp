@@ -2,10 +2,11 @@
 
 namespace vlbeam {
 
-/// How the weights of a merged element are found.
+/// How the shape of a merged element is found.
 enum class MergePolicy {
-  point_fit,  ///< minimum-norm point fit (Ding & Ouyang 2022, Eq. 31-38)
-  unit,       ///< unit weights: what ALE-ANCF does
+  point_fit,     ///< weights by a minimum-norm point fit (Ding & Ouyang 2022, Eq. 31-38); unit weights for ALE-ANCF
+  unit,          ///< unit weights
+  least_change,  ///< weights and neighbouring slopes by the least change of curve and strain, strain energy kept
 };
 
 /// Where the velocities of the new mesh come from.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
+#include "core/scene/options.hpp"
+
 namespace vlbeam {
 namespace {
 
@@ -48,21 +51,132 @@ Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent)
   return Support<D>::free_end();
 }
 
+/// The initial shape as the one strains are measured from.
 template <int D>
-Vec<double, D> tangent_of(const Scene& scene) {
-  return (vector_of<D>(scene.beam.curve.end) - vector_of<D>(scene.beam.curve.start)) / beam_length(scene);
+std::shared_ptr<const RestCurve<D>> rest_curve_of(const ChainState<D>& chain, const BeamModel<D>& model) {
+  std::vector<typename RestCurve<D>::Piece> pieces;
+  for (int k = 0; k < chain.mesh.elements(); ++k) {
+    const auto q = chain.coordinates(k);
+    pieces.push_back({q.x_a, q.x_b, q.e, chain.mesh.weights[static_cast<std::size_t>(k)].w});
+  }
+  return std::make_shared<const RestCurve<D>>(std::move(pieces), model.strain_law,
+                                              model.section.curvature_regularization);
+}
+
+/// d2r/dx2 at the interior node j, mean of the two elements there.
+template <int D>
+Vec<double, D> second_derivative(const ChainState<D>& chain, int j) {
+  Vec<double, D> sum = Vec<double, D>::Zero();
+  for (const int k : {j - 1, j}) {
+    const auto q = chain.coordinates(k);
+    const double l = q.x_b - q.x_a;
+    const auto curve = RationalCubic<double, D>::from_nodal(q.e, l, chain.mesh.weights[static_cast<std::size_t>(k)].w);
+    sum += curve.evaluate(k < j ? 1.0 : 0.0)[2] / (2 * l * l);
+  }
+  return sum;
+}
+
+/// The axis, exactly. The two elements at the joint are one curve cut in two, so that it is smooth there, and with
+/// transported weights stays what it is while the joint slides.
+template <int D>
+CubicChain<D> exact_shape(const Axis<D>& axis, const InitialNodes& nodes) {
+  const auto& x = nodes.x;
+  const auto j = static_cast<std::size_t>(std::max(nodes.joint, 1));
+  if (nodes.joint == no_joint || !axis.in_one_piece(x[j - 1], x[j + 1])) return exact_chain(axis, x);
+  std::vector<double> others = x;
+  others.erase(others.begin() + nodes.joint);
+  auto chain = exact_chain(axis, others);
+  const double l = x[j + 1] - x[j - 1], u = (x[j] - x[j - 1]) / l;
+  const auto whole = RationalCubic<double, D>::from_nodal({chain.r[j - 1], chain.r_x[j - 1], chain.r[j], chain.r_x[j]},
+                                                          l, chain.weights[j - 1]);
+  const auto at = whole.evaluate(u);
+  chain.r.insert(chain.r.begin() + nodes.joint, at[0]);
+  chain.r_x.insert(chain.r_x.begin() + nodes.joint, at[1] / l);
+  chain.weights[j - 1] = restrict_cubic(whole.weights, 0.0, u);
+  chain.weights.insert(chain.weights.begin() + nodes.joint, restrict_cubic(whole.weights, u, 1.0));
+  return chain;
+}
+
+/// n + 1 nodes from 0 to the last of `breaks`, which are all nodes; the elements between two breaks are equal.
+std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
+  const std::size_t spans = breaks.size() - 1;
+  std::vector<int> share(spans, 1);
+  for (int given = static_cast<int>(spans); given < n; ++given) {  // the next one where elements are longest
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < spans; ++i) {
+      if ((breaks[i + 1] - breaks[i]) * share[longest] > (breaks[longest + 1] - breaks[longest]) * share[i])
+        longest = i;
+    }
+    ++share[longest];
+  }
+  std::vector<double> x;
+  for (std::size_t i = 0; i < spans; ++i) {
+    for (int k = 0; k < share[i]; ++k) x.push_back(breaks[i] + (breaks[i + 1] - breaks[i]) * k / share[i]);
+  }
+  x.push_back(breaks.back());
+  return x;
 }
 
 }  // namespace
+
+template <int D>
+Axis<D> build_axis(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  constexpr double degree = std::numbers::pi / 180;
+  switch (curve.type) {
+    case CurveType::arc:
+      return Axis<D>::arc(vector_of<D>(curve.center), curve.radius, curve.from_degrees * degree,
+                          curve.to_degrees * degree);
+    case CurveType::nurbs: {
+      Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, {}};
+      for (const Point& point : curve.control_points) nurbs.points.push_back(vector_of<D>(point));
+      if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
+      return Axis<D>::nurbs(nurbs);
+    }
+    case CurveType::line:
+      break;
+  }
+  return Axis<D>::line(vector_of<D>(curve.start), vector_of<D>(curve.end));
+}
+
+InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) {
+  const int n = scene.beam.elements;
+  InitialNodes nodes{uniform_nodes(breaks, n)};
+  if (!scene.sliding_mass) return nodes;
+  const double x = scene.sliding_mass->position;
+  // the nearest interior node moves to the joint, unless the curve needs it where it is
+  auto may_move = [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    return k > 0 && k < n && !std::binary_search(breaks.begin(), breaks.end(), nodes.x[i]) && nodes.x[i - 1] < x &&
+           x < nodes.x[i + 1];
+  };
+  for (int k = 1; k < n; ++k) {
+    if (!may_move(k)) continue;
+    const auto distance = [&](int i) { return std::abs(nodes.x[static_cast<std::size_t>(i)] - x); };
+    if (nodes.joint == no_joint || distance(k) <= distance(nodes.joint)) nodes.joint = k;
+  }
+  if (nodes.joint == no_joint) {
+    throw InvalidInput("/sliding_mass/position", number_text(x),
+                       "the sliding mass needs a node of its own between two knots of the curve: take more elements "
+                       "than " +
+                           std::to_string(n));
+  }
+  nodes.x[static_cast<std::size_t>(nodes.joint)] = x;
+  return nodes;
+}
+
+bool has_rest_shape(const Scene& scene) {
+  const auto& weights = scene.beam.weights;
+  const bool unit = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
+  return scene.beam.rest_shape == RestShape::as_built && (scene.beam.curve.type != CurveType::line || !unit);
+}
 
 int quadrature_points(const Scene& scene) {
   if (scene.beam.quadrature_points > 0) return scene.beam.quadrature_points;
   return is_polynomial(scene.beam.element) ? polynomial_points : rational_points;
 }
 
-double beam_length(const Scene& scene) {
-  return (vector_of<3>(scene.beam.curve.end) - vector_of<3>(scene.beam.curve.start)).norm();
-}
+double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
 
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
 
@@ -80,9 +194,9 @@ BeamModel<D> build_model(const Scene& scene) {
   model.quadrature_points = quadrature_points(scene);
   model.gravity = vector_of<D>(scene.gravity);
   model.gravity_ramp = scene.gravity_ramp;
-  const Vec<double, D> tangent = tangent_of<D>(scene);
-  model.start = build_support<D>(scene.start, tangent);
-  model.end = build_support<D>(scene.end, tangent);
+  const Axis<D> axis = build_axis<D>(scene);
+  model.start = build_support<D>(scene.start, axis.tangent(0));
+  model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
   if (scene.sliding_mass) {
@@ -91,43 +205,51 @@ BeamModel<D> build_model(const Scene& scene) {
   }
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
-  model.length_control = {control.enabled,
-                          standard_length(scene),
-                          control.upper,
-                          control.hysteresis,
-                          is_polynomial(scene.beam.element) ? MergePolicy::unit : control.merge,
+  model.length_control = {control.enabled,    standard_length(scene), control.upper,
+                          control.hysteresis, control.merge,          !is_polynomial(scene.beam.element),
                           control.velocities};
+  if (has_rest_shape(scene)) model.rest = rest_curve_of(build_chain<D>(scene), model);
   return model;
 }
 
 template <int D>
 ChainState<D> build_chain(const Scene& scene) {
-  const int n = scene.beam.elements;
-  const double length = beam_length(scene);
-  const Vec<double, D> start = vector_of<D>(scene.beam.curve.start), tangent = tangent_of<D>(scene);
+  const Axis<D> axis = build_axis<D>(scene);
+  const InitialNodes nodes = place_nodes(scene, axis.breaks());
+  const auto& x = nodes.x;
+  CubicChain<D> shape;
+  if (axis.straight() || is_polynomial(scene.beam.element)) {
+    for (const double at : x) {
+      shape.r.push_back(axis.position(at));
+      shape.r_x.push_back(axis.tangent(at));
+    }
+    shape.weights.assign(x.size() - 1, scene.beam.weights);
+  } else {
+    shape = exact_shape(axis, nodes);
+  }
   ChainState<D> chain;
-  for (int k = 0; k <= n; ++k) chain.mesh.x.push_back(length * k / n);
-  if (scene.sliding_mass) {  // the nearest interior node of the uniform mesh moves to the joint
-    const double x = scene.sliding_mass->position;
-    chain.joint = std::clamp(static_cast<int>(std::lround(x / length * n)), 1, n - 1);
-    chain.mesh.x[static_cast<std::size_t>(chain.joint)] = x;
-    chain.joint_rate = scene.sliding_mass->velocity;
-  }
-  for (int k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    chain.mesh.weights.push_back({scene.beam.weights, chain.mesh.x[i], chain.mesh.x[i + 1]});
-  }
-  chain.q.resize(static_cast<std::size_t>(node_size<D>) * (static_cast<std::size_t>(n) + 1));
+  chain.mesh.x = x;
+  chain.joint = nodes.joint;
+  chain.q.resize(static_cast<std::size_t>(node_size<D>) * x.size());
   chain.rate.assign(chain.q.size(), 0);
-  for (int k = 0; k <= n; ++k) {
-    position<D>(chain.q.data(), k) = start + chain.mesh.x[static_cast<std::size_t>(k)] * tangent;
-    slope<D>(chain.q.data(), k) = tangent;
+  for (int k = 0; k <= scene.beam.elements; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    position<D>(chain.q.data(), k) = shape.r[i];
+    slope<D>(chain.q.data(), k) = shape.r_x[i];
+    if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
   }
   // the beam is at rest, so the moving node travels along it
-  if (scene.sliding_mass) position<D>(chain.rate.data(), chain.joint) = chain.joint_rate * tangent;
+  if (scene.sliding_mass) {
+    chain.joint_rate = scene.sliding_mass->velocity;
+    const int j = chain.joint;
+    position<D>(chain.rate.data(), j) = chain.joint_rate * slope<D>(chain.q.data(), j);
+    if (!axis.straight()) slope<D>(chain.rate.data(), j) = chain.joint_rate * second_derivative(chain, j);
+  }
   return chain;
 }
 
+template Axis<2> build_axis(const Scene&);
+template Axis<3> build_axis(const Scene&);
 template BeamModel<2> build_model(const Scene&);
 template BeamModel<3> build_model(const Scene&);
 template ChainState<2> build_chain(const Scene&);

@@ -22,6 +22,10 @@ constexpr auto names(ElementKind) {
   return std::to_array<Named<ElementKind>>(
       {{ale_rancf, "ALE-RANCF"}, {ale_ancf, "ALE-ANCF"}, {rancf, "RANCF"}, {ancf, "ANCF"}});
 }
+constexpr auto names(CurveType) {
+  using enum CurveType;
+  return std::to_array<Named<CurveType>>({{line, "line"}, {arc, "arc"}, {nurbs, "nurbs"}});
+}
 constexpr auto names(RestShape) {
   return std::to_array<Named<RestShape>>({{RestShape::as_built, "as-built"}, {RestShape::paper, "paper"}});
 }
@@ -39,7 +43,8 @@ constexpr auto names(JointSlopes) {
   return std::to_array<Named<JointSlopes>>({{JointSlopes::continuous, "continuous"}});
 }
 constexpr auto names(MergePolicy) {
-  return std::to_array<Named<MergePolicy>>({{MergePolicy::point_fit, "point-fit"}, {MergePolicy::unit, "unit"}});
+  using enum MergePolicy;
+  return std::to_array<Named<MergePolicy>>({{point_fit, "point-fit"}, {unit, "unit"}, {least_change, "least-change"}});
 }
 constexpr auto names(VelocityTransfer) {
   using enum VelocityTransfer;

@@ -106,17 +106,17 @@ std::string allowed_text(const Option& option) {
     return "an array of 4 numbers" + option.range.text() + unit;
   } else if constexpr (std::same_as<T, std::vector<double>>) {
     return "an array of numbers" + option.range.text() + unit;
+  } else if constexpr (std::same_as<T, std::vector<Point>>) {
+    return "an array of arrays of " + std::to_string(option.components) + " numbers" + unit;
   } else {
     static_assert(std::same_as<T, double> || std::same_as<T, std::optional<double>>);
     return "a number" + option.range.text() + unit;
   }
 }
 
-/// Choices with a single value so far; each keeps the place of the ones to come.
+/// A choice with a single value so far; it keeps the place of the ones to come.
 enum class SceneSchema { v1 };
 constexpr auto names(SceneSchema) { return std::to_array<Named<SceneSchema>>({{SceneSchema::v1, "vlbeam.scene/1"}}); }
-enum class CurveType { line };
-constexpr auto names(CurveType) { return std::to_array<Named<CurveType>>({{CurveType::line, "line"}}); }
 
 /// Calls the visitor for every option of a scene, each after the options it depends on:
 ///   visitor(option, member)           for an option; `member` is a reference into the scene;
@@ -148,20 +148,78 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           scene.gravity_ramp);
 
   auto& beam = scene.beam;
-  CurveType curve = CurveType::line;
-  visitor(Option{.pointer = "/beam/curve/type", .unit = "", .description = "kind of the beam's initial axis"}, curve);
+  constexpr std::string_view curve_type = "/beam/curve/type";
+  visitor(Option{.pointer = curve_type, .unit = "", .description = "kind of the beam's initial axis"}, beam.curve.type);
+  const Condition line = only_if(curve_type, beam.curve.type, CurveType::line);
+  const Condition arc = only_if(curve_type, beam.curve.type, CurveType::arc);
+  const Condition nurbs = only_if(curve_type, beam.curve.type, CurveType::nurbs);
   visitor(Option{.pointer = "/beam/curve/start",
                  .unit = "m",
                  .description = "where the beam starts",
                  .source = example1,
-                 .components = scene.dimension},
+                 .components = scene.dimension,
+                 .when = line},
           beam.curve.start);
   visitor(Option{.pointer = "/beam/curve/end",
                  .unit = "m",
                  .description = "where the beam ends",
                  .source = example1,
-                 .components = scene.dimension},
+                 .components = scene.dimension,
+                 .when = line},
           beam.curve.end);
+  visitor(Option{.pointer = "/beam/curve/center",
+                 .unit = "m",
+                 .description = "center of the circle; in 3D it lies in a plane parallel to the first two axes",
+                 .source = "Ding & Ouyang 2022, §6.3",
+                 .components = scene.dimension,
+                 .when = arc,
+                 .required = true},
+          beam.curve.center);
+  visitor(Option{.pointer = "/beam/curve/radius",
+                 .unit = "m",
+                 .description = "radius of the circle",
+                 .range = Range::positive(),
+                 .when = arc,
+                 .required = true},
+          beam.curve.radius);
+  visitor(Option{.pointer = "/beam/curve/from_degrees",
+                 .unit = "degrees",
+                 .description = "where the beam starts, from the first axis towards the second",
+                 .when = arc,
+                 .required = true},
+          beam.curve.from_degrees);
+  visitor(Option{.pointer = "/beam/curve/to_degrees",
+                 .unit = "degrees",
+                 .description = "where the beam ends",
+                 .when = arc,
+                 .required = true},
+          beam.curve.to_degrees);
+  visitor(Option{.pointer = "/beam/curve/degree",
+                 .unit = "-",
+                 .description = "degree of the NURBS curve",
+                 .range = Range::closed(1, 3),
+                 .when = nurbs,
+                 .required = true},
+          beam.curve.degree);
+  visitor(Option{.pointer = "/beam/curve/knots",
+                 .unit = "-",
+                 .description = "knots, not decreasing: as many as control points, degree and 1 together",
+                 .when = nurbs,
+                 .required = true},
+          beam.curve.knots);
+  visitor(Option{.pointer = "/beam/curve/weights",
+                 .unit = "-",
+                 .description = "weights of the control points; none are equal weights",
+                 .range = Range::positive(),
+                 .when = nurbs},
+          beam.curve.weights);
+  visitor(Option{.pointer = "/beam/curve/control_points",
+                 .unit = "m",
+                 .description = "control points",
+                 .components = scene.dimension,
+                 .when = nurbs,
+                 .required = true},
+          beam.curve.control_points);
 
   constexpr std::string_view section_type = "/beam/section/type";
   visitor(Option{.pointer = section_type, .unit = "", .description = "how the section is given"}, beam.section.type);
@@ -218,7 +276,9 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           beam.material.damping);
   visitor(Option{.pointer = "/beam/material/curvature_regularization",
                  .unit = "1/m",
-                 .description = "kappa_reg of bending damping in 3D, which has no direction on a straight beam",
+                 .description =
+                     "kappa_reg of bending damping and of a curved rest shape in 3D, which have no direction on a "
+                     "straight beam",
                  .range = Range::non_negative()},
           beam.material.curvature_regularization);
 
@@ -326,7 +386,9 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           scene.length_control.hysteresis);
   visitor(Option{.pointer = "/length_control/merge",
                  .unit = "",
-                 .description = "weights of a merged element",
+                 .description =
+                     "shape of a merged element: weights by the paper's fit, unit weights, or weights and slopes by "
+                     "the least change at constant strain energy",
                  .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
           scene.length_control.merge);
   visitor(Option{.pointer = "/length_control/velocities",

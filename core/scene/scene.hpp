@@ -26,10 +26,19 @@ enum class ClampType {
 };
 enum class JointSlopes { continuous };
 
-/// The straight initial axis of the beam [m]; its length is the beam's length.
-struct Line {
-  Point start{0, 0, 0};
-  Point end{1, 0, 0};
+enum class CurveType { line, arc, nurbs };
+
+/// The initial axis of the beam; its length is the beam's length.
+struct CurveSpec {
+  CurveType type = CurveType::line;
+  Point start{0, 0, 0};                          ///< line [m]
+  Point end{1, 0, 0};                            ///< line [m]
+  Point center{};                                ///< arc [m]
+  double radius = 1;                             ///< arc [m]
+  double from_degrees = 0, to_degrees = 180;     ///< arc, in the plane of the first two axes
+  int degree = 3;                                ///< nurbs
+  std::vector<double> knots = {}, weights = {};  ///< nurbs; no weights are equal weights
+  std::vector<Point> control_points = {};        ///< nurbs [m]
 };
 
 struct Section {
@@ -48,7 +57,7 @@ struct Material {
 };
 
 struct BeamSpec {
-  Line curve;
+  CurveSpec curve;
   Section section;
   Material material;
   int elements = 20;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/geometry/nurbs.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
 
@@ -19,7 +20,7 @@ class RangeCheck {
  public:
   template <class T>
   void operator()(const Option& option, const T& member) const {
-    if (option.when.holds) check<T>(option, member);
+    if (option.when.holds) check<T>(option, member, std::string(option.pointer));
   }
 
   template <class T>
@@ -28,40 +29,78 @@ class RangeCheck {
   }
 
  private:
-  template <class T>
-  static void check(const Option& option, double value, const std::string& field) {
-    if (!option.range.contains(value)) refuse(field, number_text(value), "it must be " + allowed_text<T>(option));
-  }
-  template <class T>
-  static void check(const Option& option, const T& member) {
-    const std::string field(option.pointer);
-    if constexpr (std::same_as<T, double> || std::same_as<T, int>) {
-      check<T>(option, member, field);
-    } else if constexpr (std::same_as<T, std::optional<double>>) {
-      if (member) check<T>(option, *member, field);
-    } else if constexpr (!NamedEnum<T> && !std::same_as<T, bool> && !std::same_as<T, std::string>) {
-      for (std::size_t i = 0; i < member.size(); ++i) check<T>(option, member[i], field + "/" + std::to_string(i));
+  /// `T` is the option's type, `part` the option or, of an array, an entry.
+  template <class T, class Part>
+  static void check(const Option& option, const Part& part, const std::string& field) {
+    if constexpr (std::same_as<Part, double> || std::same_as<Part, int>) {
+      if (!option.range.contains(part)) refuse(field, number_text(part), "it must be " + allowed_text<T>(option));
+    } else if constexpr (std::same_as<Part, std::optional<double>>) {
+      if (part) check<T>(option, *part, field);
+    } else if constexpr (!NamedEnum<Part> && !std::same_as<Part, bool> && !std::same_as<Part, std::string>) {
+      for (std::size_t i = 0; i < part.size(); ++i) check<T>(option, part[i], field + "/" + std::to_string(i));
     }
   }
 };
 
 void check_plane(const Scene& scene) {
   if (scene.dimension == 3) return;
-  const auto in_plane = [](const char* field, const Point& p) {
-    if (p[2] != 0) refuse(std::string(field) + "/2", number_text(p[2]), "a planar scene has two components");
+  const auto in_plane = [](const std::string& field, const Point& p) {
+    if (p[2] != 0) refuse(field + "/2", number_text(p[2]), "a planar scene has two components");
   };
   in_plane("/gravity", scene.gravity);
-  in_plane("/beam/curve/start", scene.beam.curve.start);
-  in_plane("/beam/curve/end", scene.beam.curve.end);
+  const CurveSpec& curve = scene.beam.curve;
+  in_plane("/beam/curve/start", curve.start);
+  in_plane("/beam/curve/end", curve.end);
+  in_plane("/beam/curve/center", curve.center);
+  for (std::size_t i = 0; i < curve.control_points.size(); ++i) {
+    in_plane("/beam/curve/control_points/" + std::to_string(i), curve.control_points[i]);
+  }
+}
+
+void check_curve(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  double length = 0;
+  switch (curve.type) {
+    case CurveType::line:
+      length = beam_length(scene);
+      if (!(length > 0)) {
+        refuse("/beam/curve/end", "the same point as /beam/curve/start", "the beam needs a length > 0 [m]");
+      }
+      break;
+    case CurveType::arc: {
+      length = beam_length(scene);
+      if (!(length > 0)) {
+        refuse("/beam/curve/to_degrees", number_text(curve.to_degrees),
+               "it must not be /beam/curve/from_degrees: the beam needs a length > 0 [m]");
+      }
+      const double turn = std::abs(curve.to_degrees - curve.from_degrees);
+      if (!(turn / scene.beam.elements < 180)) {
+        refuse("/beam/elements", std::to_string(scene.beam.elements),
+               "an element must turn by less than 180 degrees: take more than " + number_text(turn / 180) + " of them");
+      }
+      break;
+    }
+    case CurveType::nurbs:
+      try {
+        length = beam_length(scene);
+      } catch (const NurbsError& error) {
+        const auto& numbers = error.field == "knots" ? curve.knots : curve.weights;
+        const bool entry = error.field != "control_points" && error.index < numbers.size();
+        refuse("/beam/curve/" + error.field + (entry ? "/" + std::to_string(error.index) : ""),
+               entry ? number_text(numbers[error.index]) : std::to_string(error.index) + " entries", error.what());
+      }
+      if (const auto spans = build_axis<3>(scene).breaks().size() - 1;
+          spans > static_cast<std::size_t>(scene.beam.elements)) {
+        refuse("/beam/elements", std::to_string(scene.beam.elements),
+               "the curve has " + std::to_string(spans) + " spans between its knots, each of which needs an element");
+      }
+      break;
+  }
+  if (!std::isfinite(length)) refuse("/beam/curve", "a curve of no finite length", "the length must be finite");
 }
 
 void check_beam(const Scene& scene) {
   const BeamSpec& beam = scene.beam;
-  const double length = beam_length(scene);
-  if (!(length > 0))
-    refuse("/beam/curve/end", "the same point as /beam/curve/start", "the beam needs a length > 0 [m]");
-  if (!std::isfinite(length)) refuse("/beam/curve/end", "a point infinitely far away", "the length must be finite");
-
   if (beam.quadrature_points == 1 || beam.quadrature_points == 2) {
     refuse("/beam/quadrature_points", std::to_string(beam.quadrature_points),
            "it must be 0 (the element's default) or 3 to 25: the mass matrix is singular with fewer points");
@@ -74,9 +113,8 @@ void check_beam(const Scene& scene) {
       refuse(field, number_text(*unequal),
              std::string(to_string(beam.element)) + " has unit weights; other weights need RANCF or ALE-RANCF");
     }
-    if (beam.rest_shape == RestShape::as_built) {
-      refuse(field, number_text(*unequal),
-             "weights other than 1 need \"rest_shape\": \"paper\"; the as-built shape is not available with them yet");
+    if (beam.curve.type != CurveType::line) {
+      refuse(field, number_text(*unequal), "the weights of a curved beam are those of its curve: leave this out");
     }
   }
 
@@ -85,6 +123,11 @@ void check_beam(const Scene& scene) {
     refuse(
         "/beam/material/curvature_regularization", "0",
         "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], or the damping 0");
+  }
+  if (scene.dimension == 3 && bends && beam.material.curvature_regularization == 0 && has_rest_shape(scene)) {
+    refuse("/beam/material/curvature_regularization", "0",
+           "a curved rest shape in 3D has no direction where the beam is straight: it must be a number > 0 [1/m], or "
+           "\"rest_shape\": \"paper\"");
   }
 }
 
@@ -103,6 +146,7 @@ void check_sliding_mass(const Scene& scene) {
     refuse("/sliding_mass/position", number_text(mass.position),
            "the mass must be inside the beam, between 0 and " + number_text(length) + " [m] and not on its ends");
   }
+  place_nodes(scene, build_axis<3>(scene).breaks());
   const double half_element = standard_length(scene) / 2;
   if (mass.separation_distance && !(*mass.separation_distance < half_element)) {
     refuse("/sliding_mass/separation_distance", number_text(*mass.separation_distance),
@@ -122,8 +166,13 @@ void check_length_control(const Scene& scene) {
 }
 
 void check_energy_momentum(const Scene& scene) {
-  if (scene.integrator.type != IntegratorType::energy_momentum || !scene.sliding_mass) return;
+  if (scene.integrator.type != IntegratorType::energy_momentum) return;
   const auto quoted = [](std::string_view name) { return "\"" + std::string(name) + "\""; };
+  if (has_rest_shape(scene)) {
+    refuse("/beam/rest_shape", quoted(to_string(scene.beam.rest_shape)),
+           "\"energy-momentum\" measures strains from a straight beam: take \"paper\", or another integrator");
+  }
+  if (!scene.sliding_mass) return;
   if (scene.formulation != Formulation::variational) {
     refuse("/formulation", quoted(to_string(scene.formulation)),
            "\"energy-momentum\" with a sliding mass needs \"variational\": the virtual work has no energy to keep");
@@ -169,6 +218,7 @@ void check_output(const Scene& scene) {
 void validate(const Scene& scene) {
   visit_options(RangeCheck{}, scene);
   check_plane(scene);
+  check_curve(scene);
   check_beam(scene);
   check_sliding_mass(scene);
   check_length_control(scene);

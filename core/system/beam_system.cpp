@@ -61,8 +61,9 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
   const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
-  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, model_.strain_law, rule);
-  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, model_.strain_law, rule);
+  const RestCurve<D>* rest = model_.rest.get();
+  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, model_.strain_law, rule, rest);
+  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, model_.strain_law, rule, rest);
   if (has_joint()) {
     const auto j = static_cast<std::size_t>(joint_);
     left_table_ = ShapeTabulation(rule, mesh_.weights[j - 1].w);
@@ -220,7 +221,9 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   record.before = chain(y);
   record.joint_position = y[nodal_];
   record.after = record.before;
-  const int lowest = std::max(0, joint_ - 2), highest = std::min(mesh_.elements(), joint_ + 2);
+  // an event changes the two elements on either side, or, where slopes change too, one more
+  const int reach = model_.length_control.merge == MergePolicy::least_change ? 3 : 2;
+  const int lowest = std::max(0, joint_ - reach), highest = std::min(mesh_.elements(), joint_ + reach);
   auto energies = [&](const ChainState<D>& state, int points) {
     Observation<D> seen;
     observe_elements(state, lowest, highest, t, points, seen);
@@ -239,7 +242,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (leaving) {
     separate(record.after, direction, model_.length_control, model_.transport);
   } else {
-    record.merged = segment_and_merge(record.after, direction, model_.length_control, model_.transport);
+    record.merged = segment_and_merge(record.after, direction, model_.length_control, model_.strain_law, moving_law(t));
   }
   const Eigen::Index joint_at = node_size<D> * joint_, old_coordinates = coordinates_;
   adopt(record.after);
@@ -278,25 +281,32 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
     const MovingKinematics<double, D> kinematics(q, rate, at_joint ? moving.transport : WeightTransport::frozen,
                                                  weights);
     const bool unit = weights.w == unit_weights;
-    for (std::size_t g = 0; g < rule.size(); ++g) {
-      const double u = rule[g].u;
-      const auto at = kinematics.at(u, unit ? polynomial.shape[g] : rational_shape(kinematics.weights(), u));
-      const double wl = kinematics.length() * rule[g].weight;
-      auto add_strain = [&]<StrainLaw Law>() {
-        const ElasticStress<Law, true, double, D> elastic(at.r_x, at.r_xx, model_.section.stiffness);
-        seen.energy.axial += wl * elastic.axial;
-        seen.energy.bending += wl * elastic.bending;
-      };
-      if (model_.strain_law == StrainLaw::green) {
-        add_strain.template operator()<StrainLaw::green>();
-      } else {
-        add_strain.template operator()<StrainLaw::engineering>();
-      }
-      seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
-      seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
-      seen.momentum += wl * rhoA * at.v;
-      seen.beam_length += wl * at.r_x.norm();
-    }
+    const auto table = unit ? polynomial : ShapeTabulation(rule, kinematics.weights());
+    const auto motion = [&](double u, const ShapeTable<double>& shape) { return kinematics.at(u, shape); };
+    for_each_point(kinematics, table, false, moving.rest, motion,
+                   [&](const auto& point, const auto& at, const auto* rest) {
+                     const double wl = point.weight;
+                     auto add_strain = [&]<StrainLaw Law>() {
+                       const auto& section = model_.section;
+                       const ElasticStress<Law, true, double, D> elastic(at.r_x, at.r_xx, section.stiffness);
+                       seen.energy.axial += wl * elastic.axial;
+                       seen.energy.bending += wl * elastic.bending;
+                       if (rest == nullptr) return;
+                       const RestStress<Law, true, double, D> from_rest(at.r_x, at.r_xx, *rest, section.stiffness,
+                                                                        section.curvature_regularization);
+                       seen.energy.axial += wl * from_rest.axial;
+                       seen.energy.bending += wl * from_rest.bending;
+                     };
+                     if (model_.strain_law == StrainLaw::green) {
+                       add_strain.template operator()<StrainLaw::green>();
+                     } else {
+                       add_strain.template operator()<StrainLaw::engineering>();
+                     }
+                     seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
+                     seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
+                     seen.momentum += wl * rhoA * at.v;
+                     seen.beam_length += wl * at.r_x.norm();
+                   });
   }
 }
 

@@ -28,6 +28,7 @@ struct BeamModel {
   double separation_distance = 0;  ///< [m]
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
+  std::shared_ptr<const RestCurve<D>> rest;  ///< null for a straight, unstrained rest shape
 };
 
 /// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
@@ -110,7 +111,9 @@ class BeamSystem final : public EventedOde {
   /// Shape functions of the two elements at the joint.
   const ShapeTabulation& left_table() const { return left_table_; }
   const ShapeTabulation& right_table() const { return right_table_; }
-  MovingLaw<D> moving_law(double t) const { return {model_.section, model_.formulation, model_.transport, gravity(t)}; }
+  MovingLaw<D> moving_law(double t) const {
+    return {model_.section, model_.formulation, model_.transport, gravity(t), model_.rest.get()};
+  }
   /// The fixed elements before and behind the joint, or the middle of the beam.
   const Span<D>& left() const { return *left_; }
   const Span<D>& right() const { return *right_; }

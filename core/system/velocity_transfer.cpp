@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/length_control/chain_motion.hpp"
 #include "core/system/beam_system.hpp"
 
 namespace vlbeam {
@@ -10,17 +11,6 @@ namespace {
 
 constexpr int transfer_points = 12;    // on each piece between nodes of either mesh
 constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
-
-/// Motion of the material point x, in element k of `chain`.
-template <int D>
-PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport of_joint) {
-  const auto q = chain.coordinates(k), rate = chain.rates(k);
-  const bool at_joint = k == chain.joint || k + 1 == chain.joint;
-  const WeightTransport transport = at_joint ? of_joint : WeightTransport::frozen;
-  const MovingKinematics<double, D> kinematics(q, rate, transport, chain.mesh.weights[static_cast<std::size_t>(k)]);
-  const double u = (x - q.x_a) / (q.x_b - q.x_a);
-  return kinematics.at(u, rational_shape(kinematics.weights(), u));
-}
 
 }  // namespace
 
@@ -66,17 +56,10 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
   const auto& rule = gauss_legendre(transfer_points);
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
-  std::vector<double> pieces;
-  std::set_union(before.mesh.x.begin(), before.mesh.x.end(), after.mesh.x.begin(), after.mesh.x.end(),
-                 std::back_inserter(pieces));
-  auto element_at = [](const ChainState<D>& chain, double x) {
-    const auto& nodes = chain.mesh.x;
-    return static_cast<int>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x) - nodes.begin()) - 1;
-  };
+  const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     const double a = pieces[piece], length = pieces[piece + 1] - a;
-    if (a + length / 2 < start || a + length / 2 > end) continue;
-    const int from = element_at(before, a + length / 2), to = element_at(after, a + length / 2);
+    const int from = element_at(before.mesh, a + length / 2), to = element_at(after.mesh, a + length / 2);
     for (const auto& [u, weight] : rule) {
       const double x = a + u * length;
       const auto was = motion_at(before, from, x, model_.transport), is = motion_at(after, to, x, model_.transport);

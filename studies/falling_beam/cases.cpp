@@ -1,7 +1,6 @@
 #include "studies/falling_beam/cases.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
@@ -13,12 +12,6 @@ namespace vlbeam::falling_beam {
 namespace {
 
 constexpr double report_times[] = {0.3, 0.4, 0.5, 0.6, 0.65, 0.7};  // [s]
-
-/// Sets the options that `pointers` names, separated by spaces.
-void assign(Json& scene, const std::string& pointers, const Json& value) {
-  std::istringstream words(pointers);
-  for (std::string pointer; words >> pointer;) scene[Json::json_pointer(pointer)] = value;
-}
 
 /// Rough work of a run: explicit steps shrink with the square of the element length, and with the tolerance.
 double cost(const Case& item) {
@@ -76,35 +69,6 @@ std::vector<const Run*> Runs::select(std::string_view sweep, const Wanted& wante
 const Run* Runs::find(std::string_view sweep, const Wanted& wanted) const {
   const auto found = select(sweep, wanted);
   return found.empty() ? nullptr : found.front();
-}
-
-std::vector<Case> read_cases(const Json& config) {
-  std::vector<Case> cases;
-  for (const auto& [name, sweep] : config.at("sweeps").items()) {
-    const Json set = sweep.value("set", Json::object());
-    const Json over = sweep.value("over", Json::object());
-    Json first = config.at("scene");
-    for (const auto& [pointers, value] : set.items()) assign(first, pointers, value);
-    std::vector<Json> scenes{first};
-    for (const auto& [pointers, values] : over.items()) {
-      std::vector<Json> combined;
-      for (const Json& scene : scenes) {
-        for (const Json& value : values) {
-          combined.push_back(scene);
-          assign(combined.back(), pointers, value);
-        }
-      }
-      scenes = std::move(combined);
-    }
-    for (const Json& scene : scenes) {
-      try {
-        cases.push_back({name, scene_from_json(scene)});
-      } catch (const InvalidInput& error) {
-        throw InvalidInput("/sweeps/" + name + error.field, error.value, error.allowed);
-      }
-    }
-  }
-  return cases;
 }
 
 Runs run_cases(const StudyContext& context, const std::vector<Case>& cases) {

@@ -6,16 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "studies/harness/scene_sweep.hpp"
 #include "studies/harness/study.hpp"
 
 /// The falling beam with a sliding mass (Ding & Ouyang 2022, §6.1): which scenes are run, and finding them again.
 namespace vlbeam::falling_beam {
 
-/// One scene of a sweep.
-struct Case {
-  std::string sweep;
-  Scene scene;
-};
+using Case = SceneCase;
 
 /// A case with what came out of it.
 struct Run {
@@ -51,10 +48,6 @@ class Runs {
  private:
   std::vector<Run> runs_;
 };
-
-/// Reads the sweeps of study.<profile>.json. Each is the study's scene, changed by its `set` and by every combination
-/// of its `over`; both name options by JSON pointer, several at once where they are separated by a space.
-std::vector<Case> read_cases(const Json& config);
 
 /// Runs them all on the study's threads.
 Runs run_cases(const StudyContext& context, const std::vector<Case>& cases);

@@ -18,7 +18,7 @@ StudyReport run(const StudyContext& context) {
   };
   const Json independent = reference("ale_independent_codes.json");
   const Times times = read_times(context.config);
-  const Runs runs = run_cases(context, read_cases(context.config));
+  const Runs runs = run_cases(context, read_scene_cases(context.config));
 
   StudyReport report;
   report.cases = report_cases(runs);

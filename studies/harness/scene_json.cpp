@@ -215,6 +215,13 @@ class Reader {
       if (!value.is_array() || !all_numbers(value)) return false;
       member = value.get<std::vector<double>>();
       return true;
+    } else if constexpr (std::same_as<T, std::vector<Point>>) {
+      if (!value.is_array()) return false;
+      member.assign(value.size(), Point{});
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!read(value[i], option, member[i])) return false;
+      }
+      return true;
     } else if constexpr (std::same_as<T, Point> || std::same_as<T, std::array<double, 4>>) {
       const std::size_t size = option.components > 0 ? static_cast<std::size_t>(option.components) : member.size();
       if (!value.is_array() || value.size() != size || !all_numbers(value)) return false;
@@ -256,6 +263,10 @@ class Writer {
     } else if constexpr (std::same_as<T, Point>) {
       Json array = Json::array();
       for (std::size_t i = 0; i < static_cast<std::size_t>(option.components); ++i) array.push_back(member[i]);
+      return array;
+    } else if constexpr (std::same_as<T, std::vector<Point>>) {
+      Json array = Json::array();
+      for (const Point& item : member) array.push_back(value(option, item));
       return array;
     } else if constexpr (std::same_as<T, std::optional<double>>) {
       return member ? Json(*member) : Json();

@@ -26,6 +26,7 @@ std::vector<std::string> segments(std::string_view pointer) {
   return list;
 }
 
+Json array_of(const Json& items) { return {{"type", "array"}, {"items", items}}; }
 Json empty_object() { return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}}; }
 
 /// Where a condition holds: the option it names has the value it names. `given` asks for the key itself, which a
@@ -106,6 +107,8 @@ class SceneSchemaBuilder {
       return {{"type", "array"}, {"items", number("number", option.range)}, {"minItems", 4}, {"maxItems", 4}};
     } else if constexpr (std::same_as<T, std::vector<double>>) {
       return {{"type", "array"}, {"items", number("number", option.range)}};
+    } else if constexpr (std::same_as<T, std::vector<Point>>) {
+      return array_of({{"type", "array"}, {"items", number("number", option.range)}, {"minItems", 2}, {"maxItems", 3}});
     } else {
       return number("number", option.range);
     }
@@ -168,8 +171,6 @@ class SceneSchemaBuilder {
   Json root_ = empty_object();
   std::map<std::string, std::string> defaults_;
 };
-
-Json array_of(const Json& items) { return {{"type", "array"}, {"items", items}}; }
 
 Json record(const Json& properties, const std::vector<std::string>& optional = {}) {
   Json required = Json::array();

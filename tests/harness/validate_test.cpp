@@ -98,7 +98,48 @@ const Rule rules[] = {
     {"/beam/weights/1",
      [](Scene& s) {
        s.beam.weights = {1, 1.2, 1.2, 1};
-     }},  // as-built
+       s.beam.curve.type = CurveType::arc;
+     }},
+    {"/beam/curve/to_degrees",
+     [](Scene& s) {
+       s.beam.curve.type = CurveType::arc;
+       s.beam.curve.from_degrees = s.beam.curve.to_degrees = 90;
+     }},
+    {"/beam/elements",
+     [](Scene& s) {
+       s.beam.curve.type = CurveType::arc;
+       s.beam.curve.to_degrees = 360;
+       s.beam.elements = 2;
+     }},
+    {"/beam/curve/knots/4",
+     [](Scene& s) {
+       s.beam.curve = {.type = CurveType::nurbs,
+                       .degree = 2,
+                       .knots = {0, 0, 0, 1, 0.5, 2, 2, 2},
+                       .weights = {},
+                       .control_points = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}, {4, 1, 0}}};
+     }},
+    {"/beam/curve/knots",
+     [](Scene& s) {
+       s.beam.curve = {.type = CurveType::nurbs,
+                       .degree = 2,
+                       .knots = {0, 0, 0, 1, 1},
+                       .weights = {},
+                       .control_points = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}}};
+     }},
+    {"/beam/curve/control_points/1/2",
+     [](Scene& s) {
+       s.beam.curve = {.type = CurveType::nurbs,
+                       .degree = 2,
+                       .knots = {0, 0, 0, 1, 1, 1},
+                       .weights = {},
+                       .control_points = {{0, 0, 0}, {1, 0, 1}, {2, 1, 0}}};
+     }},
+    {"/beam/material/curvature_regularization",
+     [](Scene& s) {
+       s.dimension = 3;
+       s.beam.curve.type = CurveType::arc;
+     }},
     {"/beam/weights/1",
      [](Scene& s) {
        s.beam.weights = {1, 1.2, 1.2, 1};

@@ -14,33 +14,6 @@ constexpr double standard = 0.2;
 constexpr std::array<MergePolicy, 2> policies{MergePolicy::point_fit, MergePolicy::unit};
 constexpr std::array<WeightTransport, 2> transports{WeightTransport::frozen, WeightTransport::transported};
 
-/// A chain along a smooth curve, in motion, whose joint is `behind` L_std ahead of the node behind it.
-template <int D>
-ChainState<D> smooth_chain(const ChainShape& shape, double behind, Random& random) {
-  auto chain = random_chain<D>(shape, random);
-  const auto j = static_cast<std::size_t>(chain.joint);
-  for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) chain.mesh.x[k] = standard * static_cast<double>(k);
-  chain.mesh.x[j] = chain.mesh.x[j - 1] + behind * standard;
-  const Eigen::Matrix<double, D, D> Q = random.rotation<D>();
-  for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
-    const double x = chain.mesh.x[k];
-    Vec<double, D> r = 1.01 * x * Vec<double, D>::UnitX(), r_x = 1.01 * Vec<double, D>::UnitX();
-    r[1] = 0.1 * std::sin(3 * x);
-    r_x[1] = 0.3 * std::cos(3 * x);
-    if constexpr (D == 3) {
-      r[2] = 0.1 * std::cos(4 * x);
-      r_x[2] = -0.4 * std::sin(4 * x);
-    }
-    position<D>(chain.q.data(), static_cast<int>(k)) = Q * r;
-    slope<D>(chain.q.data(), static_cast<int>(k)) = Q * r_x;
-  }
-  for (std::size_t k = 0; k < chain.mesh.weights.size(); ++k) {
-    chain.mesh.weights[k].x_a = chain.mesh.x[k];
-    chain.mesh.weights[k].x_b = chain.mesh.x[k + 1];
-  }
-  return chain;
-}
-
 /// Position and slope of node k of a nodal array.
 template <int D>
 Vec<double, node_size<D>> node(const std::vector<double>& nodes, int k) {
@@ -71,6 +44,12 @@ class LengthControlOf : public ::testing::Test {
  protected:
   static constexpr int dim = Dimension::value;
 
+  static MovingLaw<dim> law(WeightTransport transport) {
+    MovingLaw<dim> law;
+    law.section = {1.3, {2.1, 0.7}, 0, 0};
+    law.transport = transport;
+    return law;
+  }
   static LengthControl control(MergePolicy policy) {
     LengthControl result;
     result.standard_length = standard;
@@ -89,7 +68,8 @@ TYPED_TEST(LengthControlOf, AForwardEventPutsANodeBehindTheJointAndTakesOneAhead
       const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport};
       const auto before = smooth_chain<D>(shape, 1.5, this->random_);
       auto after = before;
-      const auto merged = segment_and_merge(after, Direction::forward, this->control(policy), transport);
+      const auto merged =
+          segment_and_merge(after, Direction::forward, this->control(policy), StrainLaw::green, this->law(transport));
       EXPECT_EQ(after.joint, 3);
       EXPECT_EQ(after.joint_rate, before.joint_rate);
       EXPECT_EQ(after.mesh.elements(), before.mesh.elements());
@@ -112,7 +92,8 @@ TYPED_TEST(LengthControlOf, TheMotionBehindTheJointIsWhatItWas) {
   const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = WeightTransport::transported};
   const auto before = smooth_chain<D>(shape, 1.5, this->random_);
   auto after = before;
-  segment_and_merge(after, Direction::forward, this->control(MergePolicy::point_fit), shape.transport);
+  segment_and_merge(after, Direction::forward, this->control(MergePolicy::point_fit), StrainLaw::green,
+                    this->law(shape.transport));
   for (double x = before.mesh.x[0]; x < before.mesh.x[2]; x += 0.013) {
     const auto a = point_motion(before, shape.transport, x), b = point_motion(after, shape.transport, x);
     EXPECT_LE((a.r - b.r).norm(), 1e-14);
@@ -125,9 +106,10 @@ TYPED_TEST(LengthControlOf, PointFitKeepsTheDeletedNodesPlace) {
   const ChainShape shape{.elements = 6, .joint = 2};
   const auto before = smooth_chain<D>(shape, 1.5, this->random_);
   auto fitted = before, unit = before;
-  const auto merged =
-      segment_and_merge(fitted, Direction::forward, this->control(MergePolicy::point_fit), shape.transport);
-  segment_and_merge(unit, Direction::forward, this->control(MergePolicy::unit), shape.transport);
+  const auto merged = segment_and_merge(fitted, Direction::forward, this->control(MergePolicy::point_fit),
+                                        StrainLaw::green, this->law(shape.transport));
+  segment_and_merge(unit, Direction::forward, this->control(MergePolicy::unit), StrainLaw::green,
+                    this->law(shape.transport));
   ASSERT_FALSE(merged.unit_fallback);
   const Vec<double, D> deleted = position<D>(before.q.data(), 3);
   auto miss = [&](const ChainState<D>& chain) {
@@ -146,8 +128,8 @@ TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
       auto backward = reversed(forward);
       const Vec<double, D> deleted = position<D>(forward.q.data(), 3);
       const double x_deleted = forward.mesh.x[3];
-      segment_and_merge(forward, Direction::forward, this->control(policy), transport);
-      segment_and_merge(backward, Direction::backward, this->control(policy), transport);
+      segment_and_merge(forward, Direction::forward, this->control(policy), StrainLaw::green, this->law(transport));
+      segment_and_merge(backward, Direction::backward, this->control(policy), StrainLaw::green, this->law(transport));
       auto mirror = reversed(backward);
       if (policy == MergePolicy::point_fit) {  // the paper's norm prefers one end: other weights through the same point
         EXPECT_LE((point_motion(mirror, transport, x_deleted).r - deleted).norm(), 1e-14);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/length_control/chain_state.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -46,6 +48,33 @@ ChainState<D> random_chain(const ChainShape& shape, Random& random) {
       (k == shape.joint ? weights.x_a : weights.x_b) += random.uniform(-0.1, 0.1) * shape.element_length;
     }
     chain.mesh.weights.push_back(weights);
+  }
+  return chain;
+}
+
+/// A chain along a smooth curve, in motion, whose joint is `behind` element lengths ahead of the node behind it.
+template <int D>
+ChainState<D> smooth_chain(const ChainShape& shape, double behind, Random& random) {
+  auto chain = random_chain<D>(shape, random);
+  const auto j = static_cast<std::size_t>(chain.joint);
+  for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) chain.mesh.x[k] = shape.element_length * static_cast<double>(k);
+  chain.mesh.x[j] = chain.mesh.x[j - 1] + behind * shape.element_length;
+  const Eigen::Matrix<double, D, D> Q = random.rotation<D>();
+  for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
+    const double x = chain.mesh.x[k];
+    Vec<double, D> r = 1.01 * x * Vec<double, D>::UnitX(), r_x = 1.01 * Vec<double, D>::UnitX();
+    r[1] = 0.1 * std::sin(3 * x);
+    r_x[1] = 0.3 * std::cos(3 * x);
+    if constexpr (D == 3) {
+      r[2] = 0.1 * std::cos(4 * x);
+      r_x[2] = -0.4 * std::sin(4 * x);
+    }
+    position<D>(chain.q.data(), static_cast<int>(k)) = Q * r;
+    slope<D>(chain.q.data(), static_cast<int>(k)) = Q * r_x;
+  }
+  for (std::size_t k = 0; k < chain.mesh.weights.size(); ++k) {
+    chain.mesh.weights[k].x_a = chain.mesh.x[k];
+    chain.mesh.weights[k].x_b = chain.mesh.x[k + 1];
   }
   return chain;
 }

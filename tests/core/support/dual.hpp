@@ -32,6 +32,7 @@ struct Dual {
     return {quotient, (a.rate - quotient * b.rate) / b.value};
   }
   friend Dual operator-(const Dual& a) { return {-a.value, -a.rate}; }
+  friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
   friend Dual sqrt(const Dual& a) {
     using std::sqrt;
     const Real root = sqrt(a.value);

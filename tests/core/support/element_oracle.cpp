@@ -53,10 +53,51 @@ struct Definitions {
     return o.law == StrainLaw::green ? Real(area / (g * g * g)) : Real(area / (g * g));
   }
 
+  /// Signed in the plane, regularized in space.
+  Real curvature(const Vector& r_x, const Vector& r_xx) const {
+    using std::sqrt;
+    const double regularization = o.section.curvature_regularization;
+    if constexpr (D == 3) return sqrt(curvature_squared(r_x, r_xx) + Real(regularization * regularization));
+    const Real g = r_x.dot(r_x), area = r_x[0] * r_xx[1] - r_x[1] * r_xx[0];
+    return o.law == StrainLaw::green ? Real(area / (g * sqrt(g))) : Real(area / g);
+  }
+
   Real energy_density(const std::array<Vector, 4>& r) const {
     const Real eps = strain(r[1]);
     const auto& k = o.section.stiffness;
     return Real(k.EA / 2) * eps * eps + Real(k.EI / 2) * curvature_squared(r[1], r[2]);
+  }
+
+  /// The same measured from the rest shape `piece`, at the material point x.
+  Real energy_density(const std::array<Vector, 4>& r, const Real& x, const typename RestCurve<D>::Piece& piece) const {
+    const Real l(piece.x_b - piece.x_a);
+    const NodalCubic<Real, D> e{piece.e.r_a.template cast<Real>(), piece.e.s_a.template cast<Real>(),
+                                piece.e.r_b.template cast<Real>(), piece.e.s_b.template cast<Real>()};
+    const Weights<Real> w{Real(piece.w[0]), Real(piece.w[1]), Real(piece.w[2]), Real(piece.w[3])};
+    const auto by_u = RationalCubic<Real, D>::from_nodal(e, l, w).evaluate(Real((x - Real(piece.x_a)) / l));
+    const Vector r_x = by_u[1] / l, r_xx = by_u[2] / Real(l * l);
+    const Real eps = strain(r[1]) - strain(r_x), kappa = curvature(r[1], r[2]) - curvature(r_x, r_xx);
+    return Real(o.section.stiffness.EA / 2) * eps * eps + Real(o.section.stiffness.EI / 2) * kappa * kappa;
+  }
+
+  /// Calls visit(x, weight, energy density) at the quadrature points.
+  template <class Visit>
+  void at_points(const Column& q, const Visit& visit) const {
+    if (o.rest.empty()) {
+      for (const auto& [u, weight] : o.rule) {
+        visit(material_point(q, u), Real(length(q) * Real(weight)),
+              [this](const auto& r, const Real&) { return energy_density(r); });
+      }
+    }
+    for (const auto& piece : o.rest) {
+      const bool first = piece.x_a < q[4 * D], last = q[4 * D + 1] < piece.x_b;
+      const Real from = first ? q[4 * D] : Real(piece.x_a), to = last ? q[4 * D + 1] : Real(piece.x_b);
+      if (!(from < to)) continue;
+      for (const auto& [u, weight] : o.rule) {
+        visit(Real(from * Real(1 - u) + to * Real(u)), Real((to - from) * Real(weight)),
+              [this, &piece](const auto& r, const Real& x) { return energy_density(r, x, piece); });
+      }
+    }
   }
 
   static Real length(const Column& q) { return q[4 * D + 1] - q[4 * D]; }
@@ -64,9 +105,8 @@ struct Definitions {
 
   Real elastic_energy(const Column& q) const {
     Real sum(0);
-    for (const auto& [u, weight] : o.rule) {
-      sum += length(q) * Real(weight) * energy_density(point(q, material_point(q, u)));
-    }
+    at_points(q,
+              [&](const Real& x, const Real& weight, const auto& density) { sum += weight * density(point(q, x), x); });
     return sum;
   }
 };
@@ -83,11 +123,11 @@ Real lagrangian(const ElementOracle<D>& o, const ElementColumn<Real, D>& q, cons
   using Define = Definitions<Real, D>;
   const Vec<Real, D> g = o.gravity.template cast<Real>();
   Real sum = -Define{o}.elastic_energy(q);
-  for (const auto& [u, weight] : o.rule) {
-    const auto moving = moving_point<Real, D>(o, q, rate, Define::material_point(q, u));
+  Define{o}.at_points(q, [&](const Real& x, const Real& weight, const auto&) {
+    const auto moving = moving_point<Real, D>(o, q, rate, x);
     const Vec<Real, D> r = value_of(moving[0]), v = rate_of(moving[0]);
-    sum += Define::length(q) * Real(weight * o.section.rhoA) * (v.dot(v) / Real(2) + g.dot(r));
-  }
+    sum += weight * Real(o.section.rhoA) * (v.dot(v) / Real(2) + g.dot(r));
+  });
   return sum;
 }
 

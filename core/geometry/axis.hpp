@@ -1,0 +1,79 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "core/geometry/nurbs.hpp"
+#include "core/geometry/rational_cubic.hpp"
+
+namespace vlbeam {
+
+/// The initial axis of a beam by its arc length x in [0, length()]: a straight line, an arc of a circle, or a chain of
+/// rational cubics.
+template <int D>
+class Axis {
+ public:
+  using Vector = Vec<double, D>;
+
+  static Axis line(const Vector& start, const Vector& end);
+  /// From the angle `from` to the angle `to` [rad], in the plane of the first two axes.
+  static Axis arc(const Vector& center, double radius, double from, double to);
+  /// Throws NurbsError.
+  static Axis nurbs(const Nurbs<D>& curve);
+
+  double length() const { return breaks_.back(); }
+  /// 0, length() and what lies between: an element must not reach over any of these points.
+  const std::vector<double>& breaks() const { return breaks_; }
+  bool straight() const { return std::holds_alternative<Line>(shape_); }
+
+  /// Whether one rational cubic can be the axis from x_a to x_b: no break between them, and no arc of pi or more.
+  bool in_one_piece(double x_a, double x_b) const;
+
+  Vector position(double x) const;
+  /// Unit tangent.
+  Vector tangent(double x) const;
+  /// The axis from x_a to x_b, no break between them, as one rational cubic: exactly that curve, in some
+  /// parametrization. Throws std::domain_error where it is not in_one_piece().
+  RationalCubic<double, D> between(double x_a, double x_b) const;
+
+ private:
+  struct Line {
+    Vector start, tangent;
+  };
+  struct Arc {
+    Vector center;
+    double radius, from, turn_per_length;
+  };
+  struct Spans {
+    std::vector<RationalCubic<double, D>> spans;
+  };
+  using Shape = std::variant<Line, Arc, Spans>;
+
+  Axis(Shape shape, std::vector<double> breaks) : shape_(std::move(shape)), breaks_(std::move(breaks)) {}
+
+  /// Index of the span that holds x, and its parameter there.
+  std::pair<std::size_t, double> locate(const Spans& chain, double x) const;
+
+  Shape shape_;
+  std::vector<double> breaks_;
+};
+
+/// A chain of rational cubics that share position and slope at their nodes: end slopes are with respect to x.
+template <int D>
+struct CubicChain {
+  std::vector<Vec<double, D>> r, r_x;  ///< one a node
+  std::vector<Weights<double>> weights;
+};
+
+/// The axis, exactly, as elements between the material coordinates `x`, which hold all its breaks. A rational cubic
+/// keeps its curve when its weights become (w_0, c w_1, c^2 w_2, c^3 w_3), while its end slopes are multiplied by c and
+/// 1/c: so neighbours can be given common slopes. Of the one family of such chains, that with slopes nearest to 1.
+template <int D>
+CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x);
+
+extern template class Axis<2>;
+extern template class Axis<3>;
+extern template CubicChain<2> exact_chain(const Axis<2>&, const std::vector<double>&);
+extern template CubicChain<3> exact_chain(const Axis<3>&, const std::vector<double>&);
+
+}  // namespace vlbeam

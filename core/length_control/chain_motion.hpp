@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "core/length_control/chain_state.hpp"
+
+namespace vlbeam {
+
+/// Weights of element k as they are: at the joint, with transported weights, restricted to its current interval.
+template <int D>
+Weights<double> current_weights(const ChainState<D>& chain, int k, WeightTransport of_joint) {
+  const auto i = static_cast<std::size_t>(k);
+  const auto& weights = chain.mesh.weights[i];
+  const bool at_joint = k == chain.joint || k + 1 == chain.joint;
+  const bool restricted = at_joint && of_joint == WeightTransport::transported && weights.w != unit_weights;
+  return restricted ? weights.on(chain.mesh.x[i], chain.mesh.x[i + 1]) : weights.w;
+}
+
+/// Motion of the material point x, in element k of `chain`.
+template <int D>
+PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport of_joint) {
+  const auto q = chain.coordinates(k), rate = chain.rates(k);
+  const bool at_joint = k == chain.joint || k + 1 == chain.joint;
+  const WeightTransport transport = at_joint ? of_joint : WeightTransport::frozen;
+  const MovingKinematics<double, D> kinematics(q, rate, transport, chain.mesh.weights[static_cast<std::size_t>(k)]);
+  const double u = (x - q.x_a) / (q.x_b - q.x_a);
+  return kinematics.at(u, rational_shape(kinematics.weights(), u));
+}
+
+/// Index of the element of `mesh` that holds x.
+inline int element_at(const Mesh& mesh, double x) {
+  return static_cast<int>(std::upper_bound(mesh.x.begin() + 1, mesh.x.end() - 1, x) - mesh.x.begin()) - 1;
+}
+
+/// The intervals between neighbouring nodes of either mesh, from `start` to `end`.
+inline std::vector<double> common_pieces(const Mesh& a, const Mesh& b, double start, double end) {
+  std::vector<double> nodes, pieces;
+  std::set_union(a.x.begin(), a.x.end(), b.x.begin(), b.x.end(), std::back_inserter(nodes));
+  for (const double x : nodes) {
+    if (start <= x && x <= end) pieces.push_back(x);
+  }
+  return pieces;
+}
+
+}  // namespace vlbeam
