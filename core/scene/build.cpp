@@ -86,7 +86,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
   if (scene.sliding_mass) {
-    model.joint = SlidingJoint{scene.sliding_mass->mass};
+    model.joint = SlidingJoint{scene.sliding_mass->mass, scene.sliding_mass->slopes, scene.sliding_mass->friction};
     model.separation_distance = separation_distance(scene);
   }
   model.constraints = scene.constraints;
@@ -112,6 +112,7 @@ ChainState<D> build_chain(const Scene& scene) {
     chain.joint = std::clamp(static_cast<int>(std::lround(x / length * n)), 1, n - 1);
     chain.mesh.x[static_cast<std::size_t>(chain.joint)] = x;
     chain.joint_rate = scene.sliding_mass->velocity;
+    if (scene.sliding_mass->slopes != JointSlopes::continuous) chain.kink = {tangent, Vec<double, D>::Zero()};
   }
   for (int k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);

@@ -38,6 +38,12 @@ struct Configuration {
   std::vector<Point> r;    ///< positions [m]
   std::vector<Point> r_x;  ///< slopes [-]
   std::vector<std::array<double, 4>> weights;
+  /// Where the beam may be kinked, at the mass: `r_x` has the slope before it, this is the one behind.
+  struct Kink {
+    std::size_t node;
+    Point r_x;
+  };
+  std::optional<Kink> kink;
 };
 
 enum class EventType { segment_merge, separation };
@@ -77,6 +83,7 @@ struct RunResult {
   std::vector<Event> events;
   double max_kinetic = 0;       ///< largest kinetic energy of the samples [J]
   double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - jumps|, the model's own points [J]
+  ConstraintResidual slopes;    ///< largest of the samples: how far a kinked joint's slopes are from what ties them
   SolverCounters solver;
   RunTiming timing;
 };

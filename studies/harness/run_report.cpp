@@ -71,8 +71,10 @@ Json configuration(const Configuration& shape, int d) {
   const auto points = [d](const std::vector<Point>& list) {
     return column<Point>(list, [d](const Point& p) { return components(p, d); });
   };
-  return {
+  Json json = {
       {"t", shape.t}, {"x", shape.x}, {"r", points(shape.r)}, {"r_x", points(shape.r_x)}, {"weights", shape.weights}};
+  if (shape.kink) json["kink"] = {{"node", shape.kink->node}, {"r_x", components(shape.kink->r_x, d)}};
+  return json;
 }
 
 Json event(const Event& e) {
@@ -114,6 +116,7 @@ Json run_report(const Scene& scene, const RunResult& result) {
                       {"constraint_residual",
                        {{"position", result.solver.newton.constraints.position},
                         {"velocity", result.solver.newton.constraints.velocity}}},
+                      {"slope_residual", {{"position", result.slopes.position}, {"velocity", result.slopes.velocity}}},
                       {"largest_kinetic_energy", result.max_kinetic},
                       {"largest_energy_drift", result.max_energy_drift}};
   return report;

@@ -235,7 +235,9 @@ Json run_schema() {
                                      {"x", array_of(number)},
                                      {"r", array_of(point)},
                                      {"r_x", array_of(point)},
-                                     {"weights", array_of(array_of(number))}});
+                                     {"weights", array_of(array_of(number))},
+                                     {"kink", record({{"node", whole}, {"r_x", point}})}},
+                                    {"kink"});
   const Json event = record({{"t", number},
                              {"type", choice_of<EventType>()},
                              {"joint_position", number},
@@ -254,6 +256,7 @@ Json run_schema() {
                               {"tangents", whole},
                               {"longest_newton_iteration", array_of(number)},
                               {"constraint_residual", record({{"position", number}, {"velocity", number}})},
+                              {"slope_residual", record({{"position", number}, {"velocity", number}})},
                               {"largest_kinetic_energy", number_or_null},
                               {"largest_energy_drift", number_or_null}});
   Json scene = scene_schema();
