@@ -7,10 +7,11 @@
 
 namespace vlbeam {
 
-// Friction along the beam between it and the mass on it. The mass moves over the material at the joint with the relative
-// velocity r_x x', for the material point there has the velocity r' - r_x x'. A force F t on the mass and -F t on that
-// point, t = r_x/|r_x|, do the virtual work F t.(dr - (dr - r_x dx)) = F |r_x| dx: friction acts on the joint's material
-// coordinate alone. Where the slopes of the two sides differ, r_x is their mean, that of the two relative velocities.
+// Friction along the beam between it and the mass on it. The mass moves over the material at the joint with the
+// relative velocity r_x x', for the material point there has the velocity r' - r_x x'. A force F t on the mass and -F t
+// on that point, t = r_x/|r_x|, do the virtual work F t.(dr - (dr - r_x dx)) = F |r_x| dx: friction acts on the joint's
+// material coordinate alone. Where the slopes of the two sides differ, r_x is their mean, that of the two relative
+// velocities.
 
 /// Coulomb friction, regularised: F = -coefficient N tanh(v/velocity), v = |r_x| x' and N the magnitude of the contact
 /// force normal to the beam.

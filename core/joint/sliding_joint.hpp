@@ -193,9 +193,8 @@ std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right
     const Contact<double, D> contact((motion.slopes.template head<D>() + motion.slopes.template tail<D>()) / 2);
     const double v = contact.stretch * motion.x_rate, share = joint.friction->share(v);
     const Column by_friction = equations.solve(contact.stretch * Column::Unit(x), false);
-    const auto normal =
-        normal_force<D>(contact.normal_part(joint.mass * (a.template head<D>() - motion.gravity)),
-                        contact.normal_part(joint.mass * by_friction.template head<D>()), share);
+    const auto normal = normal_force<D>(contact.normal_part(joint.mass * (a.template head<D>() - motion.gravity)),
+                                        contact.normal_part(joint.mass * by_friction.template head<D>()), share);
     if (!normal) return std::nullopt;
     a -= share * *normal * by_friction;
     dissipation = share * *normal * v;
@@ -213,10 +212,10 @@ std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right
 
 }  // namespace detail
 
-/// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force` is
-/// the nodal array of forces and `joint_force` those on the joint's material coordinate and, where the joint is kinked,
-/// on the slope behind it (that of the node is the one before it); on return they are the accelerations. With nothing
-/// moving in `motion`, the same solves M v = p for velocities that agree with the conditions on the slopes.
+/// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force`
+/// is the nodal array of forces and `joint_force` those on the joint's material coordinate and, where the joint is
+/// kinked, on the slope behind it (that of the node is the one before it); on return they are the accelerations. With
+/// nothing moving in `motion`, the same solves M v = p for velocities that agree with the conditions on the slopes.
 /// Cost: one sweep over each span and a dense system of 2 D + 1 unknowns, 3 D + 1 where the joint is kinked.
 /// Returns the power lost to friction [W]; nothing where the joint's mass matrix is not positive definite (a massless
 /// joint where curvature is continuous) or friction jams.

@@ -24,6 +24,7 @@ struct Sample {
   std::optional<Point> mass_position;    ///< [m]; empty without a sliding mass
   Point end{};                           ///< position of the beam's last node [m]
   double beam_length = 0;                ///< current arc length [m]
+  double beam_length_rate = 0;           ///< [m/s]
   Energy energy;                         ///< by a 25-point rule, independent of the model's own points
   double discrete_total = 0;             ///< total energy summed over the model's own quadrature points [J]
   Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]

@@ -121,6 +121,7 @@ class Run {
       if (const auto mass = system_.mass_position(y)) sample.mass_position = point_of<D>(*mass);
       sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
       sample.beam_length = seen.beam_length;
+      sample.beam_length_rate = seen.beam_length_rate;
       sample.energy = seen.energy;
       sample.discrete_total = own.energy.total();
       sample.momentum = point_of<D>(seen.momentum);

@@ -143,8 +143,7 @@ typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double
   const MovingLaw<D> moving = moving_law(t);
   return {
       equations<MovingEnds::b, D>(model_.strain_law, {element_of(q, joint_ - 1), mesh_.x[j - 1], x},
-                                  {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_,
-                                  moving),
+                                  {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_, moving),
       equations<MovingEnds::a, D>(model_.strain_law, {element_of(q, joint_), x, mesh_.x[j + 1]},
                                   {element_of(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving)};
 }
@@ -334,7 +333,11 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
       seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
       seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
       seen.momentum += wl * rhoA * at.v;
-      seen.beam_length += wl * at.r_x.norm();
+      const double stretch = at.r_x.norm();
+      seen.beam_length += wl * stretch;
+      // at a fixed reference point, which moves along the beam
+      seen.beam_length_rate += wl * at.r_x.dot(at.v_x + kinematics.mesh_velocity(u) * at.r_xx) / stretch +
+                               kinematics.length_rate() * rule[g].weight * stretch;
     }
   }
 }

@@ -44,6 +44,7 @@ template <int D>
 struct Observation {
   Energy energy;
   double beam_length = 0;                            ///< [m]
+  double beam_length_rate = 0;                       ///< [m/s]
   Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [kg m/s]
 };
 

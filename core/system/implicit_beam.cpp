@@ -261,8 +261,7 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
   for (int i = 0; i < slope_conditions_.count(); ++i) {
     const Slopes slopes = joint_slopes(q.data());
     largest.position = std::max(largest.position, std::abs(slope_conditions_.value(i, slopes)));
-    largest.velocity =
-        std::max(largest.velocity, std::abs(slope_conditions_.rate(i, slopes, joint_slopes(v.data()))));
+    largest.velocity = std::max(largest.velocity, std::abs(slope_conditions_.rate(i, slopes, joint_slopes(v.data()))));
   }
   return largest;
 }

@@ -99,8 +99,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   mutable std::vector<Constraint> constraints_;
   mutable SlopeConditions<D> slope_conditions_;  ///< behind them
   mutable int omitted_axis_ = 0;                 ///< of tangent slopes in space
-  mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
-  double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
+  mutable double reference_mass_ = 1;            ///< [kg], makes an acceleration of a multiplier
+  double constraint_scale_ = 1;                  ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
   Eigen::VectorXd y_, dydt_, free_;
   Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian

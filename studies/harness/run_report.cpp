@@ -62,6 +62,7 @@ Json samples(const Scene& scene, const std::vector<Sample>& rows) {
            of([d](const Sample& s) { return s.mass_position ? components(*s.mass_position, d) : Json(); })},
           {"end", of([d](const Sample& s) { return components(s.end, d); })},
           {"beam_length", of([](const Sample& s) -> Json { return s.beam_length; })},
+          {"beam_length_rate", of([](const Sample& s) -> Json { return s.beam_length_rate; })},
           {"energy", energy},
           {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })},
           {"reactions", reactions}};
@@ -133,7 +134,7 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
   for (const char* vector : {"mass", "end"}) {
     for (std::size_t i = 0; i < d; ++i) text += std::string(",") + vector + "_" + axes[i];
   }
-  text += ",beam_length";
+  text += ",beam_length,beam_length_rate";
   for (const auto& [name, value] : energies()) text += std::string(",energy_") + name;
   for (std::size_t i = 0; i < d; ++i) text += std::string(",momentum_") + axes[i];
   text += '\n';
@@ -145,6 +146,7 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
     for (std::size_t i = 0; i < d; ++i) text += s.mass_position ? "," + number_text((*s.mass_position)[i]) : ",";
     for (std::size_t i = 0; i < d; ++i) cell(s.end[i]);
     cell(s.beam_length);
+    cell(s.beam_length_rate);
     for (const auto& [name, value] : energies()) cell(value(s.energy));
     for (std::size_t i = 0; i < d; ++i) cell(s.momentum[i]);
     text += '\n';

@@ -228,6 +228,7 @@ Json run_schema() {
                                {"mass_position", array_of(point_or_null)},
                                {"end", array_of(point)},
                                {"beam_length", numbers},
+                               {"beam_length_rate", numbers},
                                {"energy", energy},
                                {"momentum", array_of(point)},
                                {"reactions", record({{"start", reaction}, {"end", reaction}}, {"start", "end"})}});
