@@ -30,8 +30,8 @@ class Search {
          const MovingLaw<D>& law)
       : chain_(chain), merged_(merged), strain_law_(strain_law), law_(law) {
     free_.setOnes();
-    if (merged == 0) free_.template head<D>().setZero();
-    if (merged + 1 == chain.mesh.last()) free_.template segment<D>(D).setZero();
+    if (merged == 0 || held(merged)) free_.template head<D>().setZero();
+    if (merged + 1 == chain.mesh.last() || held(merged + 1)) free_.template segment<D>(D).setZero();
     if (!rational) free_.template tail<3>().setZero();
     const int first = std::max(0, merged - 1), last = std::min(chain.mesh.elements(), merged + 2);
     const auto& x = chain.mesh.x;
@@ -84,6 +84,9 @@ class Search {
     int element;
     PointMotion<double, D> old;
   };
+
+  /// Where the beam may be kinked at the joint its slopes there obey conditions of their own.
+  bool held(int node) const { return chain_.kink && node == chain_.joint; }
 
   /// Gauss-Newton's sums of the distance, and the change of strain energy with its gradient.
   void evaluate(const Unknowns& p) {

@@ -63,17 +63,13 @@ std::shared_ptr<const RestCurve<D>> rest_curve_of(const ChainState<D>& chain, co
                                               model.section.curvature_regularization);
 }
 
-/// d2r/dx2 at the interior node j, mean of the two elements there.
+/// d2r/dx2 of element k at its parameter u.
 template <int D>
-Vec<double, D> second_derivative(const ChainState<D>& chain, int j) {
-  Vec<double, D> sum = Vec<double, D>::Zero();
-  for (const int k : {j - 1, j}) {
-    const auto q = chain.coordinates(k);
-    const double l = q.x_b - q.x_a;
-    const auto curve = RationalCubic<double, D>::from_nodal(q.e, l, chain.mesh.weights[static_cast<std::size_t>(k)].w);
-    sum += curve.evaluate(k < j ? 1.0 : 0.0)[2] / (2 * l * l);
-  }
-  return sum;
+Vec<double, D> second_derivative(const ChainState<D>& chain, int k, double u) {
+  const auto q = chain.coordinates(k);
+  const double l = q.x_b - q.x_a;
+  const auto curve = RationalCubic<double, D>::from_nodal(q.e, l, chain.mesh.weights[static_cast<std::size_t>(k)].w);
+  return curve.evaluate(u)[2] / (l * l);
 }
 
 /// The axis, exactly. The two elements at the joint are one curve cut in two, so that it is smooth there, and with
@@ -200,7 +196,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
   if (scene.sliding_mass) {
-    model.joint = SlidingJoint{scene.sliding_mass->mass};
+    model.joint = SlidingJoint{scene.sliding_mass->mass, scene.sliding_mass->slopes, scene.sliding_mass->friction};
     model.separation_distance = separation_distance(scene);
   }
   model.constraints = scene.constraints;
@@ -238,13 +234,20 @@ ChainState<D> build_chain(const Scene& scene) {
     slope<D>(chain.q.data(), k) = shape.r_x[i];
     if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
   }
+  if (!scene.sliding_mass) return chain;
   // the beam is at rest, so the moving node travels along it
-  if (scene.sliding_mass) {
-    chain.joint_rate = scene.sliding_mass->velocity;
-    const int j = chain.joint;
-    position<D>(chain.rate.data(), j) = chain.joint_rate * slope<D>(chain.q.data(), j);
-    if (!axis.straight()) slope<D>(chain.rate.data(), j) = chain.joint_rate * second_derivative(chain, j);
+  chain.joint_rate = scene.sliding_mass->velocity;
+  const int j = chain.joint;
+  auto r_x = slope<D>(chain.q.data(), j);
+  position<D>(chain.rate.data(), j) = chain.joint_rate * r_x;
+  Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
+  if (!axis.straight()) {
+    before = chain.joint_rate * second_derivative(chain, j - 1, 1);
+    behind = chain.joint_rate * second_derivative(chain, j, 0);
   }
+  const bool kinked = scene.sliding_mass->slopes != JointSlopes::continuous;
+  if (kinked) chain.kink = {r_x, behind};
+  slope<D>(chain.rate.data(), j) = kinked ? before : Vec<double, D>((before + behind) / 2);
   return chain;
 }
 

@@ -11,7 +11,6 @@
 namespace vlbeam {
 namespace {
 
-constexpr int ledger_points = 25;
 constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
 
 template <int D>
@@ -30,6 +29,7 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
     shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));
   }
+  if (chain.kink) shape.kink = {static_cast<std::size_t>(chain.joint), point_of<D>(chain.kink->slope)};
   for (int k = 0; k < chain.mesh.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto& weights = chain.mesh.weights[i];
@@ -120,6 +120,7 @@ class Run {
       if (const auto mass = system_.mass_position(y)) sample.mass_position = point_of<D>(*mass);
       sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
       sample.beam_length = seen.beam_length;
+      sample.beam_length_rate = seen.beam_length_rate;
       sample.energy = seen.energy;
       sample.discrete_total = own.energy.total();
       sample.momentum = point_of<D>(seen.momentum);
@@ -127,6 +128,9 @@ class Run {
       for (std::size_t i = 0; i < 2; ++i) {
         sample.reactions[i] = {point_of<D>(forces[i].template head<D>()), point_of<D>(forces[i].template tail<D>())};
       }
+      const ConstraintResidual slopes = system_.slope_residual(y);
+      result_.slopes.position = std::max(result_.slopes.position, slopes.position);
+      result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       result_.max_energy_drift =
@@ -139,15 +143,16 @@ class Run {
   void event(const EventRecord<D>& record) {
     Event event;
     event.t = record.t;
-    event.type = record.separation ? EventType::separation : EventType::segment_merge;
+    event.type = record.type;
     event.joint_position = record.joint_position;
     event.weights = record.merged.k;
     event.unit_fallback = record.merged.unit_fallback;
     event.energy_jump = record.jump;
     event.discrete_jump = record.discrete_jump;
+    event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
     event.before = configuration_of(record.before, record.t, scene_.weights);
     event.after = configuration_of(record.after, record.t, scene_.weights);
-    if (record.separation) result_.status = RunStatus::separated;
+    if (record.type == EventType::separation) result_.status = RunStatus::separated;
     jumps_ += record.discrete_jump;
     result_.timing.length_control += record.seconds;
     result_.events.push_back(std::move(event));

@@ -8,17 +8,19 @@ namespace vlbeam {
 
 // One declaration and one line of the list for each folder studies/<name>/.
 Study energy_drift_study();
+Study exact_arc_study();
 Study falling_beam_study();
+Study quadrature_study();
+Study semicircle_study();
+Study suspended_beam_study();
+Study thresholds_study();
 Study weights_study();
 Study work_precision_study();
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
-        energy_drift_study(),
-        falling_beam_study(),
-        weights_study(),
-        work_precision_study(),
+        energy_drift_study(), falling_beam_study(), suspended_beam_study(), weights_study(), work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;

@@ -16,7 +16,7 @@ namespace {
 constexpr double early = 0.5, late = 0.65;  // [s], before and after the whip
 
 struct Case {
-  std::string group;  ///< mesh | reference | implicit
+  std::string group;  ///< mesh | reference | implicit | policy | initial
   Scene scene;
 };
 
@@ -50,6 +50,28 @@ std::vector<Case> read_cases(const Json& config) {
       }
     }
   }
+  const Json& policy = config.at("policy");
+  for (const int n : policy.at("elements").get<std::vector<int>>()) {
+    for (const auto& merge : names(MergePolicy{})) {
+      for (const auto velocities : {VelocityTransfer::nodal, VelocityTransfer::conservative}) {
+        for (const auto element : {ElementKind::ale_rancf, ElementKind::ale_ancf}) {
+          if (element == ElementKind::ale_ancf && merge.value == MergePolicy::point_fit) continue;  // its unit weights
+          Case& item = with("policy", n, element, velocities);
+          item.scene.length_control.merge = merge.value;
+          item.scene.duration = policy.at("duration");
+        }
+      }
+    }
+  }
+  const Json& initial = config.at("initial");
+  for (const int n : initial.at("elements").get<std::vector<int>>()) {
+    for (const auto& weights : initial.at("weights").get<std::vector<std::array<double, 4>>>()) {
+      Scene& scene = with("initial", n, ElementKind::ale_rancf, VelocityTransfer::nodal).scene;
+      scene.beam.weights = weights;
+      scene.beam.rest_shape = RestShape::as_built;
+      scene.duration = initial.at("duration");
+    }
+  }
   for (const int n : config.at("reference").get<std::vector<int>>()) {
     with("reference", n, ElementKind::ale_ancf, VelocityTransfer::conservative);
   }
@@ -63,12 +85,14 @@ double cost(const Case& item) {
 
 /// Sums over the length-control events until `late`.
 struct Jumps {
-  double kinetic = 0, elastic = 0, total = 0, largest = 0, moved = 0;
+  double kinetic = 0, elastic = 0, total = 0, size = 0, largest = 0, moved = 0, momentum = 0;
 };
 
 Jumps jumps_of(const RunResult& result) {
   Jumps sum;
   for (const Event* event : merges_until(result, late)) {
+    sum.size += std::abs(event->discrete_jump);
+    for (const double m : event->momentum_jump) sum.momentum = std::max(sum.momentum, std::abs(m));
     sum.kinetic += std::abs(event->energy_jump.kinetic);
     sum.elastic += std::abs(event->energy_jump.axial + event->energy_jump.bending);
     sum.total += event->discrete_jump;
@@ -103,6 +127,8 @@ class Report {
       }
     }
     add_meshes();
+    add_policies();
+    add_initial();
     add_implicit();
     const GnuplotVariables variables{{"folder", folder_}};
     report_.figures = {{.name = "errors",
@@ -129,7 +155,9 @@ class Report {
       Json options = {{"group", cases_[i].group},
                       {"elements", scene.beam.elements},
                       {"element", to_string(scene.beam.element)},
+                      {"merge", to_string(scene.length_control.merge)},
                       {"velocities", to_string(scene.length_control.velocities)},
+                      {"weights", scene.beam.weights},
                       {"integrator", to_string(scene.integrator.type)}};
       if (has_fixed_step(scene.integrator.type)) options["step"] = scene.integrator.step;
       StudyCase item{.options = std::move(options), .results = {}, .failure = outcomes_[i].failure};
@@ -181,6 +209,65 @@ class Report {
         const std::string nodal = key_of(scene.beam.element) + "_nodal_n" + std::to_string(scene.beam.elements);
         report_.measured["kinetic_jumps_share_" + key] = jumps.kinetic / report_.measured.at("kinetic_jumps_" + nodal);
       }
+    }
+    report_.tables.push_back(std::move(table));
+  }
+
+  double error_at(const RunResult& run, double t) const {
+    return reference_ ? position_error(run, *reference_, t) : std::nan("");
+  }
+
+  /// Ways to choose the shape of a merged element.
+  void add_policies() {
+    Table table{.name = "policies",
+                .caption =
+                    "Shapes of merged elements: error over L at 0.5 s, sums of the jumps of strain energy and of the "
+                    "total [J], largest jump of a momentum [kg m/s, kg m^2/s], largest displacement of a material "
+                    "point over the element length",
+                .columns = {"element", "merge", "velocities", "elements", "events", "error_early", "elastic_jumps",
+                            "energy_jumps", "momentum_jump", "moved"}};
+    std::map<std::string, Jumps> paper;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].group != "policy" || !outcomes_[i]) continue;
+      const Scene& scene = cases_[i].scene;
+      const auto& control = scene.length_control;
+      const RunResult& run = *outcomes_[i];
+      const Jumps jumps = jumps_of(run);
+      const double error = error_at(run, early), moved = jumps.moved * scene.beam.elements;
+      table.rows.push_back({to_string(scene.beam.element), to_string(control.merge), to_string(control.velocities),
+                            scene.beam.elements, merges_until(run, late).size(), number_or_null(error), jumps.elastic,
+                            jumps.size, jumps.momentum, moved});
+      const std::string mesh = "_n" + std::to_string(scene.beam.elements);
+      const bool rational = scene.beam.element == ElementKind::ale_rancf;
+      if (rational && control.merge == MergePolicy::point_fit && control.velocities == VelocityTransfer::nodal) {
+        paper[mesh] = jumps;
+        report_.measured["error_point_fit" + mesh] = error;
+      }
+      if (control.merge != MergePolicy::least_change) continue;
+      const std::string key = key_of(scene.beam.element) + "_" + std::string(to_string(control.velocities)) + mesh;
+      report_.measured["least_change_momentum_" + key] = jumps.momentum;
+      report_.measured["least_change_error_share_" + key] = error / report_.measured["error_point_fit" + mesh];
+      if (!rational) continue;
+      report_.measured["least_change_elastic_share_" + key] = jumps.elastic / paper[mesh].elastic;
+      report_.measured["least_change_energy_share_" + key] = jumps.size / paper[mesh].size;
+    }
+    report_.tables.push_back(std::move(table));
+  }
+
+  /// Weights other than 1 from the start, strains measured from the shape they give.
+  void add_initial() {
+    Table table{.name = "initial",
+                .caption =
+                    "Initial weights of every element: error over L at 0.4 s, sums of the jumps of kinetic and strain "
+                    "energy until then [J]",
+                .columns = {"elements", "w0", "w1", "w2", "w3", "events", "error", "kinetic_jumps", "elastic_jumps"}};
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].group != "initial" || !outcomes_[i]) continue;
+      const Scene& scene = cases_[i].scene;
+      const Jumps jumps = jumps_of(*outcomes_[i]);
+      const auto& w = scene.beam.weights;
+      table.rows.push_back({scene.beam.elements, w[0], w[1], w[2], w[3], outcomes_[i]->events.size(),
+                            number_or_null(error_at(*outcomes_[i], scene.duration)), jumps.kinetic, jumps.elastic});
     }
     report_.tables.push_back(std::move(table));
   }

@@ -1,0 +1,234 @@
+// A mass that slides along a semicircular beam suspended at both ends (Ding & Ouyang 2022, §6.3, Figures 15 and 16).
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/build.hpp"
+#include "core/scene/options.hpp"
+#include "studies/harness/histories.hpp"
+#include "studies/harness/measures.hpp"
+#include "studies/harness/scene_json.hpp"
+#include "studies/harness/scene_sweep.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double compared_at = 0.4;  // [s], the time of the meshes' errors
+
+/// As-built or paper, frozen or transported, rational or polynomial, and the mesh.
+std::string kind_of(const SceneCase& item) {
+  const Scene& scene = item.scene;
+  std::string key = scene.beam.rest_shape == RestShape::as_built ? "asbuilt" : "paper";
+  if (scene.weights == WeightTransport::transported) key += "_transported";
+  if (scene.beam.element == ElementKind::ale_ancf) key += "_ancf";
+  return key;
+}
+std::string key_of(const SceneCase& item) { return kind_of(item) + "_n" + std::to_string(item.scene.beam.elements); }
+
+double cost(const SceneCase& item) {
+  const double n = item.scene.beam.elements;
+  return n * n * item.scene.duration * (item.scene.integrator.type == IntegratorType::dopri5 ? 1 : 10);
+}
+
+/// Largest distance of the initial shape from the true circle, over its radius.
+double radius_error(const Scene& scene) {
+  const auto chain = build_chain<2>(scene);
+  const double R = scene.beam.curve.radius;
+  double largest = 0;
+  for (int k = 0; k < chain.mesh.elements(); ++k) {
+    const auto q = chain.coordinates(k);
+    const auto curve =
+        RationalCubic<double, 2>::from_nodal(q.e, q.x_b - q.x_a, chain.mesh.weights[static_cast<std::size_t>(k)].w);
+    for (int i = 0; i <= 50; ++i) {
+      largest =
+          std::max(largest, std::abs(std::hypot(curve.evaluate(i / 50.0)[0][0], curve.evaluate(i / 50.0)[0][1]) - R));
+    }
+  }
+  return largest / R;
+}
+
+/// Largest generalized force at the start without gravity, over EA: M a of the accelerations.
+double initial_force(Scene scene) {
+  scene.gravity = {0, 0, 0};
+  const BeamModel<2> model = build_model<2>(scene);
+  BeamSystem<2> system(model, build_chain<2>(scene));
+  auto* equations = system.second_order();
+  const Eigen::VectorXd y = system.initial_state();
+  Eigen::VectorXd q, v;
+  equations->expand(y, q, v);
+  Eigen::VectorXd residual(equations->coordinates());
+  equations->residual(q, v, Eigen::VectorXd::Zero(q.size()), 0, residual);
+  return residual.cwiseAbs().maxCoeff() / model.section.stiffness.EA;
+}
+
+class Report {
+ public:
+  Report(const StudyContext& context, const std::vector<SceneCase>& cases)
+      : folder_(context.folder.string()),
+        cases_(cases),
+        outcomes_(context.sweep(
+            cases, [](const SceneCase& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost)) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].sweep == "audit" || !outcomes_[i]) continue;
+      const int n = cases[i].scene.beam.elements;
+      if (kind_of(cases[i]) == "asbuilt" && n >= finest_) {
+        finest_ = n;
+        reference_ = &*outcomes_[i];
+      }
+    }
+  }
+
+  StudyReport operator()() {
+    add_cases();
+    add_audit();
+    add_convergence();
+    add_figures();
+    return std::move(report_);
+  }
+
+ private:
+  const RunResult* find(const std::string& key) const {
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].sweep != "audit" && outcomes_[i] && key_of(cases_[i]) == key) return &*outcomes_[i];
+    }
+    return nullptr;
+  }
+
+  void add_cases() {
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const Scene& scene = cases_[i].scene;
+      StudyCase item{.options = {{"sweep", cases_[i].sweep}, {"scene", scene_to_json(scene)}},
+                     .results = {},
+                     .failure = outcomes_[i].failure};
+      if (outcomes_[i]) {
+        const RunResult& run = *outcomes_[i];
+        const Sample& last = run.samples.back();
+        item.results = {{"events", run.events.size()},
+                        {"joint_position", last.joint_position ? Json(*last.joint_position) : Json()},
+                        {"beam_length", last.beam_length},
+                        {"total_energy", last.energy.total()},
+                        {"max_kinetic", run.max_kinetic},
+                        {"max_energy_drift", run.max_energy_drift},
+                        {"rhs_evaluations", run.solver.rhs_evaluations}};
+      }
+      report_.cases.push_back(std::move(item));
+    }
+  }
+
+  /// The initial state, and the ledger of tightly integrated runs.
+  void add_audit() {
+    double radius = 0, force = 0, drift = 0;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const Scene& scene = cases_[i].scene;
+      if (scene.beam.element == ElementKind::ale_rancf) radius = std::max(radius, radius_error(scene));
+      if (scene.beam.rest_shape == RestShape::as_built) force = std::max(force, initial_force(scene));
+      if (cases_[i].sweep == "audit" && outcomes_[i]) {
+        drift = std::max(drift, outcomes_[i]->max_energy_drift / outcomes_[i]->max_kinetic);
+      }
+    }
+    report_.measured["initial_radius_error"] = radius;
+    report_.measured["initial_force"] = force;
+    report_.measured["ledger_drift"] = drift;
+  }
+
+  /// Errors of position against the finest as-built mesh, and the jumps of energy.
+  void add_convergence() {
+    Table table{.name = "meshes",
+                .caption =
+                    "Error of the mass's and the joint's position over L at 0.4 s, 0.8 s and the end against the "
+                    "finest as-built mesh; axial energy of the initial shape [J]; events and the sum of their "
+                    "jumps of total energy [J]",
+                .columns = {"kind", "elements", "error_0.4", "error_0.8", "error_end", "initial_axial", "events",
+                            "energy_jumps"}};
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].sweep == "audit" || !outcomes_[i] || reference_ == nullptr) continue;
+      const RunResult& run = *outcomes_[i];
+      const double length = beam_length(cases_[i].scene), end = run.samples.back().t;
+      auto error = [&](double t) { return position_error(run, *reference_, t) / length; };
+      double jumps = 0;
+      for (const Event& event : run.events) jumps += std::abs(event.discrete_jump);
+      table.rows.push_back({kind_of(cases_[i]), cases_[i].scene.beam.elements, error(0.4), error(0.8), error(end),
+                            run.samples.front().energy.axial, run.events.size(), jumps});
+      report_.measured["error_" + key_of(cases_[i])] = error(compared_at);
+      report_.measured["initial_axial_" + key_of(cases_[i])] = run.samples.front().energy.axial;
+      report_.measured["initial_bending_" + key_of(cases_[i])] = run.samples.front().energy.bending;
+    }
+    report_.tables.push_back(std::move(table));
+    // the reference's own error: what its coarser neighbour differs by, divided by 2^2 - 1
+    if (const RunResult* coarser = find("asbuilt_n" + std::to_string(finest_ / 2)); coarser && reference_) {
+      report_.measured["finest_difference"] =
+          position_error(*coarser, *reference_, compared_at) / beam_length(cases_.front().scene);
+    }
+    std::vector<double> levels, errors;
+    for (int n = finest_ / 8; n < finest_; n *= 2) {
+      const auto found = report_.measured.find("error_asbuilt_n" + std::to_string(n));
+      if (found == report_.measured.end()) continue;
+      levels.push_back(n);
+      errors.push_back(found->second);
+    }
+    if (levels.size() >= 2) report_.fits.push_back(fit_order("as-built, error at 0.4 s", levels, errors));
+  }
+
+  void add_figures() {
+    std::vector<NamedRun> meshes, choices;
+    std::string names;
+    for (const int n : {4, 8, 16, 32, 64}) {
+      const std::string key = "asbuilt_n" + std::to_string(n);
+      if (const RunResult* run = find(key)) {
+        meshes.push_back({"n" + std::to_string(n), run});
+        names += (names.empty() ? "" : " ") + std::to_string(n);
+      }
+    }
+    std::string times;
+    for (const Configuration& shape : reference_ ? reference_->configurations : std::vector<Configuration>{}) {
+      times += (times.empty() ? "" : " ") + number_text(shape.t);
+    }
+    const std::string finest = std::to_string(finest_);
+    for (const auto& [name, key] : {std::pair{"asbuilt", "asbuilt_n"}, std::pair{"paper", "paper_n"}}) {
+      if (const RunResult* run = find(key + finest)) choices.push_back({name, run});
+    }
+    report_.tables.push_back(
+        histories("meshes_history", "Runs on the as-built rest shape against time: SI units", meshes,
+                  {"mass_x", "mass_y", "beam_length", "joint", "kinetic", "strain", "gravity", "total"}));
+    report_.tables.push_back(
+        histories("rest_history", "The finest mesh from either rest shape against time: SI units", choices,
+                  {"mass_x", "mass_y", "beam_length", "joint", "kinetic", "strain", "gravity", "total"}));
+    report_.tables.push_back(
+        shapes("shapes", "Positions along the beam at the times in the column names [m]", choices, 161));
+    report_.tables.push_back(shape_nodes("nodes", "Nodes at the times kept [m]", choices));
+    const GnuplotVariables variables{{"folder", folder_}, {"meshes", names}, {"times", times}, {"finest", finest}};
+    report_.figures = {{.name = "figure16",
+                        .caption = "Figure 16: configurations, beam length, trajectory of the sliding node, energies",
+                        .script = "figure16.gp",
+                        .variables = variables},
+                       {.name = "rest_shape",
+                        .caption = "Strains measured from the initial shape, and from a straight beam",
+                        .script = "rest_shape.gp",
+                        .variables = variables}};
+  }
+
+  std::string folder_;
+  const std::vector<SceneCase>& cases_;
+  std::vector<Outcome<RunResult>> outcomes_;
+  int finest_ = 0;
+  const RunResult* reference_ = nullptr;
+  StudyReport report_;
+};
+
+StudyReport run(const StudyContext& context) {
+  const auto cases = read_scene_cases(context.config);
+  return Report(context, cases)();
+}
+
+}  // namespace
+
+Study semicircle_study();
+
+Study semicircle_study() {
+  return {.name = "semicircle",
+          .title = "A mass sliding on a suspended semicircular beam: the paper's Example 3",
+          .run = run};
+}
+
+}  // namespace vlbeam
