@@ -83,7 +83,7 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
 
   std::ranges::sort(points, {}, [](const Measured& point) { return point.rung->seconds; });
   Table times{.name = "total_error_times",
-              .caption = "total error against wall time",
+              .caption = "total error against time",
               .columns = {"element", "elements", "integrator", "setting", "total", "temporal", "seconds"},
               .timing = true};
   Table front = times;
@@ -118,7 +118,7 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
   report.tables.push_back(front);
   report.tables.push_back(advice);
   report.figures.push_back({.name = "total_error_times",
-                            .caption = "Total error of the falling beam at 0.5 s against wall time over meshes, "
+                            .caption = "Total error of the falling beam at 0.5 s against time over meshes, "
                                        "elements and integrators, and its Pareto front",
                             .script = "meshes.gp",
                             .timing = true});
