@@ -41,6 +41,11 @@ void shorten(double& dt, double tried, Stepper& stepper) {
   stepper.reset();
 }
 
+/// Steps that end inside a step of the main stepper cannot be taken, although that step could.
+struct SideStepUnderflow {
+  double t, dt;
+};
+
 [[noreturn]] void underflow(double t, double dt) {
   std::ostringstream what;
   what << "step underflow: the integrator needs steps below " << dt
@@ -54,7 +59,7 @@ class SideStepper {
   SideStepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters)
       : ode_(ode), stepper_(make_stepper(ode, options, counters)) {}
 
-  /// The solution at `to`, from (from, start), where the last step of `main` started.
+  /// The solution at `to`, from (from, start), where the last step of `main` started. Throws SideStepUnderflow.
   const Eigen::VectorXd& at(const Stepper& main, const Eigen::VectorXd& start, double from, double to) {
     y_ = start;
     stepper_->resume(main);
@@ -62,14 +67,21 @@ class SideStepper {
     while (t < to) {
       const bool last = dt >= to - t;
       if (last) dt = to - t;
-      const double tried = dt;
-      if (stepper_->try_step(ode_, y_, t, dt)) {
-        if (last) break;
-      } else {
+      const double tried = dt, t_before = t;
+      before_ = y_;
+      if (!stepper_->try_step(ode_, y_, t, dt)) {
         shorten(dt, tried, *stepper_);
-        const double smallest = std::max(1e-12 * (to - from), 1e-15 * std::abs(to));
-        if (dt < smallest) underflow(t, smallest);  // below, t itself would stand still
+      } else if (!y_.allFinite()) {
+        y_ = before_;
+        t = t_before;
+        dt = tried / 10;
+        stepper_->reset();
+      } else {
+        if (last) break;
+        continue;
       }
+      const double smallest = std::max(1e-12 * (to - from), 1e-15 * std::abs(to));
+      if (dt < smallest) throw SideStepUnderflow{t, smallest};  // below, t itself would stand still
     }
     return y_;
   }
@@ -77,7 +89,7 @@ class SideStepper {
  private:
   EventedOde& ode_;
   std::unique_ptr<Stepper> stepper_;
-  Eigen::VectorXd y_;
+  Eigen::VectorXd y_, before_;
 };
 
 struct Located {
@@ -193,18 +205,31 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       continue;
     }
     if (last) t = t_end;
-    ++counters.steps;
 
-    const Located event = first_event(ode, side, *stepper, {t_before, before, t, y}, options.locate_events);
-    if (event.index >= 0 && event.t < t) {
-      t = event.t;
-      y = event.y;
-    } else if (!last) {
-      counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
+    Located event;
+    try {
+      event = first_event(ode, side, *stepper, {t_before, before, t, y}, options.locate_events);
+      const bool cut = event.index >= 0 && event.t < t;
+      if (cut) {
+        t = event.t;
+        y = event.y;
+      }
+      for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
+        ode.sample(*next_sample == t ? y : side.at(*stepper, before, t_before, *next_sample), *next_sample);
+      }
+      if (!cut && !last) {
+        counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
+      }
+    } catch (const SideStepUnderflow& stuck) {  // a step too long to be looked into
+      y = before;
+      t = t_before;
+      dt = tried / 2;
+      ++counters.rejected;
+      stepper->resume(*stepper);
+      if (dt < smallest) underflow(stuck.t, stuck.dt);
+      continue;
     }
-    for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
-      ode.sample(*next_sample == t ? y : side.at(*stepper, before, t_before, *next_sample), *next_sample);
-    }
+    ++counters.steps;
     if (event.index >= 0) {
       cascade = t - last_event > smallest ? 0 : cascade + 1;
       last_event = t;

@@ -45,8 +45,9 @@ struct IntegrationOptions {
 /// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start
 /// where the step across them started, so that they have its full order and neither the steps nor the results depend on
 /// the output. An event is located where its guard is zero to 1e-12, unless the options let it come late: by up to a
-/// step, which leaves any method of first order. Returns false if interrupted. Throws ComputationFailed on step
-/// underflow and on a cascade of events without progress in time; `y` and `t` are then the last good state.
+/// step, which leaves any method of first order. Where steps inside one cannot be taken, that one is halved. Returns
+/// false if interrupted. Throws ComputationFailed on step underflow and on a cascade of events without progress in
+/// time; `y` and `t` are then the last good state.
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters);
 

@@ -38,6 +38,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void solve(Eigen::VectorXd& r) const override;
   double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                              const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override {
+    system_.count_evaluation();
     return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
   }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;

@@ -10,6 +10,8 @@ namespace vlbeam {
 Study energy_drift_study();
 Study exact_arc_study();
 Study falling_beam_study();
+Study hard_cases_study();
+Study harness_study();
 Study quadrature_study();
 Study semicircle_study();
 Study suspended_beam_study();
@@ -20,7 +22,17 @@ Study work_precision_study();
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
-        energy_drift_study(), falling_beam_study(), suspended_beam_study(), weights_study(), work_precision_study(),
+        energy_drift_study(),
+        exact_arc_study(),
+        falling_beam_study(),
+        hard_cases_study(),
+        harness_study(),
+        quadrature_study(),
+        semicircle_study(),
+        suspended_beam_study(),
+        thresholds_study(),
+        weights_study(),
+        work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;

@@ -49,7 +49,7 @@ Table evaluations_table(const std::vector<Climb>& climbs) {
 Table times_table(const std::vector<Climb>& climbs) {
   Table table{
       .name = "times",
-      .caption = "temporal error at the end of each run against wall time",
+      .caption = "temporal error at the end of each run against time",
       .columns = {"problem", "element", "integrator", "setting", "ending", "error", "seconds", "reached", "shown_at"},
       .timing = true};
   for (const Climb& climb : climbs) {
@@ -233,7 +233,7 @@ void compare_integrators(StudyReport& report, const StudyContext& context, const
          .variables = variables});
     variables["work"] = "seconds";
     report.figures.push_back({.name = "times_" + name,
-                              .caption = "Temporal error against wall time, " + problem.at("title").get<std::string>() +
+                              .caption = "Temporal error against time, " + problem.at("title").get<std::string>() +
                                          "; hollow marks at the right are capped",
                               .script = "work.gp",
                               .variables = variables,

@@ -4,7 +4,7 @@
 
 namespace vlbeam::work_precision {
 
-/// Every integrator on every problem: temporal error against right-hand sides and wall time, and what to use.
+/// Every integrator on every problem: temporal error against right-hand sides and time, and what to use.
 /// `references` holds the certified state of each problem and element.
 void compare_integrators(StudyReport& report, const StudyContext& context, const Json& references);
 

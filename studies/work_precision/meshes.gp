@@ -1,4 +1,4 @@
-# Total error of the falling beam against wall time; the line is the Pareto front.
+# Total error of the falling beam against time; the line is the Pareto front.
 set terminal svg size 860,560 font "Helvetica,14" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
@@ -9,7 +9,7 @@ set grid linewidth 0.5 linecolor rgb "#dddddd" linetype 1
 set key outside right center noautotitle
 set logscale xy
 set format xy "10^{%T}"
-set xlabel "wall time [s]"
+set xlabel "time [s]"
 set ylabel "total error at 0.5 s / L"
 set title "Falling beam: total error over meshes, elements and integrators"
 csv = data . "total_error_times.timing.csv"

@@ -62,7 +62,7 @@ struct Rung {
   std::size_t events = 0;
   SolverCounters solver;
   double reached = 0;  ///< simulated time [s]
-  double seconds = 0;  ///< wall time, the fastest of a few runs where these are short
+  double seconds = 0;  ///< processor time, the fastest of a few runs where these are short
 };
 
 /// Climbs until a run is capped: after `cap_seconds`, or after a number of steps that none of the runs worth

@@ -12,7 +12,7 @@ set logscale xy
 set format xy "10^{%T}"
 set yrange [*:3]
 ylabel_text = "max(|Δx_i|, |Δ{/:Bold r}_{end}|, |Δ{/:Bold r}_{mass}|) / L at the end"
-set xlabel timed ? "wall time [s]" : "evaluations of the equations"
+set xlabel timed ? "time [s]" : "evaluations of the equations"
 if (timed) { set xrange [2e-3:real(cap) * 1.5] }
 panels = words(elements)
 set multiplot layout 1,panels title title_text margins 0.08,0.74,0.12,0.84 spacing 0.08

@@ -205,6 +205,39 @@ TEST_P(Integrate, MayBeInterrupted) {
   EXPECT_LT(t_, 10);
 }
 
+TEST(SideSteps, ThatCannotBeTakenHalveTheMainStep) {
+  // y' = 1, undefined early on but for the stages of steps of 0.5 and 1 s: the event at 0.6 s cannot be reached from 0
+  FunctionOde ode(1, [](const State&, double t) -> State {
+    return scalar((t > 0 && t < 0.09) || (t > 0.155 && t < 0.19) ? nan : 1);
+  });
+  ode.guard = [&ode](const State& y, double) { return ode.events.empty() ? y[0] - 0.6 : -1; };
+  IntegrationOptions options;
+  options.first_step = 1;
+  SolverCounters counters;
+  State y = scalar(0);
+  double t = 0;
+  EXPECT_TRUE(integrate(ode, y, t, 1, {0.55, 0.95}, options, counters));
+  EXPECT_NEAR(y[0], 1, 1e-12);
+  EXPECT_EQ(counters.rejected, 1U);
+  ASSERT_EQ(ode.events.size(), 1U);
+  EXPECT_NEAR(ode.events[0].t, 0.6, 1e-12);
+  ASSERT_EQ(ode.samples.size(), 2U);
+  for (const auto& sample : ode.samples) EXPECT_NEAR(sample.y[0], sample.t, 1e-12);
+}
+
+TEST(SideSteps, ThatCannotBeTakenAtAllAreAStepUnderflow) {
+  FunctionOde ode(1, [](const State&, double t) -> State { return scalar(t > 0 && t < 0.19 ? nan : 1); });
+  ode.guard = [](const State& y, double) { return y[0] - 0.6; };
+  IntegrationOptions options;
+  options.first_step = 1;
+  SolverCounters counters;
+  State y = scalar(0);
+  double t = 0;
+  EXPECT_THROW(integrate(ode, y, t, 1, {}, options, counters), ComputationFailed);
+  EXPECT_EQ(t, 0) << "the last good state is handed back";
+  EXPECT_EQ(y[0], 0);
+}
+
 /// The Adams-Bashforth-Moulton method and an oscillator that a wall throws back four times until t = 10.
 class Multistep : public ::testing::Test {
  protected:

@@ -1,0 +1,194 @@
+// What survives a hard case: stiff, slack, heavily damped, light, fast, folded, chattering, badly weighted.
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/scene/build.hpp"
+#include "core/scene/options.hpp"
+#include "core/system/mass_condition.hpp"
+#include "studies/harness/measures.hpp"
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int samples = 50;                   // of a run
+constexpr std::size_t looked_at_events = 50;  // after which the mass matrix is looked at
+
+/// One variant of a group, by the integrator that is judged or by one of the two that certify it.
+struct Case {
+  std::string group, variant;
+  Json value;  ///< what the figure plots against
+  Scene scene;
+  bool judged = true;
+};
+
+Json merged(Json target, const Json& patch) {
+  target.merge_patch(patch);
+  return target;
+}
+
+std::vector<Case> read_cases(const Json& config) {
+  std::vector<Case> cases;
+  for (const auto& [group, spec] : config.at("groups").items()) {
+    for (const auto& [variant, own] : spec.at("variants").items()) {
+      const Json scene = merged(merged(config.at("scene"), spec.at("scene")), own.at("scene"));
+      const auto add = [&](const Json& integrator, bool judged) {
+        Scene read = scene_from_json(merged(scene, {{"integrator", integrator}}));
+        read.output.interval = read.duration / samples;
+        if (judged) read.output.configurations = {0, read.duration / 4, read.duration / 2, read.duration};
+        cases.push_back({group, variant, own.value("value", Json()), read, judged});
+      };
+      add(own.value("integrator", spec.at("integrator")), true);
+      for (const Json& reference : own.value("references", spec.value("references", Json::array()))) {
+        add(reference, false);
+      }
+    }
+  }
+  return cases;
+}
+
+/// Condition number of the mass matrix on a mesh that a run has had; the joint is its node at `joint_position`.
+double condition_of(const Scene& scene, const Configuration& shape, const std::optional<double>& joint_position) {
+  if (scene.sliding_mass && !joint_position) return nan;  // the mass has left
+  ChainState<2> chain;
+  chain.mesh.x = shape.x;
+  for (std::size_t k = 0; k < shape.x.size(); ++k) {
+    chain.q.insert(chain.q.end(), {shape.r[k][0], shape.r[k][1], shape.r_x[k][0], shape.r_x[k][1]});
+    if (k > 0) chain.mesh.weights.push_back({shape.weights[k - 1], shape.x[k - 1], shape.x[k]});
+    if (joint_position && shape.x[k] == *joint_position) chain.joint = static_cast<int>(k);
+  }
+  chain.rate.assign(chain.q.size(), 0);
+  BeamSystem<2> system(build_model<2>(scene), chain);
+  return mass_condition(system, system.initial_state());
+}
+
+/// The largest at the kept shapes and behind the first events.
+double worst_condition(const Scene& scene, const RunResult& result) {
+  double worst = nan;
+  const auto look = [&](const Configuration& shape, const std::optional<double>& joint) {
+    worst = std::fmax(worst, condition_of(scene, shape, joint));
+  };
+  for (const Configuration& shape : result.configurations) {
+    const Sample* sample = sample_at(result, shape.t);
+    if (sample != nullptr) look(shape, sample->joint_position);
+  }
+  for (std::size_t i = 0; i < std::min(result.events.size(), looked_at_events); ++i) {
+    const Event& event = result.events[i];
+    if (event.type == EventType::segment_merge) look(event.after, event.joint_position);
+  }
+  return worst;
+}
+
+/// Largest change of the total energy, dissipation included, over the largest kinetic energy.
+double energy_error(const RunResult& result) {
+  double largest = 0;
+  for (const Sample& sample : result.samples) {
+    largest = std::max(largest, std::abs(sample.discrete_total - result.samples.front().discrete_total));
+  }
+  return largest / result.max_kinetic;
+}
+
+/// Shortest tangent |r_x| at a node of the kept shapes.
+double shortest_tangent(const RunResult& result) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Configuration& shape) {
+    for (const Point& slope : shape.r_x) shortest = std::min(shortest, std::hypot(slope[0], slope[1]));
+  };
+  for (const Configuration& shape : result.configurations) look(shape);
+  for (const Event& event : result.events) look(event.after);
+  return shortest;
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+StudyReport run(const StudyContext& context) {
+  const auto cases = read_cases(context.config);
+  const auto outcomes = context.sweep(
+      cases, [](const Case& item) { return simulate(item.scene, StudyContext::until_interrupted()); },
+      [](const Case& item) { return item.judged ? 1 : 10; });
+
+  StudyReport report;
+  Table table{.name = "cases",
+              .caption =
+                  "what became of each case: error at the end against the first of two certifying integrators, "
+                  "whose difference is the reference's own error; energy error over the largest kinetic energy",
+              .columns = {"case", "variant", "value", "integrator", "outcome", "error", "reference_error",
+                          "energy_error", "events", "smallest_step", "condition", "shortest_tangent"}};
+  Table expectations{.name = "expectations",
+                     .caption = "what was expected of each case before it was run",
+                     .columns = {"case", "expectation"}};
+  for (const auto& [group, spec] : context.config.at("groups").items()) {
+    expectations.rows.push_back({group, spec.at("expectation")});
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!cases[i].judged) continue;
+    const Case& item = cases[i];
+    const std::string key = item.group + "/" + item.variant;
+    StudyCase row{.options = {{"case", item.group},
+                              {"variant", item.variant},
+                              {"integrator", to_string(item.scene.integrator.type)}},
+                  .results = {},
+                  .failure = outcomes[i].failure};
+    std::vector<const RunResult*> references;
+    for (std::size_t k = i + 1; k < cases.size() && !cases[k].judged; ++k) {
+      if (outcomes[k] && outcomes[k]->status != RunStatus::failed) references.push_back(&*outcomes[k]);
+    }
+    if (!outcomes[i] || outcomes[i]->status == RunStatus::interrupted) {
+      if (row.failure.empty()) row.failure = "interrupted";
+      report.cases.push_back(row);
+      continue;
+    }
+    const RunResult& result = *outcomes[i];
+    const bool failed = result.status == RunStatus::failed;
+    const bool certified = references.size() == 2;
+    const double own = certified ? position_error(references[1]->samples.back(), references[0]->samples.back()) : nan;
+    const double error =
+        certified && !failed ? position_error(result.samples.back(), references[0]->samples.back()) : nan;
+    const double energy = energy_error(result), condition = worst_condition(item.scene, result);
+    const std::string outcome =
+        failed ? "failed at " + number_text(std::round(1e4 * result.failure_time) / 1e4) + " s: " + result.failure
+               : std::string(to_string(result.status));
+    row.results = {{"outcome", outcome},
+                   {"error", number(error)},
+                   {"reference_error", number(own)},
+                   {"energy_error", number(energy)},
+                   {"events", result.events.size()},
+                   {"steps", result.solver.steps},
+                   {"rejected", result.solver.rejected},
+                   {"smallest_step", result.solver.smallest_step},
+                   {"condition", number(condition)},
+                   {"shortest_tangent", number(shortest_tangent(result))}};
+    table.rows.push_back({item.group, item.variant, item.value, to_string(item.scene.integrator.type), outcome,
+                          number(error), number(own), number(energy), result.events.size(), result.solver.smallest_step,
+                          number(condition), number(shortest_tangent(result))});
+    report.measured["finished/" + key] = failed ? 0 : 1;
+    report.measured["events/" + key] = static_cast<double>(result.events.size());
+    const std::pair<const char*, double> numbers[] = {
+        {"error/", error}, {"reference_error/", own}, {"energy/", energy}, {"condition/", condition}};
+    for (const auto& [name, value] : numbers) {
+      if (std::isfinite(value)) report.measured[name + key] = value;
+    }
+    report.cases.push_back(row);
+  }
+  report.tables = {expectations, table};
+  report.figures = {{.name = "sweeps",
+                     .caption = "Condition number of the mass matrix, temporal error and energy error against what "
+                                "makes a case hard",
+                     .script = "sweeps.gp"}};
+  return report;
+}
+
+}  // namespace
+
+Study hard_cases_study();
+
+Study hard_cases_study() {
+  return {.name = "hard_cases", .title = "Hard cases: what finishes, how well, and what fails clearly", .run = run};
+}
+
+}  // namespace vlbeam
