@@ -9,6 +9,8 @@ namespace vlbeam {
 // One declaration and one line of the list for each folder studies/<name>/.
 Study energy_drift_study();
 Study falling_beam_study();
+Study moving_string_study();
+Study torsion_study();
 Study weights_study();
 Study work_precision_study();
 
@@ -17,6 +19,8 @@ const std::vector<Study>& all_studies() {
     std::vector<Study> list = {
         energy_drift_study(),
         falling_beam_study(),
+        moving_string_study(),
+        torsion_study(),
         weights_study(),
         work_precision_study(),
     };
