@@ -10,6 +10,7 @@ namespace vlbeam {
 Study energy_drift_study();
 Study falling_beam_study();
 Study moving_string_study();
+Study rotating_load_study();
 Study torsion_study();
 Study weights_study();
 Study work_precision_study();
@@ -20,6 +21,7 @@ const std::vector<Study>& all_studies() {
         energy_drift_study(),
         falling_beam_study(),
         moving_string_study(),
+        rotating_load_study(),
         torsion_study(),
         weights_study(),
         work_precision_study(),

@@ -193,8 +193,9 @@ class Report {
   void order() {
     const double stiffening = context_.config.at("order").at("stiffening");
     std::vector<Span> cases;
-    for (const int n : context_.config.at("order").at("elements").get<std::vector<int>>()) {
-      for (const bool bends : {false, true}) cases.push_back(with(n, bends, stiffening));
+    for (const bool bends : {false, true}) {
+      const Json& levels = context_.config.at("order").at(bends ? "beam" : "string");
+      for (const int n : levels.get<std::vector<int>>()) cases.push_back(with(n, bends, stiffening));
     }
     const auto outcomes = run(cases, "order");
     Table table{.name = "order",

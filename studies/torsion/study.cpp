@@ -102,12 +102,12 @@ class Report {
     // what the text says of its Table 3
     Table claims{.name = "claims",
                  .caption = "The paper's text on its Table 3, beside the errors [%]",
-                 .columns = {"mode", "elements", "paper", "error"}};
+                 .columns = {"mode", "elements", "paper_says", "percent", "error"}};
     const std::vector<Claim> text{{1, 4, 1, true}, {2, 9, 1, true}, {2, 10, 1, true}, {5, 10, 8.36, false}};
     for (const auto& [mode, elements, percent, bound] : text) {
       if (elements > most) continue;
       claims.rows.push_back(
-          {mode, elements, (bound ? "below " : "") + number_text(percent),
+          {mode, elements, bound ? "below" : "equals", percent,
            report_.measured.at("error_mode" + std::to_string(mode) + "_n" + std::to_string(elements))});
     }
     report_.tables.push_back(std::move(claims));

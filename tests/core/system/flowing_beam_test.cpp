@@ -76,7 +76,7 @@ TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
   model.section = {.rhoA = 1.3, .stiffness = {2.1, 0.7}};
   model.spin = SpinSection{.rhoIp = 1.3, .GIp = 0.9};
   model.motion = MeshMotion(
-      {{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(0.5, wave(0.15, 2.1))}, {5, shifted(1, wave(0.2, 0.7))}});
+      {{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(2, wave(0.3, 2.1))}, {5, shifted(5, wave(0.4, 0.7))}});
   FlowingBeam<D> beam(model);
   const double t = 0.4, spin = 1.7, velocity = 0.6;
   const Vec<double, D> along = this->random_.template vector<D>().normalized();
