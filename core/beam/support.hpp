@@ -38,21 +38,35 @@ struct Support {
   static Support direction_clamp(const Vec<double, D>& tangent) {
     Support support = clamp();
     support.free_slope[0] = 1;
-    const Vec<double, D> t = tangent.normalized();
-    support.aligned = t == Vec<double, D>::UnitX();
-    support.frame.col(0) = t;
-    if constexpr (D == 2) {
-      support.frame.col(1) << -t[1], t[0];
-    } else {
-      support.frame.col(1) = t.unitOrthogonal();
-      support.frame.col(2) = t.cross(support.frame.col(1));
-    }
-    if (support.aligned) support.frame.setIdentity();
+    support.turn(tangent);
+    return support;
+  }
+
+  /// Position free along `direction`, which need not have unit length: a spherical joint on a slide.
+  static Support slide(const Vec<double, D>& direction) {
+    Support support = pin();
+    support.free_position[0] = 1;
+    support.turn(direction);
     return support;
   }
 
   Vec<double, D> into_frame(const Vec<double, D>& a) const { return aligned ? a : frame.transpose() * a; }
   Vec<double, D> out_of_frame(const Vec<double, D>& a) const { return aligned ? a : frame * a; }
+
+ private:
+  /// Turns the frame's first axis into `direction`.
+  void turn(const Vec<double, D>& direction) {
+    const Vec<double, D> t = direction.normalized();
+    aligned = t == Vec<double, D>::UnitX();
+    frame.col(0) = t;
+    if constexpr (D == 2) {
+      frame.col(1) << -t[1], t[0];
+    } else {
+      frame.col(1) = t.unitOrthogonal();
+      frame.col(2) = t.cross(frame.col(1));
+    }
+    if (aligned) frame.setIdentity();
+  }
 };
 
 }  // namespace vlbeam

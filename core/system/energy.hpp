@@ -9,8 +9,9 @@ struct Energy {
   double bending = 0;
   double gravity = 0;
   double dissipated = 0;
+  double torsion = 0;
 
-  double total() const { return kinetic + axial + bending + gravity + dissipated; }
+  double total() const { return kinetic + axial + bending + gravity + dissipated + torsion; }
 
   Energy& operator+=(const Energy& other) {
     kinetic += other.kinetic;
@@ -18,11 +19,12 @@ struct Energy {
     bending += other.bending;
     gravity += other.gravity;
     dissipated += other.dissipated;
+    torsion += other.torsion;
     return *this;
   }
   friend Energy operator-(const Energy& a, const Energy& b) {
     return {a.kinetic - b.kinetic, a.axial - b.axial, a.bending - b.bending, a.gravity - b.gravity,
-            a.dissipated - b.dissipated};
+            a.dissipated - b.dissipated, a.torsion - b.torsion};
   }
 };
 

@@ -11,11 +11,13 @@ Study energy_drift_study();
 Study exact_arc_study();
 Study falling_beam_study();
 Study hard_cases_study();
-Study harness_study();
+Study moving_string_study();
 Study quadrature_study();
+Study rotating_load_study();
 Study semicircle_study();
 Study suspended_beam_study();
 Study thresholds_study();
+Study torsion_study();
 Study weights_study();
 Study work_precision_study();
 
@@ -26,11 +28,13 @@ const std::vector<Study>& all_studies() {
         exact_arc_study(),
         falling_beam_study(),
         hard_cases_study(),
-        harness_study(),
+        moving_string_study(),
         quadrature_study(),
+        rotating_load_study(),
         semicircle_study(),
         suspended_beam_study(),
         thresholds_study(),
+        torsion_study(),
         weights_study(),
         work_precision_study(),
     };

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace vlbeam {
+
+/// A quantity that is given as a function of time, with its first two derivatives.
+struct Prescribed {
+  double value = 0, rate = 0, acceleration = 0;
+};
+using TimeFunction = std::function<Prescribed(double t)>;
+
+/// value + rate t.
+inline TimeFunction steadily(double value, double rate) {
+  return [=](double t) { return Prescribed{value + rate * t, rate, 0}; };
+}
+
+/// Material coordinates of the nodes of a chain as functions of time: those of some nodes are given, the ones between
+/// them divide the distance in fixed proportions, and so move with them.
+class MeshMotion {
+ public:
+  struct Guide {
+    int node;
+    TimeFunction x;  ///< [m]
+  };
+
+  MeshMotion() = default;
+  /// `guides` in increasing order of their nodes, the first and the last node among them; elements between two
+  /// neighbouring guides are of equal length. Throws InvalidInput where the nodes do not increase from 0.
+  explicit MeshMotion(std::vector<Guide> guides);
+
+  int last() const { return guides_.empty() ? 0 : guides_.back().node; }  ///< index of the last node
+  /// Writes the material coordinates of all nodes at time t.
+  void at(double t, std::vector<Prescribed>& nodes) const;
+
+  /// An instant at which an element is shorter than `shortest` [m].
+  struct Tangle {
+    double t;
+    int element;
+    double length;
+  };
+  /// The first such instant in [from, to], to 1e-9 of the interval; elements that are too short for less than a 2000th
+  /// of it may be missed.
+  std::optional<Tangle> tangle(double from, double to, double shortest) const;
+
+ private:
+  /// Length of an element between guides k and k + 1 at time t.
+  double length(std::size_t k, double t) const;
+
+  std::vector<Guide> guides_;
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+
+#include "core/element/transport.hpp"
+
+namespace vlbeam {
+
+// The section's rotation theta about the axis of the beam, as a further field of a variable-length element: linear
+// between the ends A and B at x_A(t), x_B(t) (the variable-length beam-shaft element VLBSE, Latin American Journal of
+// Solids and Structures, 2017). It couples to the axis through the material coordinates of the ends only.
+//
+// With twist tau = dtheta/dx = (theta_B - theta_A)/l the spin of a material point is linear in u too,
+//   omega = (1 - u) omega_A + u omega_B,   omega_i = theta_i' - tau x_i',
+// so that all integrals over the element are known in closed form.
+
+/// What one metre of the shaft is made of as it turns.
+struct SpinSection {
+  double rhoIp = 0;    ///< moment of inertia per length about the axis, rho pi r^4/2 [kg m]
+  double GIp = 0;      ///< torsional stiffness [N m^2]
+  double damping = 0;  ///< Kelvin-Voigt time c [s]
+};
+
+/// Coordinates of one element's spin, or their rates.
+template <class Real>
+struct SpinCoordinates {
+  Real theta_a, theta_b;  ///< [rad]
+  Real x_a, x_b;          ///< [m]
+};
+
+/// Equations of motion M q'' = Q, q = (theta_A, theta_B, x_A, x_B).
+template <class Real>
+struct SpinEquations {
+  double inertia = 0;                 ///< rho I_p
+  Real l;                             ///< the mass matrix of the angles is rho I_p l/6 (2 1; 1 2)
+  Real tau;                           ///< that with x_i is -tau times the column of theta_i
+  Real force_theta_a, force_theta_b;  ///< [N m]
+  Real force_a, force_b;              ///< on x_A, x_B [N]
+  Real dissipation;                   ///< power lost to damping [W]
+
+  Real mass_diagonal() const { return l * (inertia / 3); }
+  Real mass_coupling() const { return l * (inertia / 6); }
+
+  /// M a - Q of (theta_A, theta_B, x_A, x_B).
+  std::array<Real, 4> residual(const SpinCoordinates<Real>& a) const {
+    const Real at_a = a.theta_a - tau * a.x_a, at_b = a.theta_b - tau * a.x_b;
+    const Real m_a = mass_diagonal() * at_a + mass_coupling() * at_b;
+    const Real m_b = mass_coupling() * at_a + mass_diagonal() * at_b;
+    return {m_a - force_theta_a, m_b - force_theta_b, -tau * m_a - force_a, -tau * m_b - force_b};
+  }
+};
+
+/// Spin of the material point at either end, [rad/s], the twist [rad/m] and its rate at a fixed material point.
+template <class Real>
+struct SpinMotion {
+  Real l, l_rate, tau, omega_a, omega_b, tau_rate;
+
+  SpinMotion(const SpinCoordinates<Real>& q, const SpinCoordinates<Real>& rate)
+      : l(q.x_b - q.x_a),
+        l_rate(rate.x_b - rate.x_a),
+        tau((q.theta_b - q.theta_a) / l),
+        omega_a(rate.theta_a - tau * rate.x_a),
+        omega_b(rate.theta_b - tau * rate.x_b),
+        tau_rate((omega_b - omega_a) / l) {}
+
+  Real kinetic_energy(const SpinSection& section) const {
+    return l * (omega_a * omega_a + omega_a * omega_b + omega_b * omega_b) * Real(section.rhoIp / 6);
+  }
+  Real torsion_energy(const SpinSection& section) const { return l * tau * tau * Real(section.GIp / 2); }
+  Real momentum(const SpinSection& section) const { return l * (omega_a + omega_b) * Real(section.rhoIp / 2); }
+};
+
+/// Equations of motion of one element's spin.
+///
+/// `variational` is Lagrange's equations of  integral of rho I_p omega^2/2 - G I_p tau^2/2 dx  over the moving element.
+/// Summed at a node that moves at x' they hold the momentum flux rho I_p x'^2 (tau+ - tau-) by themselves: theta has a
+/// kink there, and without this flux the term x'^2 theta_xx of the rod's equation is lost.
+/// `virtual_work` takes the acceleration at fixed material points, and loses it.
+template <class Real>
+SpinEquations<Real> spin_equations(const SpinCoordinates<Real>& q, const SpinCoordinates<Real>& rate,
+                                   Formulation formulation, const SpinSection& section) {
+  const SpinMotion<Real> at(q, rate);
+  SpinEquations<Real> eq;
+  eq.inertia = section.rhoIp;
+  eq.l = at.l;
+  eq.tau = at.tau;
+  const Real torque = at.tau * section.GIp, viscous = at.tau_rate * (section.damping * section.GIp);
+  eq.dissipation = at.l * viscous * at.tau_rate;
+
+  // what the rates add to the momentum's change at either end, the angles' accelerations apart
+  const Real m = eq.mass_coupling();
+  Real change_a, change_b;
+  eq.force_theta_a = torque + viscous;
+  eq.force_theta_b = -torque - viscous;
+  if (formulation == Formulation::variational) {
+    const Real momentum_a = m * (at.omega_a * 2.0 + at.omega_b), momentum_b = m * (at.omega_a + at.omega_b * 2.0);
+    const Real grows = at.l_rate * (section.rhoIp / 6);
+    change_a = grows * (at.omega_a * 2.0 + at.omega_b) - m * at.tau_rate * (rate.x_a * 2.0 + rate.x_b);
+    change_b = grows * (at.omega_a + at.omega_b * 2.0) - m * at.tau_rate * (rate.x_a + rate.x_b * 2.0);
+    const Real flux = (momentum_a * rate.x_a + momentum_b * rate.x_b) / at.l;
+    const Real per_length = at.kinetic_energy(section) / at.l + flux * at.tau + torque * at.tau * 0.5;
+    eq.force_theta_a += flux;
+    eq.force_theta_b -= flux;
+    eq.force_a = at.tau_rate * momentum_a - per_length;
+    eq.force_b = at.tau_rate * momentum_b + per_length;
+  } else {
+    change_a = -m * at.tau_rate * (rate.x_a * 4.0 + rate.x_b * 2.0);
+    change_b = -m * at.tau_rate * (rate.x_a * 2.0 + rate.x_b * 4.0);
+    eq.force_a = -torque * at.tau;
+    eq.force_b = torque * at.tau;
+  }
+  eq.force_theta_a -= change_a;
+  eq.force_theta_b -= change_b;
+  eq.force_a += at.tau * (change_a - viscous);
+  eq.force_b += at.tau * (change_b + viscous);
+  return eq;
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,194 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/beam/chain_mass.hpp"
+#include "core/beam/mesh_motion.hpp"
+#include "core/beam/support.hpp"
+#include "core/dynamics/integrate.hpp"
+#include "core/element/driven_tangent.hpp"
+#include "core/element/spin_element.hpp"
+#include "core/system/energy.hpp"
+
+namespace vlbeam {
+
+/// What holds the axis at a node, through which the beam may flow.
+template <int D>
+struct NodeSupport {
+  int node;
+  Support<D> support;
+};
+
+/// The section's angle at a node as a function of time [rad].
+struct DrivenAngle {
+  int node;
+  TimeFunction theta;
+};
+
+/// Concentrated loads on the material point at a node, each a function of time; those that are empty are absent.
+template <int D>
+struct NodeLoad {
+  int node;
+  std::function<Vec<double, D>(double t)> force;  ///< [N], of a direction of its own
+  std::function<double(double t)> follower;       ///< [N], along the tangent of the axis
+  std::function<double(double t)> torque;         ///< [N m], about the axis; needs spin
+};
+
+/// What a flowing beam is made of and which choices its equations follow.
+template <int D>
+struct FlowingModel {
+  BeamSection section;
+  std::optional<SpinSection> spin;  ///< without it there is no angle at all
+  StrainLaw strain_law = StrainLaw::green;
+  Formulation formulation = Formulation::variational;
+  WeightTransport transport = WeightTransport::frozen;
+  int quadrature_points = 5;
+  Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
+  MeshMotion motion;
+  std::vector<WeightFunction> weights = {};  ///< one an element; none for unit weights
+  std::vector<NodeSupport<D>> supports = {};
+  std::vector<DrivenAngle> angles = {};
+  std::vector<NodeLoad<D>> loads = {};
+  std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
+  std::function<double(double t)> line_torque = {};         ///< on the whole beam [N m/m]; needs spin
+  bool ledger = false;  ///< the state holds what crossed the boundary; for methods of first-order equations
+};
+
+/// What has crossed the boundary of a flowing beam since the start.
+template <int D>
+struct FlowLedger {
+  double mass = 0;          ///< [kg], in through the ends
+  double ends = 0;          ///< [J], in through the ends with the matter, and from supports and driven angles
+  double loads = 0;         ///< [J], work of the loads
+  double mesh = 0;          ///< [J], work of moving the inner nodes along the beam: discretisation error only
+  double dissipated = 0;    ///< [J], by damping
+  Vec<double, D> impulse;   ///< [N s], of supports, loads and gravity, and in with the matter
+  double spin_impulse = 0;  ///< [N m s], about the axis
+
+  /// Energy that has come in less what damping has taken.
+  double energy() const { return ends + loads + mesh - dissipated; }
+};
+
+/// Quantities of a flowing beam at one instant.
+template <int D>
+struct FlowObservation {
+  Energy energy;
+  double mass = 0;                                   ///< between the end nodes [kg]
+  double beam_length = 0;                            ///< of the deformed axis [m]
+  double spin_momentum = 0;                          ///< about the axis [N m s]
+  Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [N s]
+};
+
+template <int D>
+class ImplicitFlow;
+
+/// A beam whose nodes move along it as prescribed: a load that travels, a stem that is fed through its guides, a span
+/// that is only what lies between two supports at any time. Every element is a variable-length one.
+/// State y = (q, q', ledger): q holds the nodes, position and slope each, then with spin the angle of each node; the
+/// ledger is there where the model asks for it, and else the dissipated energy where there is damping.
+///
+/// Matter comes in through the ends with the velocity it has there: where an end is free to move the momentum flux
+/// belongs to the forces on it.
+template <int D>
+class FlowingBeam final : public EventedOde {
+ public:
+  using Vector = Vec<double, D>;
+  using Components = typename Support<D>::Components;
+
+  /// Throws InvalidInput where the model makes no sense: nodes that do not exist, elements of no length at t = 0,
+  /// an angle that is driven twice, a torque without spin, supports with oblique frames of their own.
+  explicit FlowingBeam(const FlowingModel<D>& model);
+  ~FlowingBeam() override;
+
+  Eigen::Index size() const override;
+  void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
+  /// Not there: throws InvalidInput.
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
+  SecondOrderSystem* second_order() override;
+  Guards guards(const Eigen::VectorXd& y, double t) const override;
+  void handle_event(int index, Eigen::VectorXd& y, double t) override;
+  void sample(const Eigen::VectorXd& y, double t) override {
+    if (on_sample) on_sample(y, t);
+  }
+  bool proceed(double t) override { return !on_step || on_step(t); }
+
+  std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
+  std::function<bool(double t)> on_step;
+
+  const FlowingModel<D>& model() const { return model_; }
+  int elements() const { return model_.motion.last(); }
+  int nodes() const { return elements() + 1; }
+  Eigen::Index coordinates() const { return nodal_ + (model_.spin ? nodes() : 0); }
+  /// Where the angles stand among the coordinates.
+  Eigen::Index first_angle() const { return nodal_; }
+
+  /// The beam along a straight line at time t, from `start` in the unit direction `along`, stretched by `stretch`; its
+  /// material moves at `velocity` along the line, and spins at `spin` [rad/s] from the angle zero.
+  Eigen::VectorXd straight_state(const Vector& start, const Vector& along, double stretch, double velocity, double spin,
+                                 double t = 0) const;
+
+  /// Energies, mass and momenta by the model's own points.
+  FlowObservation<D> observe(const Eigen::VectorXd& y, double t) const;
+  FlowLedger<D> ledger(const Eigen::VectorXd& y) const;
+  /// Material coordinates of the nodes at time t.
+  std::vector<Prescribed> nodes_at(double t) const;
+  /// Position of the material point x at time t, which must lie between the end nodes.
+  Vector position_at(const Eigen::VectorXd& y, double t, double x) const;
+  std::size_t rhs_evaluations() const { return rhs_evaluations_; }
+
+ private:
+  friend class ImplicitFlow<D>;
+
+  struct Element {
+    MovingEquations<double, D> axis;
+    SpinEquations<double> spin;
+  };
+
+  void check_model() const;
+  void adopt_supports();
+  bool damped() const { return model_.section.damped() || (model_.spin && model_.spin->damping != 0); }
+  MovingCoordinates<double, D> axis_of(const double* q, int k, double Prescribed::*x) const;
+  SpinCoordinates<double> spin_of(const double* q, int k, double Prescribed::*x) const;
+  MovingLaw<D> law(double t) const;
+  const WeightFunction& weights(int k) const { return model_.weights[static_cast<std::size_t>(k)]; }
+  /// Fills `nodes_` and `elements_`; false where the elements tangle.
+  bool evaluate(const double* q, const double* rate, double t);
+  /// Adds M a - Q of the elements, a the accelerations of the coordinates.
+  void add_residual(const double* a, double* r) const;
+  void add_loads(const double* q, double t, double* f) const;
+  static Vector force_of(const NodeLoad<D>& load, const double* q, double t);
+  /// Adds the momentum that comes in with the matter at the end nodes.
+  void add_inflow(const double* q, const double* rate, double* f) const;
+  double dissipation() const;
+  /// Solves M a = f in place; false where the mass matrix is singular.
+  bool solve_mass(double t, double* f);
+  void solve_spin(double t, double* f);
+  /// Rates of the ledger's entries.
+  void book(const double* q, const double* rate, const double* a, double t, double* entry);
+  /// [rad/m], the mean of both sides.
+  double twist_at(const double* q, int node) const;
+
+  FlowingModel<D> model_;
+  Eigen::Index nodal_;
+  double reference_length_;                      ///< [m], of an element at t = 0
+  std::vector<std::array<Components, 2>> free_;  ///< of position and slope, in the frame
+  Eigen::Matrix<double, D, D> frame_ = Eigen::Matrix<double, D, D>::Identity();
+  bool aligned_ = true;
+  std::vector<ShapeTabulation> tables_;
+  mutable std::vector<Prescribed> nodes_;
+  std::vector<Element> elements_;
+  ChainMass<D> mass_;
+  std::vector<double> spin_inverse_;  ///< of the pivots of the angles' mass matrix
+  Eigen::VectorXd still_;     // accelerations of zero
+  Eigen::VectorXd residual_;          // of the ledger
+  std::size_t rhs_evaluations_ = 0;
+  std::unique_ptr<ImplicitFlow<D>> implicit_;
+};
+
+extern template class FlowingBeam<2>;
+extern template class FlowingBeam<3>;
+
+}  // namespace vlbeam

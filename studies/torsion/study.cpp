@@ -1,0 +1,167 @@
+// Torsional vibration of a shaft: of one at rest (the second example of the shaft element VLBSE, 2017), and of a rod
+// that flows through its ends.
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/element/circular_shaft.hpp"
+#include "core/system/steady_flow.hpp"
+#include "studies/harness/files.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int D = 3;
+using Vector = Vec<double, D>;
+
+/// Torsional frequencies [Hz] of a shaft held at the start, at the end too where `both`, that flows at `speed` [m/s].
+std::vector<double> torsion(const CircularShaft& shaft, double length, int elements, bool both, double speed,
+                            Formulation formulation) {
+  FlowingModel<D> model;
+  model.section = shaft.section();
+  model.spin = shaft.spin();
+  model.formulation = formulation;
+  model.motion = MeshMotion({{0, steadily(0, -speed)}, {elements, steadily(length, -speed)}});
+  model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
+  model.angles = {{0, steadily(0, 0)}};
+  if (both) model.angles.push_back({elements, steadily(0, 0)});
+  FlowingBeam<D> beam(model);
+  const Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitX(), 1, speed, 0);
+  return frequencies(eigenvalues(linear_flows(beam, y).angles));
+}
+
+/// What the paper's text says of Table 3, beside what holds.
+struct Claim {
+  int mode, elements;
+  double percent;  ///< the error it states: a bound, or a value
+  bool bound;
+};
+
+class Report {
+ public:
+  explicit Report(const StudyContext& context)
+      : context_(context),
+        reference_(
+            parse_json(read_text(context.folder.parent_path().parent_path() / "reference" / "torsion_errors.json"))) {
+    const Json& shaft = context.config.at("shaft");
+    length_ = shaft.at("length");
+    shaft_ = {.radius = shaft.at("radius"),
+              .density = shaft.at("density"),
+              .youngs_modulus = shaft.at("youngs_modulus"),
+              .poisson_ratio = shaft.at("poisson_ratio")};
+    shaft_.check();
+    wave_speed_ = std::sqrt(shaft_.spin().GIp / shaft_.spin().rhoIp);
+  }
+
+  StudyReport operator()() {
+    at_rest();
+    flowing();
+    const GnuplotVariables variables{{"folder", context_.folder.string()}};
+    report_.figures = {
+        {"table3", "Error of the torsional frequencies against the number of elements", "table3.gp", variables},
+        {"flowing", "First torsional frequency of a rod that flows through its ends", "flowing.gp", variables}};
+    return std::move(report_);
+  }
+
+ private:
+  double exact(int mode) const { return (2 * mode - 1) * wave_speed_ / (4 * length_); }
+
+  void at_rest() {
+    const int most = context_.config.at("elements");
+    constexpr int modes = 5;
+    Table table{.name = "table3",
+                .caption =
+                    "Torsional frequencies [Hz] of a shaft fixed at one end and free at the other, N linear "
+                    "elements, with their errors and the exact discrete errors [%]",
+                .columns = {"elements", "mode", "frequency", "error", "exact_error"}};
+    double largest = 0;
+    std::vector<double> levels, errors;
+    for (int n = 1; n <= most; ++n) {
+      const auto found = torsion(shaft_, length_, n, false, 0, Formulation::variational);
+      StudyCase item{.options = {{"group", "at rest"}, {"elements", n}}, .results = {{"frequencies", found}}};
+      report_.cases.push_back(std::move(item));
+      for (int mode = 1; mode <= std::min(n, modes); ++mode) {
+        const double f = found.at(static_cast<std::size_t>(mode) - 1), error = 100 * (f / exact(mode) - 1);
+        const double discrete =
+            reference_.at("errors_percent").at(static_cast<std::size_t>(n) - 1).at(static_cast<std::size_t>(mode) - 1);
+        largest = std::max(largest, std::abs(error - discrete));
+        table.rows.push_back({n, mode, f, error, discrete});
+        report_.measured["error_mode" + std::to_string(mode) + "_n" + std::to_string(n)] = error;
+        if (mode == 1) {
+          levels.push_back(n);
+          errors.push_back(error);
+        }
+      }
+    }
+    report_.measured["error_against_formula"] = largest;
+    report_.fits.push_back(fit_order("mode1", levels, errors, {.fitted = 3}));
+    report_.tables.push_back(std::move(table));
+
+    // what the text says of its Table 3
+    Table claims{.name = "claims",
+                 .caption = "The paper's text on its Table 3, beside the errors [%]",
+                 .columns = {"mode", "elements", "paper_says", "percent", "error"}};
+    const std::vector<Claim> text{{1, 4, 1, true}, {2, 9, 1, true}, {2, 10, 1, true}, {5, 10, 8.36, false}};
+    for (const auto& [mode, elements, percent, bound] : text) {
+      if (elements > most) continue;
+      claims.rows.push_back(
+          {mode, elements, bound ? "below" : "equals", percent,
+           report_.measured.at("error_mode" + std::to_string(mode) + "_n" + std::to_string(elements))});
+    }
+    report_.tables.push_back(std::move(claims));
+  }
+
+  /// Fixed at both ends: f_1 = c (1 - (v/c)^2)/(2 l).
+  void flowing() {
+    const Json& sweep = context_.config.at("flowing");
+    Table table{.name = "flowing",
+                .caption =
+                    "First torsional frequency over c/l of a rod fixed at both ends, through which the rod flows at "
+                    "v: with the momentum flux at the nodes (variational) and without (virtual work)",
+                .columns = {"formulation", "v_over_c", "elements", "frequency", "exact"}};
+    for (const auto& formulation : names(Formulation{})) {
+      for (const double ratio : sweep.at("v_over_c").get<std::vector<double>>()) {
+        std::vector<double> levels, errors;
+        for (const int n : sweep.at("elements").get<std::vector<int>>()) {
+          const auto found = torsion(shaft_, length_, n, true, ratio * wave_speed_, formulation.value);
+          const double f = found.front() * length_ / wave_speed_, limit = (1 - ratio * ratio) / 2;
+          table.rows.push_back({formulation.name, ratio, n, f, limit});
+          report_.cases.push_back({.options = {{"group", "flowing"},
+                                               {"formulation", formulation.name},
+                                               {"v_over_c", ratio},
+                                               {"elements", n}},
+                                   .results = {{"frequency", f}}});
+          levels.push_back(n);
+          errors.push_back(std::abs(f - limit));
+          if (ratio == 0.5) {
+            report_.measured["flowing_" + std::string(formulation.name) + "_n" + std::to_string(n)] = f;
+          }
+        }
+        if (ratio == 0.5 && formulation.value == Formulation::variational) {
+          report_.fits.push_back(fit_order("flowing", levels, errors, {.fitted = 3}));
+        }
+      }
+    }
+    report_.tables.push_back(std::move(table));
+  }
+
+  const StudyContext& context_;
+  Json reference_;
+  CircularShaft shaft_;
+  double length_ = 1, wave_speed_ = 1;
+  StudyReport report_;
+};
+
+StudyReport run(const StudyContext& context) { return Report(context)(); }
+
+}  // namespace
+
+Study torsion_study();
+
+Study torsion_study() {
+  return {.name = "torsion", .title = "Torsional vibration of a shaft at rest and of a rod that flows", .run = run};
+}
+
+}  // namespace vlbeam

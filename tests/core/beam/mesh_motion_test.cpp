@@ -1,0 +1,48 @@
+#include "core/beam/mesh_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+TEST(MeshMotion, NodesBetweenGuidesDivideTheirDistance) {
+  const MeshMotion motion({{0, steadily(-1, 0)},
+                           {2,
+                            [](double t) {
+                              return Prescribed{t * t, 2 * t, 2};
+                            }},
+                           {5, steadily(9, 3)}});
+  ASSERT_EQ(motion.last(), 5);
+  std::vector<Prescribed> nodes;
+  motion.at(2, nodes);
+  ASSERT_EQ(nodes.size(), 6);
+  const double x[] = {-1, 1.5, 4, 23.0 / 3, 34.0 / 3, 15}, rate[] = {0, 2, 4, 11.0 / 3, 10.0 / 3, 3};
+  const double acceleration[] = {0, 1, 2, 4.0 / 3, 2.0 / 3, 0};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(nodes[k].value, x[k], 1e-14);
+    EXPECT_NEAR(nodes[k].rate, rate[k], 1e-14);
+    EXPECT_NEAR(nodes[k].acceleration, acceleration[k], 1e-14);
+  }
+}
+
+TEST(MeshMotion, FindsWhenNodesTangle) {
+  // node 1 overtakes node 2 at t = 0.25
+  const MeshMotion motion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});
+  EXPECT_FALSE(motion.tangle(0, 0.24, 0));
+  const auto tangle = motion.tangle(0, 1, 0);
+  ASSERT_TRUE(tangle);
+  EXPECT_NEAR(tangle->t, 0.25, 1e-9);
+  EXPECT_EQ(tangle->element, 1);
+  EXPECT_NEAR(motion.tangle(0, 1, 0.05)->t, 0.2, 1e-9);
+}
+
+TEST(MeshMotion, NeedsTheEndsInOrder) {
+  EXPECT_THROW(MeshMotion({{1, steadily(0, 0)}, {2, steadily(1, 0)}}), InvalidInput);
+  EXPECT_THROW(MeshMotion({{0, steadily(0, 0)}, {2, steadily(1, 0)}, {2, steadily(2, 0)}}), InvalidInput);
+  EXPECT_THROW(MeshMotion({{0, steadily(0, 0)}}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/element/circular_shaft.hpp"
+#include "core/system/flowing_beam.hpp"
+#include "core/system/steady_flow.hpp"
+#include "tests/core/support/random.hpp"
+
+namespace vlbeam::test {
+
+/// A span of 1 m between two pins, stretched by 1000 N, through which the beam flows at 40 m/s: the axially moving beam
+/// of the shaft element's first example (r = 5 mm, aluminium). `raise` multiplies EA.
+template <int D>
+FlowingModel<D> moving_span(int elements, bool bends, double speed, double raise = 1) {
+  const CircularShaft shaft{.radius = 0.005, .density = 2700, .youngs_modulus = 70e9};
+  FlowingModel<D> model;
+  model.section = shaft.section();
+  model.section.stiffness.EA *= raise;
+  if (!bends) model.section.stiffness.EI = 0;
+  const double stretch = stretch_under(1000, model.section.stiffness.EA);
+  model.motion = MeshMotion({{0, steadily(0, -speed / stretch)}, {elements, steadily(1 / stretch, -speed / stretch)}});
+  model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
+  return model;
+}
+
+/// Its steady state as a guess.
+template <int D>
+Eigen::VectorXd moving_span_state(const FlowingBeam<D>& beam, double speed) {
+  const auto nodes = beam.nodes_at(0);
+  const double stretch = 1 / (nodes.back().value - nodes.front().value);
+  return beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), stretch, speed, 0);
+}
+
+/// A state in which everything moves: a curved, stretched, twisted beam with random rates.
+template <int D>
+Eigen::VectorXd random_state(const FlowingBeam<D>& beam, Random& random, double size = 0.05) {
+  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
+  for (Eigen::Index i = 0; i < 2 * beam.coordinates(); ++i) y[i] += random.uniform(-size, size);
+  return y;
+}
+
+}  // namespace vlbeam::test

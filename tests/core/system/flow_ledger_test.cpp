@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include "core/system/flowing_beam.hpp"
+#include "tests/core/support/element_family.hpp"
+#include "tests/core/support/flows.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+/// A soft beam that flows through its ends, one of them free, with every kind of load, in curved motion.
+template <int D>
+FlowingModel<D> everything(WeightTransport transport) {
+  const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e6, .poisson_ratio = 0.4};
+  FlowingModel<D> model;
+  model.section = shaft.section();
+  model.spin = shaft.spin();
+  model.transport = transport;
+  model.gravity = Vec<double, D>::UnitY() * -4;
+  auto wavering = [](double x, double rate, double size) -> TimeFunction {
+    return [=](double t) {
+      return Prescribed{x + rate * t + size * std::sin(5 * t), rate + 5 * size * std::cos(5 * t),
+                        -25 * size * std::sin(5 * t)};
+    };
+  };
+  model.motion =
+      MeshMotion({{0, wavering(0, -0.7, 0.02)}, {2, wavering(0.5, 0.1, -0.03)}, {5, wavering(1, 0.5, 0.05)}});
+  model.weights.assign(5, {{1, 1.1, 0.95, 1.05}, -0.5, 1.5});
+  model.supports = {{0, Support<D>::direction_clamp(Vec<double, D>::UnitX())}};
+  model.angles = {{0, steadily(0, 6)}};
+  model.loads = {
+      {.node = 2,
+       .force =
+           [](double t) { return Vec<double, D>(Vec<double, D>::UnitX() * std::cos(9 * t) + Vec<double, D>::UnitY()); },
+       .follower = {},
+       .torque = [](double t) { return 0.3 * std::sin(7 * t); }},
+      {.node = 5,
+       .force = {},
+       .follower = [](double t) { return 0.4 * std::cos(11 * t); },
+       .torque = [](double) { return -0.1; }}};
+  model.line_force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * 3 * std::cos(4 * t)); };
+  model.line_torque = [](double t) { return 0.2 * std::cos(3 * t); };
+  model.ledger = true;
+  return model;
+}
+
+template <class Dimension>
+class FlowLedgerTest : public ::testing::Test {};
+TYPED_TEST_SUITE(FlowLedgerTest, Dimensions, DimensionNames);
+
+/// What the ledger misses after 0.3 s, relative to the energy, mass and momentum that passed.
+struct Gap {
+  double energy, mass, momentum, spin_momentum;
+};
+
+template <int D>
+Gap gap_of(const FlowingModel<D>& model) {
+  FlowingBeam<D> beam(model);
+  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0.3, 6);
+  position<D>(y.data() + beam.coordinates(), 0).setZero();
+  const FlowObservation<D> before = beam.observe(y, 0);
+  IntegrationOptions options;
+  options.type = IntegratorType::fehlberg78;
+  options.tolerances = {1e-12, 1e-12};
+  SolverCounters counters;
+  double t = 0;
+  integrate(beam, y, t, 0.3, {}, options, counters);
+  const FlowObservation<D> after = beam.observe(y, t);
+  const FlowLedger<D> ledger = beam.ledger(y);
+  EXPECT_GT(std::abs(ledger.ends), 1e-2);
+  EXPECT_GT(std::abs(ledger.loads), 1e-2);
+  const double passed = std::abs(ledger.ends) + std::abs(ledger.loads) + std::abs(ledger.mesh) + ledger.dissipated;
+  return {std::abs(after.energy.total() - before.energy.total() - ledger.energy() - ledger.dissipated) / passed,
+          std::abs(after.mass - before.mass - ledger.mass) / std::abs(ledger.mass),
+          (after.momentum - before.momentum - ledger.impulse).norm() / ledger.impulse.norm(),
+          std::abs(after.spin_momentum - before.spin_momentum - ledger.spin_impulse) / std::abs(ledger.spin_impulse)};
+}
+
+TYPED_TEST(FlowLedgerTest, ClosesWithInflowOutflowAndEveryLoad) {
+  constexpr int D = TypeParam::value;
+  for (const auto transport : {WeightTransport::frozen, WeightTransport::transported}) {
+    for (const bool damped : {false, true}) {
+      FlowingModel<D> model = everything<D>(transport);
+      if (damped) {
+        model.section.damping = D == 2 ? 0.01 : 0;
+        model.spin->damping = 0.01;
+      }
+      const Gap gap = gap_of(model);
+      EXPECT_LE(gap.energy, 1e-9);
+      EXPECT_LE(gap.mass, 1e-9);
+      EXPECT_LE(gap.momentum, 1e-9);
+      EXPECT_LE(gap.spin_momentum, 1e-9);
+    }
+  }
+}
+
+TYPED_TEST(FlowLedgerTest, DoesNotCloseWithoutTheFluxAndTheConfigurationalForce) {
+  constexpr int D = TypeParam::value;
+  FlowingModel<D> model = everything<D>(WeightTransport::frozen);
+  model.formulation = Formulation::virtual_work;
+  EXPECT_GT(gap_of(model).energy, 1e-4);
+}
+
+}  // namespace
+}  // namespace vlbeam::test

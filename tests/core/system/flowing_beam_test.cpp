@@ -1,0 +1,227 @@
+#include "core/system/flowing_beam.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/system/beam_system.hpp"
+#include "tests/core/support/element_family.hpp"
+#include "tests/core/support/flows.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e7};
+
+/// Nodes at rest, at 0 and length, but for what the tests make of them.
+template <int D>
+FlowingModel<D> resting(int elements, double length = 1) {
+  FlowingModel<D> model;
+  model.section = shaft.section();
+  model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(length, 0)}});
+  return model;
+}
+
+template <class Dimension>
+class FlowingBeamTest : public ::testing::Test {
+ protected:
+  Random random_{11};
+};
+TYPED_TEST_SUITE(FlowingBeamTest, Dimensions, DimensionNames);
+
+TYPED_TEST(FlowingBeamTest, WithNodesAtRestItIsTheBeamOfFixedElements) {
+  constexpr int D = TypeParam::value;
+  const Vec<double, D> tangent = this->random_.template vector<D>();
+  const Vec<double, D> gravity = this->random_.template vector<D>(10);
+  FlowingModel<D> model = resting<D>(6);
+  model.gravity = gravity;
+  model.section.damping = D == 2 ? 0.01 : 0;
+  model.supports = {{0, Support<D>::direction_clamp(tangent)}, {6, Support<D>::pin()}};
+  FlowingBeam<D> flowing(model);
+  const Eigen::VectorXd y = random_state(flowing, this->random_);
+
+  BeamModel<D> fixed;
+  fixed.section = model.section;
+  fixed.gravity = gravity;
+  fixed.start = Support<D>::direction_clamp(tangent);
+  fixed.end = Support<D>::pin();
+  ChainState<D> chain;
+  for (int k = 0; k <= 6; ++k) chain.mesh.x.push_back(k / 6.0);
+  chain.mesh.weights.resize(6);
+  chain.q.assign(y.data(), y.data() + flowing.coordinates());
+  chain.rate.assign(y.data() + flowing.coordinates(), y.data() + 2 * flowing.coordinates());
+  BeamSystem<D> system(fixed, chain);
+
+  Eigen::VectorXd a(y.size()), b(y.size());
+  flowing.rhs(y, a, 0);
+  system.rhs(y, b, 0);
+  EXPECT_LE((a - b).norm(), 1e-10 * b.norm());
+}
+
+TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
+  constexpr int D = TypeParam::value;
+  auto wave = [](double size, double speed) -> TimeFunction {
+    return [=](double t) {
+      return Prescribed{size * std::sin(speed * t), size * speed * std::cos(speed * t),
+                        -size * speed * speed * std::sin(speed * t)};
+    };
+  };
+  auto shifted = [](double by, const TimeFunction& f) -> TimeFunction {
+    return [=](double t) {
+      const Prescribed at = f(t);
+      return Prescribed{by + at.value, at.rate, at.acceleration};
+    };
+  };
+  // stiffness, mass and spin of order one, so that no force hides behind another
+  FlowingModel<D> model = resting<D>(5);
+  model.section = {.rhoA = 1.3, .stiffness = {2.1, 0.7}};
+  model.spin = SpinSection{.rhoIp = 1.3, .GIp = 0.9};
+  model.motion = MeshMotion(
+      {{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(2, wave(0.3, 2.1))}, {5, shifted(5, wave(0.4, 0.7))}});
+  FlowingBeam<D> beam(model);
+  const double t = 0.4, spin = 1.7, velocity = 0.6;
+  const Vec<double, D> along = this->random_.template vector<D>().normalized();
+  const Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), along, 1, velocity, spin, t);
+  const Eigen::Index n = beam.coordinates();
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n), residual(n);
+  const auto nodes = beam.nodes_at(t);
+  for (int k = 0; k < beam.nodes(); ++k) {
+    position<D>(acceleration.data(), k) = along * nodes[static_cast<std::size_t>(k)].acceleration;
+  }
+  beam.second_order()->residual(y.head(n), y.segment(n, n), acceleration, t, residual);
+  EXPECT_LE(residual.template lpNorm<Eigen::Infinity>(), 1e-13);
+}
+
+TYPED_TEST(FlowingBeamTest, DrivenAnglesFollowTheirFunctions) {
+  constexpr int D = TypeParam::value;
+  FlowingModel<D> model = resting<D>(4);
+  model.spin = shaft.spin();
+  model.angles = {{0, [](double t) { return Prescribed{t * t, 2 * t, 2}; }}};
+  FlowingBeam<D> beam(model);
+  Eigen::VectorXd y = random_state(beam, this->random_), dydt(y.size());
+  beam.rhs(y, dydt, 0);
+  EXPECT_EQ(dydt[beam.coordinates() + beam.first_angle()], 2);
+}
+
+TYPED_TEST(FlowingBeamTest, StaticTorqueIsExactWithOneElement) {
+  constexpr int D = TypeParam::value;
+  const double length = 1.7, torque = 0.3;
+  FlowingModel<D> model = resting<D>(1, length);
+  model.spin = shaft.spin();
+  model.supports = {{0, Support<D>::clamp()}};
+  model.angles = {{0, steadily(0, 0)}};
+  model.loads = {{.node = 1, .force = {}, .follower = {}, .torque = [=](double) { return torque; }}};
+  FlowingBeam<D> beam(model);
+  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
+  y[beam.first_angle() + 1] = torque * length / model.spin->GIp;
+  Eigen::VectorXd dydt(y.size());
+  beam.rhs(y, dydt, 0);
+  EXPECT_LE(dydt.norm(), 1e-9 * torque / (model.spin->rhoIp * length));
+}
+
+TEST(FlowingBeam, WithoutSpinThereIsNoAngle) {
+  const FlowingBeam<3> plain(resting<3>(4));
+  EXPECT_EQ(plain.coordinates(), 6 * 5);
+  FlowingModel<3> model = resting<3>(4);
+  model.spin = shaft.spin();
+  EXPECT_EQ(FlowingBeam<3>(model).coordinates(), 7 * 5);
+}
+
+TEST(FlowingBeam, SpinLeavesTheAxisAlone) {
+  Random random(3);
+  FlowingModel<3> model = resting<3>(4);
+  model.motion = MeshMotion({{0, steadily(0, -2)}, {4, steadily(1, -1)}});
+  FlowingBeam<3> plain(model);
+  model.spin = shaft.spin();
+  FlowingBeam<3> spinning(model);
+  const Eigen::VectorXd y = random_state(spinning, random);
+  const Eigen::Index n = plain.coordinates(), m = spinning.coordinates();
+  Eigen::VectorXd z(2 * n), dzdt(2 * n), dydt(2 * m);
+  z << y.head(n), y.segment(m, n);
+  plain.rhs(z, dzdt, 0);
+  spinning.rhs(y, dydt, 0);
+  EXPECT_EQ(dydt.segment(m, n), dzdt.segment(n, n));
+}
+
+TEST(FlowingBeam, StopsWhereItsNodesTangle) {
+  FlowingModel<3> model = resting<3>(3);
+  model.motion = MeshMotion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});
+  for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
+    FlowingBeam<3> beam(model);
+    Eigen::VectorXd y = beam.straight_state(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1, 0, 0);
+    IntegrationOptions options;
+    options.type = type;
+    options.tolerances = {1e-6, 1e-6};
+    SolverCounters counters;
+    double t = 0;
+    try {
+      integrate(beam, y, t, 1, {}, options, counters);
+      ADD_FAILURE() << "ran on";
+    } catch (const ComputationFailed& failure) {
+      EXPECT_LE(failure.t, 0.25);
+      EXPECT_NE(std::string(failure.what()).find("tangle"), std::string::npos) << failure.what();
+    }
+  }
+}
+
+/// The pointer of the field that is wrong.
+template <class Change>
+std::string field_of(const Change& change) {
+  FlowingModel<3> model = resting<3>(4);
+  model.spin = shaft.spin();
+  change(model);
+  try {
+    const FlowingBeam<3> beam(model);
+  } catch (const InvalidInput& error) {
+    return error.field;
+  }
+  return "";
+}
+
+TEST(FlowingBeam, RefusesWhatMakesNoSense) {
+  auto unit = [](double) { return 1.0; };
+  EXPECT_EQ(field_of([](auto&) {}), "");
+  EXPECT_EQ(field_of([](auto& m) {
+              m.motion = MeshMotion({{0, steadily(1, 0)}, {4, steadily(0, 0)}});
+            }),
+            "/beam/nodes");
+  EXPECT_EQ(field_of([](auto& m) { m.weights.resize(3); }), "/beam/weights");
+  EXPECT_EQ(field_of([](auto& m) { m.supports = {{5, Support<3>::pin()}}; }), "/supports");
+  EXPECT_EQ(field_of([](auto& m) { m.supports = {{1, Support<3>::pin()}, {1, Support<3>::clamp()}}; }), "/supports");
+  EXPECT_EQ(field_of([](auto& m) {
+              m.supports = {{0, Support<3>::slide({1, 0, 0})}, {4, Support<3>::slide({0, 1, 0})}};
+            }),
+            "/supports");
+  EXPECT_EQ(field_of([&](auto& m) { m.loads = {{.node = 5, .force = {}, .follower = unit, .torque = {}}}; }), "/loads");
+  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/angles");
+  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/angles");
+  EXPECT_EQ(field_of([&](auto& m) {
+              m.angles = {{4, steadily(0, 1)}};
+              m.loads = {{.node = 4, .force = {}, .follower = {}, .torque = unit}};
+            }),
+            "/loads");
+  EXPECT_EQ(field_of([&](auto& m) {
+              m.spin.reset();
+              m.loads = {{.node = 4, .force = {}, .follower = {}, .torque = unit}};
+            }),
+            "/beam/spin");
+}
+
+TEST(CircularShaft, RefusesWhatIsNoShaft) {
+  auto field = [](CircularShaft of) -> std::string {
+    try {
+      of.check();
+    } catch (const InvalidInput& error) {
+      return error.field;
+    }
+    return "";
+  };
+  EXPECT_EQ(field({}), "");
+  EXPECT_EQ(field({.radius = 0}), "/beam/section/radius");
+  EXPECT_EQ(field({.density = -1}), "/beam/material/density");
+  EXPECT_EQ(field({.youngs_modulus = 0}), "/beam/material/youngs_modulus");
+  EXPECT_EQ(field({.poisson_ratio = 0.5}), "/beam/material/poisson_ratio");
+  EXPECT_EQ(field({.poisson_ratio = -1}), "/beam/material/poisson_ratio");
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,134 @@
+#include "core/system/implicit_flow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/core/support/element_family.hpp"
+#include "tests/core/support/element_state.hpp"
+#include "tests/core/support/flows.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+template <int D>
+FlowingModel<D> whirling() {
+  const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e6};
+  FlowingModel<D> model;
+  model.section = shaft.section();
+  model.section.damping = D == 2 ? 0.01 : 0;
+  model.spin = shaft.spin();
+  model.spin->damping = 0.01;
+  model.gravity = Vec<double, D>::UnitY() * -9.81;
+  model.motion = MeshMotion({{0, steadily(0, -0.5)},
+                             {2,
+                              [](double t) {
+                                return Prescribed{0.5 + 0.3 * t * t, 0.6 * t, 0.6};
+                              }},
+                             {4, steadily(1, 0.4)}});
+  Vec<double, D> along = Vec<double, D>::UnitX();
+  along[1] = 0.3;
+  model.supports = {{0, Support<D>::direction_clamp(along)}, {2, Support<D>::pin()}, {3, Support<D>::slide(along)}};
+  model.angles = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
+  model.loads = {
+      {.node = 4, .force = {}, .follower = [](double) { return 0.7; }, .torque = [](double) { return 0.1; }}};
+  return model;
+}
+
+template <class Dimension>
+class ImplicitFlowTest : public ::testing::Test {
+ protected:
+  Random random_{5};
+};
+TYPED_TEST_SUITE(ImplicitFlowTest, Dimensions, DimensionNames);
+
+TYPED_TEST(ImplicitFlowTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm) {
+  constexpr int D = TypeParam::value;
+  for (const Formulation formulation : formulations) {
+    FlowingModel<D> model = whirling<D>();
+    model.formulation = formulation;
+    FlowingBeam<D> beam(model);
+    ImplicitFlow<D> flow(beam);
+    const Eigen::Index n = beam.coordinates();
+    const Eigen::VectorXd y = random_state(beam, this->random_);
+    const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
+    Eigen::VectorXd a(n), r(n), scale(n);
+    flow.acceleration(q, v, 0.1, a);
+    flow.residual(q, v, Eigen::VectorXd::Zero(n), 0.1, scale);
+    flow.residual(q, v, a, 0.1, r);
+    EXPECT_LE(r.norm(), 1e-11 * scale.norm());
+  }
+}
+
+TYPED_TEST(ImplicitFlowTest, TangentIsTheDerivativeOfTheResidual) {
+  constexpr int D = TypeParam::value;
+  for (const Formulation formulation : formulations) {
+    FlowingModel<D> model = whirling<D>();
+    model.formulation = formulation;
+    FlowingBeam<D> beam(model);
+    ImplicitFlow<D> flow(beam);
+    const Eigen::Index n = beam.coordinates();
+    const Eigen::VectorXd y = random_state(beam, this->random_);
+    const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
+    const Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(n, [&] { return this->random_.uniform(-1, 1); });
+    const double by_v = 30, by_a = 900, h = 1e-6;
+    ASSERT_TRUE(flow.linearize(q, v, a, 0.1, by_v, by_a));
+    // along a direction that the supports allow: one that the solver returns
+    Eigen::VectorXd direction = Eigen::VectorXd::NullaryExpr(n, [&] { return this->random_.uniform(-1, 1); });
+    Eigen::VectorXd plus(n), minus(n);
+    flow.residual(q, v, direction, 0.1, plus);  // projects
+    flow.residual(q, v, Eigen::VectorXd::Zero(n), 0.1, minus);
+    direction = plus - minus;
+    flow.residual(q + h * direction, v + h * by_v * direction, a + h * by_a * direction, 0.1, plus);
+    flow.residual(q - h * direction, v - h * by_v * direction, a - h * by_a * direction, 0.1, minus);
+    Eigen::VectorXd back = (plus - minus) / (2 * h);
+    ASSERT_TRUE(flow.linearize(q, v, a, 0.1, by_v, by_a));
+    flow.solve(back);
+    EXPECT_LE(relative_difference(back, direction), 1e-6);
+  }
+}
+
+TYPED_TEST(ImplicitFlowTest, GeneralizedAlphaFollowsAnExplicitMethod) {
+  constexpr int D = TypeParam::value;
+  auto final_state = [](const IntegrationOptions& options) {
+    FlowingBeam<D> beam(whirling<D>());
+    Vec<double, D> along = Vec<double, D>::UnitX();
+    along[1] = 0.3;
+    Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), along.normalized(), 1, 0, 2);
+    for (const auto& [node, support] : beam.model().supports) {
+      auto rate = position<D>(y.data() + beam.coordinates(), node);
+      rate = support.out_of_frame(support.free_position.matrix().cwiseProduct(support.into_frame(rate)));
+    }
+    SolverCounters counters;
+    double t = 0;
+    integrate(beam, y, t, 0.1, {}, options, counters);
+    return Eigen::VectorXd(y.head(beam.coordinates()));
+  };
+  IntegrationOptions options;
+  options.type = IntegratorType::fehlberg78;
+  options.tolerances = {1e-10, 1e-10};
+  const Eigen::VectorXd exact = final_state(options);
+  options.type = IntegratorType::generalized_alpha;
+  std::vector<double> errors;
+  for (const double step : {4e-4, 2e-4, 1e-4}) {
+    options.generalized_alpha.step = step;
+    options.generalized_alpha.rho_inf = 0.8;
+    errors.push_back((final_state(options) - exact).template lpNorm<Eigen::Infinity>());
+  }
+  EXPECT_LE(errors[2], 1e-3);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.3);
+}
+
+TEST(ImplicitFlow, RefusesMethodsThatDoNotApply) {
+  for (const IntegratorType type : {IntegratorType::rosenbrock4, IntegratorType::energy_momentum}) {
+    FlowingBeam<2> beam(whirling<2>());
+    Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0, 0);
+    IntegrationOptions options;
+    options.type = type;
+    SolverCounters counters;
+    double t = 0;
+    EXPECT_THROW(integrate(beam, y, t, 0.1, {}, options, counters), InvalidInput);
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,80 @@
+#include "core/system/steady_flow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/core/support/element_family.hpp"
+#include "tests/core/support/flows.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+template <int D>
+std::vector<double> span_frequencies(int elements, bool bends, double raise = 1, double speed = 40) {
+  FlowingBeam<D> beam(moving_span<D>(elements, bends, speed, raise));
+  const Eigen::VectorXd y = steady_state(beam, moving_span_state(beam, speed));
+  return frequencies(eigenvalues(linear_flows(beam, y).axis));
+}
+
+// Four elements linearised about the stretched moving state; the exact values are those of the linear theory, of a
+// string (c^2 - v^2)/(2 l c) and of a beam (quartic dispersion relation, simply supported).
+TEST(SteadyFlow, FrequenciesOfAnAxiallyMovingStringAndBeam) {
+  EXPECT_NEAR(span_frequencies<2>(4, false).front(), 22.690807, 1e-6);
+  EXPECT_NEAR(span_frequencies<2>(4, true).front(), 32.190676, 1e-6);
+  EXPECT_NEAR(span_frequencies<2>(4, false, 1e4).front(), 22.68663, 1e-5);
+  EXPECT_NEAR(span_frequencies<2>(4, true, 1e4).front(), 32.18760, 1e-5);
+  EXPECT_NEAR(span_frequencies<2>(32, true, 1e4).front(), 32.165173959848, 1e-5);
+}
+
+TEST(SteadyFlow, InSpaceEveryTransverseFrequencyIsThereTwice) {
+  const auto planar = span_frequencies<2>(4, true), spatial = span_frequencies<3>(4, true);
+  EXPECT_NEAR(spatial[0], planar[0], 1e-9 * planar[0]);
+  EXPECT_NEAR(spatial[1], planar[0], 1e-9 * planar[0]);
+}
+
+TEST(SteadyFlow, ThereIsNoStableOneAtOrAboveTheCriticalSpeed) {
+  const double critical = 80;  // of the beam above: sqrt((F + EI pi^2/l^2)/rhoA), 79.6 m/s
+  FlowingBeam<2> beam(moving_span<2>(8, true, critical));
+  EXPECT_THROW(steady_state(beam, moving_span_state(beam, critical)), ComputationFailed);
+  const Eigen::VectorXd y = steady_state(beam, moving_span_state(beam, critical), 0, true);
+  EXPECT_GT(growth_rate(eigenvalues(linear_flows(beam, y).axis)), 1);
+}
+
+TEST(SteadyFlow, OfAHangingBeamIsItsStaticShape) {
+  FlowingModel<2> model = moving_span<2>(8, true, 0);
+  model.gravity = {0, -9.81};
+  FlowingBeam<2> beam(model);
+  const Eigen::VectorXd y = steady_state(beam, moving_span_state(beam, 0));
+  Eigen::VectorXd dydt(y.size());
+  beam.rhs(y, dydt, 0);
+  const double tension = 1000, sag = model.section.rhoA * 9.81 / (8 * tension);
+  EXPECT_LE(dydt.tail(beam.coordinates()).norm(), 1e-4);
+  EXPECT_NEAR(-position<2>(y.data(), 4)[1], sag, 0.6 * sag);  // bending stiffness carries a part of it
+  EXPECT_GT(-position<2>(y.data(), 4)[1], 0.4 * sag);
+}
+
+/// First torsional frequency of a rod fixed at both ends that flows at half the speed of its waves; l = c = 1.
+double flowing_rod(int elements, Formulation formulation) {
+  FlowingModel<2> model;
+  model.section = {.rhoA = 1, .stiffness = {1, 1}};
+  model.spin = SpinSection{.rhoIp = 1, .GIp = 1};
+  model.formulation = formulation;
+  model.motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
+  model.supports = {{0, Support<2>::pin()}, {elements, Support<2>::pin()}};
+  model.angles = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
+  FlowingBeam<2> beam(model);
+  const Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
+  return frequencies(eigenvalues(linear_flows(beam, y).angles)).front();
+}
+
+TEST(SteadyFlow, TorsionOfAFlowingRodNeedsTheMomentumFluxAtTheNodes) {
+  const std::pair<int, double> expected[] = {{4, 0.40024}, {8, 0.38121}, {16, 0.37655}, {32, 0.37539}, {64, 0.37510}};
+  for (const auto& [elements, frequency] : expected) {
+    EXPECT_NEAR(flowing_rod(elements, Formulation::variational), frequency, 1e-5) << elements;
+  }
+  // without it the term v^2 theta_xx is lost, and with it the frequency tends to c^2/(2 l sqrt(c^2 + v^2))
+  EXPECT_NEAR(flowing_rod(64, Formulation::virtual_work), 0.4472, 1e-3);
+}
+
+}  // namespace
+}  // namespace vlbeam::test
