@@ -8,6 +8,7 @@ namespace {
 
 constexpr double slow_contraction = 0.2;  // of a modified Newton iteration: a new tangent is then worth its cost
 constexpr double rounding = 1e-9;         // corrections below, and no longer falling, are rounding of a stiff tangent
+constexpr double shortest_share = 1e-5;   // of the step: below, rounding of constraints over h would go into velocities
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
 
 class GeneralizedAlpha final : public Stepper {
@@ -31,6 +32,11 @@ class GeneralizedAlpha final : public Stepper {
     if (!started_) start(t, n);
     start_ = end_;
     const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
+    if (h < shortest_share * options_.step && !stalled_ && system_.multipliers() > 0) {
+      drift(y, t, h);
+      dt = options_.step;
+      return true;
+    }
     if (start_.h > 0 && h != start_.h) {
       start_.a = start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration);
       start_.h = h;
@@ -48,8 +54,10 @@ class GeneralizedAlpha final : public Stepper {
     if (!solve(t + h, h, dissipation)) {
       dt = h / 2;
       tangent_by_a_ = 0;
+      stalled_ = true;
       return false;
     }
+    stalled_ = false;
     double next = options_.step;
     if (options_.adaptive) {
       const double ratio = error_ratio(h);
@@ -74,6 +82,7 @@ class GeneralizedAlpha final : public Stepper {
     const auto& main = dynamic_cast<const GeneralizedAlpha&>(other);
     end_ = main.start_;
     started_ = true;
+    stalled_ = false;
     tangent_by_a_ = 0;
   }
 
@@ -154,6 +163,15 @@ class GeneralizedAlpha final : public Stepper {
     return largest;
   }
 
+  /// A step of next to no length, up to an event or a sample: the last accelerations go on.
+  void drift(Eigen::VectorXd& y, double& t, double h) {
+    q_ = base_q_ + h * base_v_;
+    v_ = base_v_ + h * start_.true_acceleration;
+    system_.contract(q_, v_, y);
+    if (y.size() % 2 != 0) y[y.size() - 1] += h * start_.dissipation;
+    t += h;
+  }
+
   void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
     system_.contract(q_, v_, y);
     if (y.size() % 2 != 0) y[y.size() - 1] += 0.5 * h * (start_.dissipation + dissipation);
@@ -176,6 +194,7 @@ class GeneralizedAlpha final : public Stepper {
   NewtonCounters* counters_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
+  bool stalled_ = false;             ///< Newton's iteration has asked for the shorter step
   double tangent_by_a_ = 0;          ///< what the factored tangent was made for; 0 for none
   std::size_t factorization_ = 0;    ///< which one the factored tangent is, if it is still this stepper's
   Memory start_, end_;               ///< at the start and at the end of the last step

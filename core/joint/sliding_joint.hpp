@@ -1,27 +1,45 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <optional>
 
 #include "core/beam/span.hpp"
 #include "core/element/moving_element.hpp"
+#include "core/joint/friction.hpp"
+#include "core/joint/slope_conditions.hpp"
 
 namespace vlbeam {
 
-/// A lumped mass [kg] that slides along the beam: the node it sits on moves with it, r and r_x shared by both sides.
+/// A lumped mass that slides along the beam: the node it sits on moves with it, r shared by both sides.
 struct SlidingJoint {
-  double mass;
+  double mass;  ///< [kg]
+  JointSlopes slopes = JointSlopes::continuous;
+  std::optional<AxialFriction> friction = std::nullopt;
+
+  /// The beam has two slopes at the joint.
+  bool kinked() const { return slopes != JointSlopes::continuous; }
+};
+
+/// What the equations of a joint need to know of its motion.
+template <int D>
+struct JointMotion {
+  Eigen::Matrix<double, 2 * D, 1> slopes, slope_rates;  ///< r_x before and behind the joint
+  double x_rate;                                        ///< [m/s]
+  Vec<double, D> gravity;                               ///< [m/s^2]
 };
 
 namespace detail {
 
 /// One side of a sliding joint: the open node of a span, tied to the joint by a variable-length element. Eliminating
-/// that node leaves a mass and a force on the joint's own unknowns (r, r_x, x).
-template <int D>
+/// that node leaves a mass and a force on the joint's own unknowns: r, one or two slopes of which this side's stands at
+/// `Slope`, and x.
+template <int D, int Unknowns, int Slope>
 class JointSide {
  public:
   using Vector = Vec<double, D>;
   using Components = typename Span<D>::Components;
-  static constexpr int unknowns = 2 * D + 1;
+  static constexpr int unknowns = Unknowns, x = Unknowns - 1;
   using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
   using Column = Eigen::Matrix<double, unknowns, 1>;
 
@@ -53,23 +71,23 @@ class JointSide {
     y_s_ = inverse_.rs * f_r + inverse_.ss * f_s;
 
     add_block(mass, 0, 0, m[j_][j_] - (c_.rr * next_.rr + c_.sr * next_.sr));
-    add_block(mass, 0, D, m[j_][j_ + 1] - (c_.rr * next_.rs + c_.sr * next_.ss));
-    add_block(mass, D, D, m[j_ + 1][j_ + 1] - (c_.rs * next_.rs + c_.ss * next_.ss));
+    add_block(mass, 0, Slope, m[j_][j_ + 1] - (c_.rr * next_.rs + c_.sr * next_.ss));
+    add_block(mass, Slope, Slope, m[j_ + 1][j_ + 1] - (c_.rs * next_.rs + c_.ss * next_.ss));
     auto out = [&](const Components& a) { return support.out_of_frame(a.matrix()); };
-    mass.template block<D, 1>(0, 2 * D) += border[j_] - out(c_.rr * next_x_r_ + c_.sr * next_x_s_);
-    mass.template block<D, 1>(D, 2 * D) += border[j_ + 1] - out(c_.rs * next_x_r_ + c_.ss * next_x_s_);
-    mass(2 * D, 2 * D) += (j_ == 2 ? eq_.mass_bb : eq_.mass_aa) - (h_r * next_x_r_).sum() - (h_s * next_x_s_).sum();
+    mass.template block<D, 1>(0, x) += border[j_] - out(c_.rr * next_x_r_ + c_.sr * next_x_s_);
+    mass.template block<D, 1>(Slope, x) += border[j_ + 1] - out(c_.rs * next_x_r_ + c_.ss * next_x_s_);
+    mass(x, x) += (j_ == 2 ? eq_.mass_bb : eq_.mass_aa) - (h_r * next_x_r_).sum() - (h_s * next_x_s_).sum();
     rhs.template segment<D>(0) -= out(c_.rr * y_r_ + c_.sr * y_s_);
-    rhs.template segment<D>(D) -= out(c_.rs * y_r_ + c_.ss * y_s_);
-    rhs(2 * D) -= (h_r * y_r_).sum() + (h_s * y_s_).sum();
+    rhs.template segment<D>(Slope) -= out(c_.rs * y_r_ + c_.ss * y_s_);
+    rhs(x) -= (h_r * y_r_).sum() + (h_s * y_s_).sum();
   }
 
   /// Acceleration of the open node, given the joint's, in place of its force.
   void substitute(const Column& joint, double* force) const {
     const auto& support = span_.support();
     const Components a_r = support.into_frame(joint.template segment<D>(0)).array();
-    const Components a_s = support.into_frame(joint.template segment<D>(D)).array();
-    const double a_x = joint(2 * D);
+    const Components a_s = support.into_frame(joint.template segment<D>(Slope)).array();
+    const double a_x = joint(x);
     const Components x_r = y_r_ - (next_.rr * a_r + next_.rs * a_s) - next_x_r_ * a_x;
     const Components x_s = y_s_ - (next_.sr * a_r + next_.ss * a_s) - next_x_s_ * a_x;
     position<D>(force, span_.open()) = support.out_of_frame(x_r.matrix());
@@ -96,38 +114,118 @@ class JointSide {
   Components next_x_r_, next_x_s_, y_r_, y_s_;
 };
 
-}  // namespace detail
+/// Mass matrix of a joint's own unknowns, factored, and the conditions on their accelerations.
+template <int D, int Unknowns>
+class JointEquations {
+ public:
+  using Matrix = Eigen::Matrix<double, Unknowns, Unknowns>;
+  using Column = Eigen::Matrix<double, Unknowns, 1>;
 
-/// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1. On entry `force` is the nodal array
-/// of forces and `force_x` that on the joint's material coordinate; on return they are the accelerations.
-/// Cost: one sweep over each span and a dense system of 2 D + 1 unknowns. Returns false where the joint's mass matrix
-/// is not positive definite (a massless joint where curvature is continuous).
-template <int D>
-bool solve_with_joint(const Span<D>& left, const Span<D>& right, const MovingEquations<double, D>& left_element,
-                      const MovingEquations<double, D>& right_element, const SlidingJoint& joint, double* force,
-                      double& force_x) {
-  using Side = detail::JointSide<D>;
+  /// Conditions C'' = 0 on the slopes, which stand behind r; none with one slope.
+  JointEquations(const Matrix& mass, const SlidingJoint& joint, const JointMotion<D>& motion) : factor_(mass) {
+    if constexpr (Unknowns == 3 * D + 1) {
+      const SlopeConditions<D> conditions(joint.slopes, longest_axis<D>(motion.slopes.template head<D>()));
+      gradients_.setZero();
+      drift_.setZero();
+      for (int i = 0; i < conditions.count(); ++i) {
+        gradients_.col(i).template segment<2 * D>(D) = conditions.gradient(i, motion.slopes);
+        drift_[i] = conditions.rate(i, motion.slope_rates, motion.slope_rates);
+      }
+      response_ = factor_.solve(gradients_);
+      Square schur = gradients_.transpose() * response_;
+      for (int i = conditions.count(); i < most; ++i) schur(i, i) = 1;  // conditions there are none of
+      schur_inverse_ = schur.inverse();
+    }
+  }
+
+  bool positive_definite() const { return factor_.info() == Eigen::Success; }
+
+  /// Accelerations under the forces `f` of slopes that move, or of slopes at rest.
+  Column solve(const Column& f, bool moving) const {
+    Column a = factor_.solve(f);
+    if constexpr (Unknowns == 3 * D + 1) {
+      Few excess = gradients_.transpose() * a;
+      if (moving) excess += drift_;
+      a -= response_ * (schur_inverse_ * excess);
+    }
+    return a;
+  }
+
+ private:
+  static constexpr int most = SlopeConditions<D>::most;
+  using Few = Eigen::Matrix<double, most, 1>;
+  using Square = Eigen::Matrix<double, most, most>;
+  using Columns = Eigen::Matrix<double, Unknowns, most>;
+
+  Eigen::LLT<Matrix, Eigen::Upper> factor_;
+  Columns gradients_, response_;
+  Few drift_;
+  Square schur_inverse_;
+};
+
+template <int D, bool Kinked>
+std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right,
+                                       const MovingEquations<double, D>& left_element,
+                                       const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
+                                       const JointMotion<D>& motion, double* force, double* joint_force) {
+  constexpr int unknowns = (Kinked ? 3 : 2) * D + 1, behind = (Kinked ? 2 : 1) * D, x = unknowns - 1;
+  using Equations = JointEquations<D, unknowns>;
+  using Column = typename Equations::Column;
   const int node = left.open() + 1;
   left.reduce(force);
   right.reduce(force);
-  typename Side::Matrix mass = Side::Matrix::Zero();
-  typename Side::Column rhs;
-  rhs << position<D>(force, node), slope<D>(force, node), force_x;
+  typename Equations::Matrix mass = Equations::Matrix::Zero();
+  Column rhs;
+  rhs.template segment<D>(0) = position<D>(force, node);
+  rhs.template segment<D>(D) = slope<D>(force, node);
+  if constexpr (Kinked) rhs.template segment<D>(behind) = Eigen::Map<const Vec<double, D>>(joint_force + 1);
+  rhs[x] = *joint_force;
   mass.diagonal().template head<D>().array() += joint.mass;
-  Side left_side(left, left_element, 2), right_side(right, right_element, 0);
+  JointSide<D, unknowns, D> left_side(left, left_element, 2);
+  JointSide<D, unknowns, behind> right_side(right, right_element, 0);
   left_side.eliminate(force, mass, rhs);
   right_side.eliminate(force, mass, rhs);
-  const Eigen::LLT<typename Side::Matrix, Eigen::Upper> factor(mass);
-  if (factor.info() != Eigen::Success) return false;
-  const typename Side::Column a = factor.solve(rhs);
+  const Equations equations(mass, joint, motion);
+  if (!equations.positive_definite()) return std::nullopt;
+  Column a = equations.solve(rhs, true);
+  double dissipation = 0;
+  if (joint.friction) {
+    const Contact<double, D> contact((motion.slopes.template head<D>() + motion.slopes.template tail<D>()) / 2);
+    const double v = contact.stretch * motion.x_rate, share = joint.friction->share(v);
+    const Column by_friction = equations.solve(contact.stretch * Column::Unit(x), false);
+    const auto normal = normal_force<D>(contact.normal_part(joint.mass * (a.template head<D>() - motion.gravity)),
+                                        contact.normal_part(joint.mass * by_friction.template head<D>()), share);
+    if (!normal) return std::nullopt;
+    a -= share * *normal * by_friction;
+    dissipation = share * *normal * v;
+  }
   left_side.substitute(a, force);
   right_side.substitute(a, force);
   position<D>(force, node) = a.template segment<D>(0);
   slope<D>(force, node) = a.template segment<D>(D);
-  force_x = a(2 * D);
+  if constexpr (Kinked) Eigen::Map<Vec<double, D>>(joint_force + 1) = a.template segment<D>(behind);
+  *joint_force = a[x];
   left.substitute(force);
   right.substitute(force);
-  return true;
+  return dissipation;
+}
+
+}  // namespace detail
+
+/// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force`
+/// is the nodal array of forces and `joint_force` those on the joint's material coordinate and, where the joint is
+/// kinked, on the slope behind it (that of the node is the one before it); on return they are the accelerations. With
+/// nothing moving in `motion`, the same solves M v = p for velocities that agree with the conditions on the slopes.
+/// Cost: one sweep over each span and a dense system of 2 D + 1 unknowns, 3 D + 1 where the joint is kinked.
+/// Returns the power lost to friction [W]; nothing where the joint's mass matrix is not positive definite (a massless
+/// joint where curvature is continuous) or friction jams.
+template <int D>
+std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right,
+                                       const MovingEquations<double, D>& left_element,
+                                       const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
+                                       const JointMotion<D>& motion, double* force, double* joint_force) {
+  const auto solve = joint.kinked() ? detail::solve_with_joint<D, true> : detail::solve_with_joint<D, false>;
+  return solve(left, right, left_element, right_element, joint, motion, force, joint_force);
 }
 
 /// Solves M a = f of two spans that share their open node, in place.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
@@ -10,21 +11,32 @@ namespace vlbeam {
 inline constexpr int no_joint = -1;
 
 /// A beam's mesh with its motion, and the node that moves along it, if one does.
-/// Rates at the moving node are those of the node, at all others those of the material point.
+/// Rates at the moving node are those of the node, at all others those of the material point. Where the beam may be
+/// kinked at the moving node, the node's slope is the one before it.
 template <int D>
 struct ChainState {
   Mesh mesh;
   std::vector<double> q, rate;  ///< nodal arrays
   int joint = no_joint;         ///< index of the moving node
   double joint_rate = 0;        ///< rate of its material coordinate mesh.x[joint] [m/s]
+  /// The beam's slope behind the moving node.
+  struct Kink {
+    Vec<double, D> slope, rate;
+  };
+  std::optional<Kink> kink;
 
   /// Coordinates and rates of element k, its moving ends included.
   MovingCoordinates<double, D> coordinates(int k) const {
     const auto i = static_cast<std::size_t>(k);
-    return {element_nodes<D>(q.data(), k), mesh.x[i], mesh.x[i + 1]};
+    MovingCoordinates<double, D> result{element_nodes<D>(q.data(), k), mesh.x[i], mesh.x[i + 1]};
+    if (kink && k == joint) result.e.s_a = kink->slope;
+    return result;
   }
   MovingCoordinates<double, D> rates(int k) const {
-    return {element_nodes<D>(rate.data(), k), k == joint ? joint_rate : 0, k + 1 == joint ? joint_rate : 0};
+    MovingCoordinates<double, D> result{element_nodes<D>(rate.data(), k), k == joint ? joint_rate : 0,
+                                        k + 1 == joint ? joint_rate : 0};
+    if (kink && k == joint) result.e.s_a = kink->rate;
+    return result;
   }
 
   /// Copies node `from` of `other` to node `to`.

@@ -32,6 +32,8 @@ class Search {
     free_.setOnes();
     if (merged == 0) free_.template head<D>().setZero();
     if (merged + 1 == chain.mesh.last()) free_.template segment<D>(D).setZero();
+    if (chain.kink && merged == chain.joint) free_.template head<D>().setZero();
+    if (chain.kink && merged + 1 == chain.joint) free_.template segment<D>(D).setZero();
     if (!rational) free_.template tail<3>().setZero();
     const int first = std::max(0, merged - 1), last = std::min(chain.mesh.elements(), merged + 2);
     const auto& x = chain.mesh.x;

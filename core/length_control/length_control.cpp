@@ -84,6 +84,7 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
   chain.mesh.weights[static_cast<std::size_t>(j)] = weights_between(x_new, x_high);
   chain.joint = no_joint;
   chain.joint_rate = 0;
+  chain.kink.reset();
 }
 
 template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, StrainLaw,

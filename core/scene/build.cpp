@@ -200,7 +200,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
   if (scene.sliding_mass) {
-    model.joint = SlidingJoint{scene.sliding_mass->mass};
+    model.joint = SlidingJoint{scene.sliding_mass->mass, scene.sliding_mass->slopes, scene.sliding_mass->friction};
     model.separation_distance = separation_distance(scene);
   }
   model.constraints = scene.constraints;
@@ -244,6 +244,9 @@ ChainState<D> build_chain(const Scene& scene) {
     const int j = chain.joint;
     position<D>(chain.rate.data(), j) = chain.joint_rate * slope<D>(chain.q.data(), j);
     if (!axis.straight()) slope<D>(chain.rate.data(), j) = chain.joint_rate * second_derivative(chain, j);
+    if (scene.sliding_mass->slopes != JointSlopes::continuous) {
+      chain.kink = {slope<D>(chain.q.data(), j), slope<D>(chain.rate.data(), j)};
+    }
   }
   return chain;
 }

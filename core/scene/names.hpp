@@ -40,7 +40,9 @@ constexpr auto names(ClampType) {
   return std::to_array<Named<ClampType>>({{ClampType::direction, "direction"}, {ClampType::full, "full"}});
 }
 constexpr auto names(JointSlopes) {
-  return std::to_array<Named<JointSlopes>>({{JointSlopes::continuous, "continuous"}});
+  using enum JointSlopes;
+  return std::to_array<Named<JointSlopes>>(
+      {{continuous, "continuous"}, {tangent, "tangent"}, {equal_stretch, "equal-stretch"}, {free, "free"}});
 }
 constexpr auto names(MergePolicy) {
   using enum MergePolicy;

@@ -347,9 +347,26 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
             mass.velocity);
     visitor(Option{.pointer = "/sliding_mass/slopes",
                    .unit = "",
-                   .description = "what the beam's slopes do at the mass",
-                   .source = "Ding & Ouyang 2022, Eq. 40"},
+                   .description = "the beam's slopes before and behind the mass: one vector, one direction with two "
+                                  "magnitudes, a kink with one magnitude, or independent",
+                   .source = "Ding & Ouyang 2022, Eq. 39-40"},
             mass.slopes);
+    if (visitor.present(Option{.pointer = "/sliding_mass/friction",
+                               .unit = "",
+                               .description = "Coulomb friction between mass and beam, mu N tanh(v/velocity)"},
+                        mass.friction)) {
+      visitor(Option{.pointer = "/sliding_mass/friction/coefficient",
+                     .unit = "-",
+                     .description = "mu, friction over the contact force normal to the beam",
+                     .range = Range::non_negative(),
+                     .required = true},
+              mass.friction->coefficient);
+      visitor(Option{.pointer = "/sliding_mass/friction/velocity",
+                     .unit = "m/s",
+                     .description = "relative velocity below which friction fades",
+                     .range = Range::positive()},
+              mass.friction->velocity);
+    }
     visitor(
         Option{.pointer = "/sliding_mass/separation_distance",
                .unit = "m",

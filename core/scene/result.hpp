@@ -24,6 +24,7 @@ struct Sample {
   std::optional<Point> mass_position;    ///< [m]; empty without a sliding mass
   Point end{};                           ///< position of the beam's last node [m]
   double beam_length = 0;                ///< current arc length [m]
+  double beam_length_rate = 0;           ///< [m/s]
   Energy energy;                         ///< by a 25-point rule, independent of the model's own points
   double discrete_total = 0;             ///< total energy summed over the model's own quadrature points [J]
   Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]
@@ -38,6 +39,12 @@ struct Configuration {
   std::vector<Point> r;    ///< positions [m]
   std::vector<Point> r_x;  ///< slopes [-]
   std::vector<std::array<double, 4>> weights;
+  /// Where the beam may be kinked, at the mass: `r_x` has the slope before it, this is the one behind.
+  struct Kink {
+    std::size_t node;
+    Point r_x;
+  };
+  std::optional<Kink> kink;
 };
 
 enum class EventType { segment_merge, separation };
@@ -77,6 +84,7 @@ struct RunResult {
   std::vector<Event> events;
   double max_kinetic = 0;       ///< largest kinetic energy of the samples [J]
   double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - jumps|, the model's own points [J]
+  ConstraintResidual slopes;    ///< largest of the samples: how far a kinked joint's slopes are from what ties them
   SolverCounters solver;
   RunTiming timing;
 };

@@ -9,6 +9,8 @@
 #include "core/dynamics/stepper.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
+#include "core/joint/friction.hpp"
+#include "core/joint/slope_conditions.hpp"
 #include "core/length_control/merge_policy.hpp"
 #include "core/system/constraints.hpp"
 
@@ -24,7 +26,6 @@ enum class ClampType {
   direction,  ///< position fixed, slope free along the initial tangent
   full,       ///< position and slope vector fixed
 };
-enum class JointSlopes { continuous };
 
 enum class CurveType { line, arc, nurbs };
 
@@ -78,6 +79,7 @@ struct SlidingMassSpec {
   double position = 0.1;  ///< material coordinate at t = 0 [m]
   double velocity = 0;    ///< rate of the material coordinate at t = 0 [m/s]
   JointSlopes slopes = JointSlopes::continuous;
+  std::optional<AxialFriction> friction;      ///< none unless given
   std::optional<double> separation_distance;  ///< distance from a free end where the mass leaves [m]; default 1e-3 L
 };
 

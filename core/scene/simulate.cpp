@@ -30,6 +30,7 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
     shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));
   }
+  if (chain.kink) shape.kink = {static_cast<std::size_t>(chain.joint), point_of<D>(chain.kink->slope)};
   for (int k = 0; k < chain.mesh.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto& weights = chain.mesh.weights[i];
@@ -120,6 +121,7 @@ class Run {
       if (const auto mass = system_.mass_position(y)) sample.mass_position = point_of<D>(*mass);
       sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
       sample.beam_length = seen.beam_length;
+      sample.beam_length_rate = seen.beam_length_rate;
       sample.energy = seen.energy;
       sample.discrete_total = own.energy.total();
       sample.momentum = point_of<D>(seen.momentum);
@@ -127,6 +129,9 @@ class Run {
       for (std::size_t i = 0; i < 2; ++i) {
         sample.reactions[i] = {point_of<D>(forces[i].template head<D>()), point_of<D>(forces[i].template tail<D>())};
       }
+      const ConstraintResidual slopes = system_.slope_residual(y);
+      result_.slopes.position = std::max(result_.slopes.position, slopes.position);
+      result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       result_.max_energy_drift =

@@ -165,9 +165,34 @@ void check_length_control(const Scene& scene) {
   }
 }
 
+std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
+
+void check_joint(const Scene& scene) {
+  if (!scene.sliding_mass) return;
+  const SlidingMassSpec& mass = *scene.sliding_mass;
+  const IntegratorType type = scene.integrator.type;
+  if (mass.slopes != JointSlopes::continuous) {
+    const bool eliminated = scene.constraints == Constraints::eliminated;
+    if (type == IntegratorType::generalized_alpha && eliminated) {
+      refuse("/sliding_mass/slopes", quoted(to_string(mass.slopes)),
+             "\"generalized-alpha\" needs \"constraints\": \"multipliers\" for two slopes at the mass, or an explicit "
+             "integrator; with \"eliminated\" they must be \"continuous\"");
+    }
+    if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum) {
+      refuse("/sliding_mass/slopes", quoted(to_string(mass.slopes)),
+             quoted(to_string(type)) +
+                 " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\" with "
+                 "\"constraints\": \"multipliers\"");
+    }
+  }
+  if (mass.friction && type == IntegratorType::energy_momentum) {
+    refuse("/sliding_mass/friction", "this key",
+           "\"energy-momentum\" has no friction: take another integrator, or leave it out");
+  }
+}
+
 void check_energy_momentum(const Scene& scene) {
   if (scene.integrator.type != IntegratorType::energy_momentum) return;
-  const auto quoted = [](std::string_view name) { return "\"" + std::string(name) + "\""; };
   if (has_rest_shape(scene)) {
     refuse("/beam/rest_shape", quoted(to_string(scene.beam.rest_shape)),
            "\"energy-momentum\" measures strains from a straight beam: take \"paper\", or another integrator");
@@ -223,6 +248,7 @@ void validate(const Scene& scene) {
   check_sliding_mass(scene);
   check_length_control(scene);
   check_integrator(scene);
+  check_joint(scene);
   check_energy_momentum(scene);
   check_output(scene);
 }

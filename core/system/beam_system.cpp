@@ -57,7 +57,8 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   joint_ = chain.joint;
   free_mass_ = model_.joint.has_value() && joint_ == no_joint;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
-  coordinates_ = nodal_ + (has_joint() ? 1 : 0) + (free_mass_ ? D : 0);
+  coordinates_ = nodal_ + (has_joint() ? 1 : 0) + (kinked() || free_mass_ ? D : 0);
+  behind_ = kinked() ? nodal_ + 1 : Eigen::Index{node_size<D>} * joint_ + D;
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
   const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
@@ -80,7 +81,11 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y[nodal_] = chain.mesh.x[static_cast<std::size_t>(chain.joint)];
     y[coordinates_ + nodal_] = chain.joint_rate;
   }
-  if (model_.section.damped() && old.size() > 0) y[y.size() - 1] = old[old.size() - 1];
+  if (kinked()) {
+    y.segment<D>(behind_) = chain.kink->slope;
+    y.segment<D>(coordinates_ + behind_) = chain.kink->rate;
+  }
+  if (model_.dissipates() && old.size() > 0) y[y.size() - 1] = old[old.size() - 1];
   return y;
 }
 
@@ -95,6 +100,7 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
     result.mesh.x[static_cast<std::size_t>(joint_)] = y[nodal_];
     result.joint_rate = y[coordinates_ + nodal_];
   }
+  if (kinked()) result.kink = {y.segment<D>(behind_), y.segment<D>(coordinates_ + behind_)};
   return result;
 }
 
@@ -106,17 +112,41 @@ std::optional<Vec<double, D>> BeamSystem<D>::mass_position(const Eigen::VectorXd
 }
 
 template <int D>
+NodalCubic<double, D> BeamSystem<D>::element_of(const double* q, int k) const {
+  auto nodes = element_nodes<D>(q, k);
+  if (k == joint_) nodes.s_a = Eigen::Map<const Vector>(q + behind_);
+  return nodes;
+}
+
+template <int D>
+JointMotion<D> BeamSystem<D>::joint_motion(const double* q, const double* rate, double t) const {
+  return {joint_slopes(q), joint_slopes(rate), rate[nodal_], gravity(t)};
+}
+
+template <int D>
+ConstraintResidual BeamSystem<D>::slope_residual(const Eigen::VectorXd& y) const {
+  ConstraintResidual largest;
+  if (!kinked()) return largest;
+  const auto slopes = joint_slopes(y.data()), rates = joint_slopes(y.data() + coordinates_);
+  const SlopeConditions<D> conditions(model_.joint->slopes, longest_axis<D>(slopes.template head<D>()));
+  for (int i = 0; i < conditions.count(); ++i) {
+    largest.position = std::max(largest.position, std::abs(conditions.value(i, slopes)));
+    largest.velocity = std::max(largest.velocity, std::abs(conditions.rate(i, slopes, rates)));
+  }
+  return largest;
+}
+
+template <int D>
 typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double* q, const double* rate,
                                                                     double t) const {
   const auto j = static_cast<std::size_t>(joint_);
   const double x = q[nodal_], x_rate = rate[nodal_];
   const MovingLaw<D> moving = moving_law(t);
   return {
-      equations<MovingEnds::b, D>(model_.strain_law, {element_nodes<D>(q, joint_ - 1), mesh_.x[j - 1], x},
-                                  {element_nodes<D>(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_,
-                                  moving),
-      equations<MovingEnds::a, D>(model_.strain_law, {element_nodes<D>(q, joint_), x, mesh_.x[j + 1]},
-                                  {element_nodes<D>(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving)};
+      equations<MovingEnds::b, D>(model_.strain_law, {element_of(q, joint_ - 1), mesh_.x[j - 1], x},
+                                  {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_, moving),
+      equations<MovingEnds::a, D>(model_.strain_law, {element_of(q, joint_), x, mesh_.x[j + 1]},
+                                  {element_of(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving)};
 }
 
 template <int D>
@@ -136,20 +166,28 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     position<D>(force, joint_ - 1) += before.force[0];
     slope<D>(force, joint_ - 1) += before.force[1];
     position<D>(force, joint_) += before.force[2] + behind.force[0] + model_.joint->mass * g;
-    slope<D>(force, joint_) += before.force[3] + behind.force[1];
+    if (kinked()) {
+      slope<D>(force, joint_) += before.force[3];
+      Eigen::Map<Vector>(force + behind_) = behind.force[1];
+    } else {
+      slope<D>(force, joint_) += before.force[3] + behind.force[1];
+    }
     position<D>(force, joint_ + 1) += behind.force[2];
     slope<D>(force, joint_ + 1) += behind.force[3];
     force[nodal_] = before.force_b + behind.force_a;
     dissipation += before.dissipation + behind.dissipation;
-    if (!solve_with_joint(*left_, *right_, before, behind, *model_.joint, force, force[nodal_])) {
+    const auto friction = solve_with_joint(*left_, *right_, before, behind, *model_.joint, joint_motion(q, rate, t),
+                                           force, force + nodal_);
+    if (!friction) {
       dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
       return;
     }
+    dissipation += *friction;
   } else {
     solve_without_joint(*left_, *right_, force);
     if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = gravity(t);
   }
-  if (model_.section.damped()) dydt[dydt.size() - 1] = dissipation;
+  if (model_.dissipates()) dydt[dydt.size() - 1] = dissipation;
 }
 
 template <int D>
@@ -283,30 +321,34 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
     const bool unit = weights.w == unit_weights;
     const auto table = unit ? polynomial : ShapeTabulation(rule, kinematics.weights());
     const auto motion = [&](double u, const ShapeTable<double>& shape) { return kinematics.at(u, shape); };
-    for_each_point(kinematics, table, false, moving.rest, motion,
-                   [&](const auto& point, const auto& at, const auto* rest) {
-                     const double wl = point.weight;
-                     auto add_strain = [&]<StrainLaw Law>() {
-                       const auto& section = model_.section;
-                       const ElasticStress<Law, true, double, D> elastic(at.r_x, at.r_xx, section.stiffness);
-                       seen.energy.axial += wl * elastic.axial;
-                       seen.energy.bending += wl * elastic.bending;
-                       if (rest == nullptr) return;
-                       const RestStress<Law, true, double, D> from_rest(at.r_x, at.r_xx, *rest, section.stiffness,
-                                                                        section.curvature_regularization);
-                       seen.energy.axial += wl * from_rest.axial;
-                       seen.energy.bending += wl * from_rest.bending;
-                     };
-                     if (model_.strain_law == StrainLaw::green) {
-                       add_strain.template operator()<StrainLaw::green>();
-                     } else {
-                       add_strain.template operator()<StrainLaw::engineering>();
-                     }
-                     seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
-                     seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
-                     seen.momentum += wl * rhoA * at.v;
-                     seen.beam_length += wl * at.r_x.norm();
-                   });
+    for_each_point(
+        kinematics, table, false, moving.rest, motion, [&](const auto& point, const auto& at, const auto* rest) {
+          const double wl = point.weight;
+          auto add_strain = [&]<StrainLaw Law>() {
+            const auto& section = model_.section;
+            const ElasticStress<Law, true, double, D> elastic(at.r_x, at.r_xx, section.stiffness);
+            seen.energy.axial += wl * elastic.axial;
+            seen.energy.bending += wl * elastic.bending;
+            if (rest == nullptr) return;
+            const RestStress<Law, true, double, D> from_rest(at.r_x, at.r_xx, *rest, section.stiffness,
+                                                             section.curvature_regularization);
+            seen.energy.axial += wl * from_rest.axial;
+            seen.energy.bending += wl * from_rest.bending;
+          };
+          if (model_.strain_law == StrainLaw::green) {
+            add_strain.template operator()<StrainLaw::green>();
+          } else {
+            add_strain.template operator()<StrainLaw::engineering>();
+          }
+          seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
+          seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
+          seen.momentum += wl * rhoA * at.v;
+          const double stretch = at.r_x.norm();
+          seen.beam_length += wl * stretch;
+          // at a fixed reference point, which moves along the beam
+          seen.beam_length_rate +=
+              wl * at.r_x.dot(at.v_x + point.mesh_velocity * at.r_xx) / stretch + point.weight_rate * stretch;
+        });
   }
 }
 
@@ -322,7 +364,7 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     seen.energy.gravity -= m * gravity(t).dot(y.segment<D>(at));
     seen.momentum += m * v;
   }
-  if (model_.section.damped()) seen.energy.dissipated = y[y.size() - 1];
+  if (model_.dissipates()) seen.energy.dissipated = y[y.size() - 1];
   return seen;
 }
 

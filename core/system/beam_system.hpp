@@ -29,6 +29,9 @@ struct BeamModel {
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
   std::shared_ptr<const RestCurve<D>> rest;  ///< null for a straight, unstrained rest shape
+
+  /// Whether energy is lost, which the state then counts.
+  bool dissipates() const { return section.damped() || (joint && joint->friction); }
 };
 
 /// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
@@ -42,6 +45,7 @@ template <int D>
 struct Observation {
   Energy energy;
   double beam_length = 0;                            ///< [m]
+  double beam_length_rate = 0;                       ///< [m/s]
   Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [kg m/s]
 };
 
@@ -62,8 +66,9 @@ template <int D>
 class ImplicitBeam;
 
 /// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
-/// State y = (q, q', dissipated): q holds the nodes (position and slope each) and then x_i of the joint, or the free
-/// mass's position once it has left; the dissipated energy is there only for a damped section.
+/// State y = (q, q', dissipated): q holds the nodes (position and slope each) and then x_i of the joint and, where the
+/// joint is kinked, the slope behind it, or the free mass's position once it has left; the dissipated energy is there
+/// only where the model dissipates.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
@@ -73,7 +78,7 @@ class BeamSystem final : public EventedOde {
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
   ~BeamSystem() override;
 
-  Eigen::Index size() const override { return 2 * coordinates_ + (model_.section.damped() ? 1 : 0); }
+  Eigen::Index size() const override { return 2 * coordinates_ + (model_.dissipates() ? 1 : 0); }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
@@ -104,6 +109,16 @@ class BeamSystem final : public EventedOde {
   ChainState<D> chain(const Eigen::VectorXd& y) const;
   bool has_joint() const { return joint_ != no_joint; }
   int joint() const { return joint_; }
+  /// The beam has two slopes at the joint.
+  bool kinked() const { return has_joint() && model_.joint->kinked(); }
+  /// Slopes at the joint, before and behind it, of an array of coordinates or rates.
+  Eigen::Matrix<double, 2 * D, 1> joint_slopes(const double* q) const {
+    Eigen::Matrix<double, 2 * D, 1> slopes;
+    slopes << slope<D>(q, joint_), Eigen::Map<const Vector>(q + behind_);
+    return slopes;
+  }
+  /// How far the slopes at the joint are from their conditions [-], [1/s].
+  ConstraintResidual slope_residual(const Eigen::VectorXd& y) const;
   const Mesh& mesh() const { return mesh_; }
   Eigen::Index coordinates() const { return coordinates_; }
   /// Counts the meshes there have been.
@@ -131,8 +146,12 @@ class BeamSystem final : public EventedOde {
 
   void adopt(const ChainState<D>& chain);
   JointElements joint_elements(const double* q, const double* rate, double t) const;
-  /// Solves M a = f in place; false where the mass matrix is singular. `elements` is null without a joint.
-  bool solve_mass(const JointElements* elements, double* f) const;
+  JointMotion<D> joint_motion(const double* q, const double* rate, double t) const;
+  /// Coordinates (or rates, or forces) of element k in an array like q.
+  NodalCubic<double, D> element_of(const double* q, int k) const;
+  /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
+  /// matrix is singular. `elements` is null without a joint.
+  bool solve_mass(const JointElements* elements, const double* q, double* p) const;
   void multiply_mass(const JointElements* elements, const double* rate, double* out) const;
   /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
   Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
@@ -154,6 +173,7 @@ class BeamSystem final : public EventedOde {
   int joint_ = no_joint;
   bool free_mass_ = false;
   Eigen::Index nodal_ = 0, coordinates_ = 0;
+  Eigen::Index behind_ = 0;  ///< where q holds the slope behind the joint: the node's own, unless the joint is kinked
   std::optional<Span<D>> left_, right_;
   ShapeTabulation left_table_, right_table_;
   Eigen::VectorXd initial_;

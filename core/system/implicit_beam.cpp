@@ -35,6 +35,7 @@ void ImplicitBeam<D>::refresh() const {
   if (revision_ == system_.revision()) return;
   revision_ = system_.revision();
   constraints_.clear();
+  slope_conditions_ = {};
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
   if (!with_multipliers()) return;
   at_end_nodes([&](int node, const Support<D>& support) {
@@ -49,20 +50,42 @@ void ImplicitBeam<D>::refresh() const {
     }
   });
   if (!system_.has_joint()) return;
-  for (int c = 0; c < B; ++c) {
+  for (int c = 0; c < (system_.kinked() ? D : B); ++c) {
     constraints_.push_back({system_.joint(), NodeVector::Unit(c), NodeVector::Zero(), true});
   }
+  slope_conditions_ = {system_.model().joint->slopes, omitted_axis_};
+}
+
+template <int D>
+typename ImplicitBeam<D>::Slopes ImplicitBeam<D>::joint_slopes(const double* q) const {
+  Slopes slopes;
+  slopes << slope<D>(q, system_.joint()), slope<D>(q, system_.joint() + cut());
+  return slopes;
+}
+
+/// In space the components of the cross product change over only where the slope has turned far away: they change the
+/// multipliers' meaning.
+template <int D>
+const SlopeConditions<D>& ImplicitBeam<D>::slope_conditions(const double* q) const {
+  if (D == 3 && slope_conditions_.count() > 0) {
+    const Vec<double, D> before = slope<D>(q, system_.joint());
+    if (std::abs(before[omitted_axis_]) < 0.4 * before.norm()) {
+      omitted_axis_ = longest_axis<D>(before);
+      slope_conditions_ = {system_.model().joint->slopes, omitted_axis_};
+    }
+  }
+  return slope_conditions_;
 }
 
 template <int D>
 Eigen::Index ImplicitBeam<D>::multipliers() const {
   refresh();
-  return static_cast<Eigen::Index>(constraints_.size());
+  return static_cast<Eigen::Index>(constraints_.size()) + slope_conditions_.count();
 }
 
 template <int D>
 Eigen::Index ImplicitBeam<D>::coordinates() const {
-  return system_.coordinates() + B * cut() + multipliers();
+  return system_.coordinates() + B * cut() - (system_.kinked() ? D : 0) + multipliers();
 }
 
 template <int D>
@@ -73,13 +96,15 @@ void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen
     v = y.segment(own, own);
     return;
   }
-  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1), behind = own - before;
+  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1);
+  const Eigen::Index kink = system_.kinked() ? D : 0, behind = own - before - kink;
   auto spread = [&](const auto& from, Eigen::VectorXd& to) {
     to.setZero(n);
     to.head(before) = from.head(before);
     if (cut() == 0) return;
     to.segment(before, B) = from.segment(before - B, B);
-    to.segment(before + B, behind) = from.tail(behind);
+    to.segment(before + D, kink) = from.tail(kink);
+    to.segment(before + B, behind) = from.segment(before, behind);
   };
   spread(y.head(own), q);
   spread(y.segment(own, own), v);
@@ -88,10 +113,12 @@ void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen
 template <int D>
 void ImplicitBeam<D>::contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const {
   const Eigen::Index own = system_.coordinates();
-  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1), behind = own - before;
+  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1);
+  const Eigen::Index kink = system_.kinked() ? D : 0, behind = own - before - kink;
   auto gather = [&](const Eigen::VectorXd& from, auto to) {
     to.head(before) = from.head(before);
-    to.tail(behind) = from.segment(before + B * cut(), behind);
+    to.segment(before, behind) = from.segment(before + B * cut(), behind);
+    to.tail(kink) = from.segment(before + D, kink);
   };
   gather(q, y.head(own));
   gather(v, y.segment(own, own));
@@ -107,7 +134,7 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   y_.head(own) = dydt_.segment(own, own);
   Eigen::VectorXd unused;
   expand(y_, a, unused);
-  if (constraints_.empty()) return;
+  if (multipliers() == 0) return;
   // what the equations of motion lack is what the constraints give: their directions are orthonormal, node by node
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
@@ -118,6 +145,13 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
         constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + Eigen::Index{B} * node));
     a[a.size() - multipliers() + static_cast<Eigen::Index>(i)] = (constraint.tied ? 1 : -1) * lacking / reference_mass_;
   }
+  if (slope_conditions_.count() == 0) return;
+  const auto& conditions = slope_conditions(q.data());
+  Eigen::MatrixXd gradients(2 * D, conditions.count());
+  for (int i = 0; i < conditions.count(); ++i) gradients.col(i) = conditions.gradient(i, joint_slopes(q.data()));
+  a.tail(conditions.count()) =
+      -(gradients.transpose() * gradients).ldlt().solve(gradients.transpose() * joint_slopes(free_.data())) /
+      reference_mass_;
 }
 
 template <int D>
@@ -171,7 +205,14 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     };
     add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
     add.template operator()<MovingEnds::a>(j + cut(), mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
-    position<D>(r.data(), j) += model.joint->mass * (position<D>(a.data(), j) - gravity);
+    const Vec<double, D> pull = position<D>(a.data(), j) - gravity;
+    position<D>(r.data(), j) += model.joint->mass * pull;
+    if (model.joint->friction) {
+      const Vec<double, D> mean = (slope<D>(q.data(), j) + slope<D>(q.data(), j + cut())) / 2;
+      const auto friction = friction_force<double, D>(*model.joint->friction, model.joint->mass, pull, mean, v[extra]);
+      r[extra] -= friction.force;
+      dissipation += friction.dissipation;
+    }
   } else if (model.joint) {
     r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
   }
@@ -195,6 +236,17 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
     if (constraint.tied) next -= multiplier * constraint.direction;
     r[at] = constraint(q.data(), false);
   }
+  if (slope_conditions_.count() > 0) {
+    const auto& conditions = slope_conditions(q.data());
+    const Slopes slopes = joint_slopes(q.data());
+    for (int i = 0; i < conditions.count(); ++i) {
+      const Eigen::Index at = first_slope_multiplier() + i;
+      const Slopes force = reference_mass_ * a[at] * conditions.gradient(i, slopes);
+      slope<D>(r.data(), system_.joint()) += force.template head<D>();
+      slope<D>(r.data(), system_.joint() + 1) += force.template tail<D>();
+      r[at] = conditions.value(i, slopes);
+    }
+  }
   return dissipation;
 }
 
@@ -205,6 +257,11 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
   for (const auto& constraint : constraints_) {
     largest.position = std::max(largest.position, std::abs(constraint(q.data(), false)));
     largest.velocity = std::max(largest.velocity, std::abs(constraint(v.data(), true)));
+  }
+  for (int i = 0; i < slope_conditions_.count(); ++i) {
+    const Slopes slopes = joint_slopes(q.data());
+    largest.position = std::max(largest.position, std::abs(slope_conditions_.value(i, slopes)));
+    largest.velocity = std::max(largest.velocity, std::abs(slope_conditions_.rate(i, slopes, joint_slopes(v.data()))));
   }
   return largest;
 }
@@ -249,6 +306,7 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
     add.template operator()<MovingEnds::a>(j + shift, mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
     tangent_.diagonal[ju].template topLeftCorner<D, D>().diagonal().array() += by_a * model.joint->mass;
+    if (model.joint->friction) add_friction_tangent(q, v, a, t, by_v, by_a);
   } else if (model.joint) {
     for (int c = 0; c < D; ++c) tangent_.add_border(0);
     tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
@@ -261,12 +319,39 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   ++factorizations_;
   assemble(q, v, a, t, by_v, by_a);
   if (with_multipliers()) {
-    add_constraints(by_a);
+    add_constraints(q, a, by_a);
   } else {
     constrain_tangent();
   }
   return tangent_.factor();
 }
+
+/// Friction acts on the joint's material coordinate, the first unknown of the border, alone.
+template <int D>
+void ImplicitBeam<D>::add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                           double t, double by_v, double by_a) {
+  constexpr int N = 2 * D + 1;  // by the mass's acceleration, the mean slope and x'
+  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  const auto& joint = *system_.model().joint;
+  const int j = system_.joint(), far = j + cut();
+  const Vec<double, D> pull = position<D>(a.data(), j) - system_.gravity(t);
+  const Vec<double, D> mean = (slope<D>(q.data(), j) + slope<D>(q.data(), far)) / 2;
+  Vec<Real, D> active_pull, active_slope;
+  for (int c = 0; c < D; ++c) {
+    active_pull[c] = Real(pull[c], N, c);
+    active_slope[c] = Real(mean[c], N, D + c);
+  }
+  const Real x_rate(v[after_nodes()], N, 2 * D);
+  const Real force = friction_force<Real, D>(*joint.friction, joint.mass, active_pull, active_slope, x_rate).force;
+  if (force.derivatives().size() == 0 || force.value() == 0) return;
+  const Eigen::Matrix<double, N, 1> by = force.derivatives();
+  auto& row = tangent_.border.front().row;  // from node j - 1 on
+  row[1].template head<D>() -= by_a * by.template head<D>();
+  row[1].template tail<D>() -= by.template segment<D>(D) / 2;
+  row[static_cast<std::size_t>(far - j) + 1].template tail<D>() -= by.template segment<D>(D) / 2;
+  tangent_.corner(0, 0) -= by_v * by[2 * D];
+}
+
 template <int D>
 void ImplicitBeam<D>::constrain_tangent() {
   const std::size_t last = tangent_.diagonal.size() - 1;
@@ -301,12 +386,28 @@ void ImplicitBeam<D>::constrain_tangent() {
 
 /// Rows and columns of the constraints, scaled as the rest of the tangent is: by a mass and by_a.
 template <int D>
-void ImplicitBeam<D>::add_constraints(double by_a) {
+void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double by_a) {
   constraint_scale_ = reference_mass_ * by_a;
   for (const auto& constraint : constraints_) {
     auto& border = tangent_.add_border(constraint.node);
     border.column[0] = border.row[0] = constraint_scale_ * constraint.direction;
     if (constraint.tied) border.column[1] = border.row[1] = -constraint_scale_ * constraint.direction;
+  }
+  if (slope_conditions_.count() == 0) return;
+  const auto& conditions = slope_conditions(q.data());
+  const Slopes slopes = joint_slopes(q.data());
+  const auto j = static_cast<std::size_t>(system_.joint());
+  for (int i = 0; i < conditions.count(); ++i) {
+    const Slopes gradient = constraint_scale_ * conditions.gradient(i, slopes);
+    auto& border = tangent_.add_border(system_.joint());
+    border.column[0].template tail<D>() = border.row[0].template tail<D>() = gradient.template head<D>();
+    border.column[1].template tail<D>() = border.row[1].template tail<D>() = gradient.template tail<D>();
+    const typename JointSlopeConditions::Form curvature =
+        reference_mass_ * a[first_slope_multiplier() + i] * conditions.form(i);
+    tangent_.diagonal[j].template bottomRightCorner<D, D>() += curvature.template topLeftCorner<D, D>();
+    tangent_.upper[j].template bottomRightCorner<D, D>() += curvature.template topRightCorner<D, D>();
+    tangent_.lower[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomLeftCorner<D, D>();
+    tangent_.diagonal[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomRightCorner<D, D>();
   }
 }
 

@@ -15,9 +15,10 @@ namespace vlbeam {
 /// included).
 ///
 /// With eliminated constraints the coordinates are those of BeamSystem's state. With multipliers the joint is cut: its
-/// node is there twice, behind each other, tied by 2 D constraints; supports are constraints too, and the reactions
-/// stand at the end of the coordinates. The border then holds the joint's material coordinate (or the free mass's
-/// position) and the multipliers.
+/// node is there twice, behind each other, tied by 2 D constraints (where the beam is kinked there, by D and the
+/// conditions on the slopes); supports are constraints too, and the reactions stand at the end of the coordinates. The
+/// border then holds the joint's material coordinate (or the free mass's position) and the multipliers.
+/// A kinked joint is always cut; with eliminated constraints only residuals, hence reactions, are then to be had.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
@@ -60,10 +61,19 @@ class ImplicitBeam final : public SecondOrderSystem {
     double operator()(const double* q, bool rate) const;
   };
 
+  using JointSlopeConditions = SlopeConditions<D>;
+  using Slopes = typename JointSlopeConditions::Slopes;
+
   void refresh() const;
+  /// Slopes on the two sides of the joint; with one copy of its node they are the same.
+  Slopes joint_slopes(const double* q) const;
+  /// The conditions on the slopes of a kinked joint at the coordinates q.
+  const JointSlopeConditions& slope_conditions(const double* q) const;
+  /// Where the multiplier of the first of them stands.
+  Eigen::Index first_slope_multiplier() const { return coordinates() - slope_conditions_.count(); }
   bool with_multipliers() const { return system_.model().constraints == Constraints::multipliers; }
   /// 1 where the joint's node is there twice.
-  int cut() const { return with_multipliers() && system_.has_joint() ? 1 : 0; }
+  int cut() const { return system_.has_joint() && (with_multipliers() || system_.kinked()) ? 1 : 0; }
   int nodes() const { return system_.mesh().last() + 1 + cut(); }
   /// Where what follows the nodes stands: the joint's material coordinate or the free mass.
   Eigen::Index after_nodes() const { return Eigen::Index{B} * nodes(); }
@@ -76,7 +86,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
-  void add_constraints(double by_a);
+  void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double by_a);
+  void add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                            double by_v, double by_a);
   void add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   template <class Function>
   void at_end_nodes(const Function& function) const;
@@ -85,8 +97,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable std::vector<Constraint> constraints_;
-  mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
-  double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
+  mutable SlopeConditions<D> slope_conditions_;  ///< behind them
+  mutable int omitted_axis_ = 0;                 ///< of tangent slopes in space
+  mutable double reference_mass_ = 1;            ///< [kg], makes an acceleration of a multiplier
+  double constraint_scale_ = 1;                  ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
   Eigen::VectorXd y_, dydt_, free_;
   Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian

@@ -15,12 +15,14 @@ constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 }  // namespace
 
 template <int D>
-bool BeamSystem<D>::solve_mass(const JointElements* elements, double* f) const {
+bool BeamSystem<D>::solve_mass(const JointElements* elements, const double* q, double* p) const {
   if (elements == nullptr) {
-    solve_without_joint(*left_, *right_, f);
+    solve_without_joint(*left_, *right_, p);
     return true;
   }
-  return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, f, f[nodal_]);
+  const JointMotion<D> at_rest{joint_slopes(q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero()};
+  return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, at_rest, p, p + nodal_)
+      .has_value();
 }
 
 template <int D>
@@ -30,7 +32,7 @@ void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* r
   right_->add_inertia(rate, out);
   if (elements == nullptr) return;
   auto add = [&](const MovingEquations<double, D>& eq, const std::array<Vector, 4>& border, double corner, int k) {
-    const auto e = element_nodes<D>(rate, k);
+    const auto e = element_of(rate, k);
     const std::array<Vector, 4> nodal{e.r_a, e.s_a, e.r_b, e.s_b};
     std::array<Vector, 4> sum;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -40,7 +42,7 @@ void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* r
     }
     out[nodal_] += corner * rate[nodal_];
     position<D>(out, k) += sum[0];
-    slope<D>(out, k) += sum[1];
+    (k == joint_ ? Eigen::Map<Vector>(out + behind_) : slope<D>(out, k)) += sum[1];
     position<D>(out, k + 1) += sum[2];
     slope<D>(out, k + 1) += sum[3];
   };
@@ -64,8 +66,10 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
       const double x = a + u * length;
       const auto was = motion_at(before, from, x, model_.transport), is = motion_at(after, to, x, model_.transport);
       const Vector excess = (was.v - is.v) * (weight * length * model_.section.rhoA);
-      auto nodal = momentum.segment<2 * node_size<D>>(node_size<D> * to);
-      for (int i = 0; i < 4; ++i) nodal.template segment<D>(i * D) += is.s[static_cast<std::size_t>(i)] * excess;
+      for (int i = 0; i < 4; ++i) {
+        const Eigen::Index at = to == joint_ && i == 1 ? behind_ : Eigen::Index{node_size<D>} * to + i * D;
+        momentum.segment<D>(at) += is.s[static_cast<std::size_t>(i)] * excess;
+      }
       if (to + 1 == joint_) momentum[nodal_] += is.y_b.dot(excess);
       if (to == joint_) momentum[nodal_] += is.y_a.dot(excess);
     }
@@ -78,7 +82,7 @@ void BeamSystem<D>::project_velocities(const ChainState<D>& before, int first, i
                                        double t) const {
   Eigen::VectorXd correction = excess_momentum(before, chain(y), first, last);
   const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
-  if (solve_mass(&elements, correction.data())) y.segment(coordinates_, coordinates_) += correction;
+  if (solve_mass(&elements, y.data(), correction.data())) y.segment(coordinates_, coordinates_) += correction;
 }
 
 template <int D>
@@ -88,20 +92,20 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements* elements, cons
   Eigen::VectorXd rigid(coordinates_);
   for (int mode = 0; mode < D + rotations; ++mode) {
     rigid.setZero();
-    for (int k = 0; k <= mesh_.last(); ++k) {
-      auto r_rate = position<D>(rigid.data(), k);
-      auto s_rate = slope<D>(rigid.data(), k);
+    const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
+    auto rotate = [&](Eigen::Index vector) {
+      rigid[vector + a] = -y[vector + b];
+      rigid[vector + b] = y[vector + a];
+    };
+    for (Eigen::Index node = 0; node < nodal_; node += node_size<D>) {
       if (mode < D) {
-        r_rate[mode] = 1;
-        continue;
+        rigid[node + mode] = 1;
+      } else {
+        rotate(node);
+        rotate(node + D);
       }
-      const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
-      const auto r = position<D>(y.data(), k), s = slope<D>(y.data(), k);
-      r_rate[a] = -r[b];
-      r_rate[b] = r[a];
-      s_rate[a] = -s[b];
-      s_rate[b] = s[a];
     }
+    if (mode >= D && kinked()) rotate(behind_);
     multiply_mass(elements, rigid.data(), momenta.col(mode).data());
   }
   return momenta;
@@ -121,7 +125,7 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
   const Eigen::MatrixXd rigid = rigid_momenta(&elements, y);
   Eigen::MatrixXd motion = rigid;
   for (Eigen::Index mode = 0; mode < motion.cols(); ++mode) {
-    if (!solve_mass(&elements, motion.col(mode).data())) return;
+    if (!solve_mass(&elements, y.data(), motion.col(mode).data())) return;
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> metric(rigid.transpose() * motion);
   rate += motion * metric.solve(momenta - rigid.transpose() * rate);
@@ -138,14 +142,14 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
   rate += scaling * fluctuation;
 }
 
-template bool BeamSystem<2>::solve_mass(const JointElements*, double*) const;
+template bool BeamSystem<2>::solve_mass(const JointElements*, const double*, double*) const;
 template void BeamSystem<2>::multiply_mass(const JointElements*, const double*, double*) const;
 template Eigen::VectorXd BeamSystem<2>::excess_momentum(const ChainState<2>&, const ChainState<2>&, int, int) const;
 template void BeamSystem<2>::project_velocities(const ChainState<2>&, int, int, Eigen::VectorXd&, double) const;
 template Eigen::MatrixXd BeamSystem<2>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<2>::momenta(const Eigen::VectorXd&, double) const;
 template void BeamSystem<2>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
-template bool BeamSystem<3>::solve_mass(const JointElements*, double*) const;
+template bool BeamSystem<3>::solve_mass(const JointElements*, const double*, double*) const;
 template void BeamSystem<3>::multiply_mass(const JointElements*, const double*, double*) const;
 template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, const ChainState<3>&, int, int) const;
 template void BeamSystem<3>::project_velocities(const ChainState<3>&, int, int, Eigen::VectorXd&, double) const;

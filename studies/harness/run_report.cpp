@@ -62,6 +62,7 @@ Json samples(const Scene& scene, const std::vector<Sample>& rows) {
            of([d](const Sample& s) { return s.mass_position ? components(*s.mass_position, d) : Json(); })},
           {"end", of([d](const Sample& s) { return components(s.end, d); })},
           {"beam_length", of([](const Sample& s) -> Json { return s.beam_length; })},
+          {"beam_length_rate", of([](const Sample& s) -> Json { return s.beam_length_rate; })},
           {"energy", energy},
           {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })},
           {"reactions", reactions}};
@@ -71,8 +72,10 @@ Json configuration(const Configuration& shape, int d) {
   const auto points = [d](const std::vector<Point>& list) {
     return column<Point>(list, [d](const Point& p) { return components(p, d); });
   };
-  return {
+  Json json = {
       {"t", shape.t}, {"x", shape.x}, {"r", points(shape.r)}, {"r_x", points(shape.r_x)}, {"weights", shape.weights}};
+  if (shape.kink) json["kink"] = {{"node", shape.kink->node}, {"r_x", components(shape.kink->r_x, d)}};
+  return json;
 }
 
 Json event(const Event& e) {
@@ -114,6 +117,7 @@ Json run_report(const Scene& scene, const RunResult& result) {
                       {"constraint_residual",
                        {{"position", result.solver.newton.constraints.position},
                         {"velocity", result.solver.newton.constraints.velocity}}},
+                      {"slope_residual", {{"position", result.slopes.position}, {"velocity", result.slopes.velocity}}},
                       {"largest_kinetic_energy", result.max_kinetic},
                       {"largest_energy_drift", result.max_energy_drift}};
   return report;
@@ -130,7 +134,7 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
   for (const char* vector : {"mass", "end"}) {
     for (std::size_t i = 0; i < d; ++i) text += std::string(",") + vector + "_" + axes[i];
   }
-  text += ",beam_length";
+  text += ",beam_length,beam_length_rate";
   for (const auto& [name, value] : energies()) text += std::string(",energy_") + name;
   for (std::size_t i = 0; i < d; ++i) text += std::string(",momentum_") + axes[i];
   text += '\n';
@@ -142,6 +146,7 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
     for (std::size_t i = 0; i < d; ++i) text += s.mass_position ? "," + number_text((*s.mass_position)[i]) : ",";
     for (std::size_t i = 0; i < d; ++i) cell(s.end[i]);
     cell(s.beam_length);
+    cell(s.beam_length_rate);
     for (const auto& [name, value] : energies()) cell(value(s.energy));
     for (std::size_t i = 0; i < d; ++i) cell(s.momentum[i]);
     text += '\n';

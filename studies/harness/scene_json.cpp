@@ -298,7 +298,7 @@ class Writer {
 
 Scene scene_with_every_part() {
   Scene scene;
-  scene.sliding_mass.emplace();
+  scene.sliding_mass.emplace().friction.emplace();
   return scene;
 }
 

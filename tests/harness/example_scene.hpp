@@ -16,7 +16,7 @@ inline Json example_scene() {
              "quadrature_points": 5, "weights": [1, 1, 1, 1]},
     "supports": [{"at": "start", "type": "clamp", "clamp": "full"}],
     "sliding_mass": {"mass": 0.8, "position": 0.1, "velocity": 0.5, "slopes": "continuous",
-                     "separation_distance": 0.002},
+                     "friction": {"coefficient": 0.2, "velocity": 0.002}, "separation_distance": 0.002},
     "formulation": "virtual-work", "weights": "frozen",
     "length_control": {"enabled": true, "upper": 1.5, "hysteresis": 0.001, "merge": "point-fit"},
     "integrator": {"type": "cash-karp", "rtol": 1e-9, "atol": 1e-8},

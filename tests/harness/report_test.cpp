@@ -74,10 +74,11 @@ TEST(RunReport, AFailureSaysWhenAndWhat) {
 TEST(SamplesCsv, HasOneLineASample) {
   const std::string csv = samples_csv(scene_from_json(example_scene()), small_run());
   EXPECT_EQ(csv,
-            "t,joint_position,mass_x,mass_y,end_x,end_y,beam_length,energy_kinetic,energy_axial,energy_bending,"
+            "t,joint_position,mass_x,mass_y,end_x,end_y,beam_length,beam_length_rate,energy_kinetic,energy_axial,"
+            "energy_bending,"
             "energy_torsion,energy_gravity,energy_dissipated,energy_total,momentum_x,momentum_y\n"
-            "0,0.25,0.25,0,1,-0.5,0,1,2,3,0,-4,0.5,2.5,0,0\n"
-            "0.005,,0.25,0,1,-0.5,0,1,2,3,0,-4,0.5,2.5,0,0\n");
+            "0,0.25,0.25,0,1,-0.5,0,0,1,2,3,0,-4,0.5,2.5,0,0\n"
+            "0.005,,0.25,0,1,-0.5,0,0,1,2,3,0,-4,0.5,2.5,0,0\n");
 }
 
 }  // namespace

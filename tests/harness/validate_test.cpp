@@ -70,6 +70,11 @@ const Rule ranges[] = {
     {"/beam/weights/2", [](Scene& s) { s.beam.weights[2] = 0; }},
     {"/sliding_mass/mass", [](Scene& s) { s.sliding_mass->mass = 0; }},
     {"/sliding_mass/velocity", [](Scene& s) { s.sliding_mass->velocity = -inf; }},
+    {"/sliding_mass/friction/coefficient", [](Scene& s) { s.sliding_mass->friction = AxialFriction{-0.1}; }},
+    {"/sliding_mass/friction/velocity",
+     [](Scene& s) {
+       s.sliding_mass->friction = AxialFriction{0.1, 0};
+     }},
     {"/length_control/hysteresis", [](Scene& s) { s.length_control.hysteresis = -0.1; }},
     {"/integrator/rtol", [](Scene& s) { s.integrator.rtol = 0; }},
     {"/integrator/atol", [](Scene& s) { s.integrator.atol = nan; }},
@@ -159,6 +164,28 @@ const Rule rules[] = {
     {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = 1.5; }},
     {"/sliding_mass/position", [](Scene& s) { s.sliding_mass->position = -0.5; }},
     {"/sliding_mass/separation_distance", [](Scene& s) { s.sliding_mass->separation_distance = 0.025; }},
+    {"/sliding_mass/slopes",
+     [](Scene& s) {
+       s.sliding_mass->slopes = JointSlopes::tangent;
+       s.integrator.type = IntegratorType::generalized_alpha;
+     }},
+    {"/sliding_mass/slopes",
+     [](Scene& s) {
+       s.sliding_mass->slopes = JointSlopes::free;
+       s.integrator.type = IntegratorType::rosenbrock4;
+     }},
+    {"/sliding_mass/slopes",
+     [](Scene& s) {
+       s.sliding_mass->slopes = JointSlopes::equal_stretch;
+       s.integrator.type = IntegratorType::energy_momentum;
+       s.formulation = Formulation::variational;
+     }},
+    {"/sliding_mass/friction",
+     [](Scene& s) {
+       s.sliding_mass->friction = AxialFriction{0.1};
+       s.integrator.type = IntegratorType::energy_momentum;
+       s.formulation = Formulation::variational;
+     }},
     {"/integrator/step",
      [](Scene& s) {
        s.integrator.type = IntegratorType::generalized_alpha;
@@ -197,6 +224,16 @@ TEST(Validate, AcceptsTheLimits) {
   scene.length_control = {.enabled = true, .upper = 1.5, .hysteresis = 0};
   scene.output.configurations = {0, scene.duration};
   scene.beam.quadrature_points = 3;
+  EXPECT_NO_THROW(validate(scene));
+}
+
+TEST(Validate, AcceptsAKinkWithMultipliers) {
+  Scene scene = example();
+  scene.sliding_mass->slopes = JointSlopes::tangent;
+  scene.sliding_mass->friction = AxialFriction{0.2};
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = 1e-3;
+  scene.constraints = Constraints::multipliers;
   EXPECT_NO_THROW(validate(scene));
 }
 

@@ -38,6 +38,55 @@ TEST(Multipliers, GiveTheTrajectoryOfEliminatedConstraints) {
   }
 }
 
+class KinkedMultipliers : public ::testing::TestWithParam<JointSlopes> {};
+
+TEST_P(KinkedMultipliers, TendToTheExplicitSolutionWithOrderTwo) {
+  for (const double friction : {0.0, 0.2}) {
+    for (const bool spatial : {false, true}) {
+      SCOPED_TRACE(std::string(spatial ? "in space" : "in the plane") + (friction > 0 ? ", with friction" : ""));
+      auto scene = falling_beam(ElementKind::ale_ancf, 4);
+      scene.start.type = scene.end.type = SupportType::pin;
+      scene.sliding_mass->mass = 5;
+      scene.sliding_mass->slopes = GetParam();
+      if (friction > 0) scene.sliding_mass->friction = AxialFriction{friction, 0.1};
+      if (spatial) {
+        scene.dimension = 3;
+        scene.beam.curve.end = {0.6, 0.64, 0.48};
+      }
+      scene.gravity_ramp = 0.1;
+      scene.duration = scene.output.interval = 0.2;
+      set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
+      const auto exact = simulate(scene);
+      EXPECT_GT(std::abs(*exact.samples.back().joint_position - 0.1), 1e-2) << "the mass must move";
+      scene.integrator.type = IntegratorType::generalized_alpha;
+      scene.integrator.newton_tolerance = 1e-13;
+      scene.constraints = Constraints::multipliers;
+      std::array<double, 2> errors{};
+      scene.integrator.step = 2.5e-4;
+      for (double& error : errors) {
+        const auto result = simulate(scene);
+        ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double off = (*result.samples.back().mass_position)[c] - (*exact.samples.back().mass_position)[c];
+          error = std::max(error, std::abs(off));
+        }
+        EXPECT_LE(result.solver.newton.constraints.position, 1e-11);
+        scene.integrator.step /= 2;
+      }
+      EXPECT_LE(errors[1], 1e-6);
+      const double order = std::log2(errors[0] / errors[1]);
+      if (friction > 0) {
+        EXPECT_GE(order, 1.7) << "the contact force passes through zero: a kink in time";
+      } else {
+        EXPECT_NEAR(order, 2, 0.1);
+      }
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Modes, KinkedMultipliers,
+                         ::testing::Values(JointSlopes::continuous, JointSlopes::tangent, JointSlopes::equal_stretch,
+                                           JointSlopes::free));
+
 TEST(Multipliers, AreOfSecondOrder) {
   // gravity grows smoothly and no event is due
   auto scene = falling_beam(ElementKind::ale_ancf, 4);

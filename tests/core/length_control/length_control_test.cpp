@@ -24,6 +24,11 @@ template <int D>
 void expect_same(const ChainState<D>& a, const ChainState<D>& b, double tolerance) {
   EXPECT_EQ(a.joint, b.joint);
   EXPECT_NEAR(a.joint_rate, b.joint_rate, tolerance);
+  ASSERT_EQ(a.kink.has_value(), b.kink.has_value());
+  if (a.kink) {
+    EXPECT_LE((a.kink->slope - b.kink->slope).norm(), tolerance);
+    EXPECT_LE((a.kink->rate - b.kink->rate).norm(), tolerance);
+  }
   ASSERT_EQ(a.mesh.x.size(), b.mesh.x.size());
   for (std::size_t k = 0; k < a.mesh.x.size(); ++k) EXPECT_NEAR(a.mesh.x[k], b.mesh.x[k], tolerance);
   for (std::size_t i = 0; i < a.q.size(); ++i) {
@@ -123,19 +128,21 @@ TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
     for (const MergePolicy policy : policies) {
-      const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport};
-      auto forward = smooth_chain<D>(shape, 1.5, this->random_);
-      auto backward = reversed(forward);
-      const Vec<double, D> deleted = position<D>(forward.q.data(), 3);
-      const double x_deleted = forward.mesh.x[3];
-      segment_and_merge(forward, Direction::forward, this->control(policy), StrainLaw::green, this->law(transport));
-      segment_and_merge(backward, Direction::backward, this->control(policy), StrainLaw::green, this->law(transport));
-      auto mirror = reversed(backward);
-      if (policy == MergePolicy::point_fit) {  // the paper's norm prefers one end: other weights through the same point
-        EXPECT_LE((point_motion(mirror, transport, x_deleted).r - deleted).norm(), 1e-14);
-        mirror.mesh.weights[3] = forward.mesh.weights[3];
+      for (const auto slopes : {JointSlopes::continuous, JointSlopes::free}) {
+        const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport, .slopes = slopes};
+        auto forward = smooth_chain<D>(shape, 1.5, this->random_);
+        auto backward = reversed(forward);
+        const Vec<double, D> deleted = position<D>(forward.q.data(), 3);
+        const double x_deleted = forward.mesh.x[3];
+        segment_and_merge(forward, Direction::forward, this->control(policy), StrainLaw::green, this->law(transport));
+        segment_and_merge(backward, Direction::backward, this->control(policy), StrainLaw::green, this->law(transport));
+        auto mirror = reversed(backward);
+        if (policy == MergePolicy::point_fit) {  // the paper's norm prefers one end: others through the same point
+          EXPECT_LE((point_motion(mirror, transport, x_deleted).r - deleted).norm(), 1e-14);
+          mirror.mesh.weights[3] = forward.mesh.weights[3];
+        }
+        expect_same(mirror, forward, 1e-12);
       }
-      expect_same(mirror, forward, 1e-12);
     }
   }
 }
@@ -144,13 +151,15 @@ TYPED_TEST(LengthControlOf, SeparationBringsBackTheUniformMesh) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
     for (const MergePolicy policy : policies) {
-      const ChainShape shape{.elements = 5, .joint = 4, .rational = true, .transport = transport};
+      const JointSlopes slopes = policy == MergePolicy::unit ? JointSlopes::continuous : JointSlopes::free;
+      const ChainShape shape{.elements = 5, .joint = 4, .rational = true, .transport = transport, .slopes = slopes};
       auto chain = smooth_chain<D>(shape, 1.995, this->random_);  // about to leave
       auto mirror = reversed(chain);
       const auto before = chain;
       separate(chain, Direction::forward, this->control(policy), transport);
       EXPECT_EQ(chain.joint, no_joint);
       EXPECT_EQ(chain.joint_rate, 0);
+      EXPECT_FALSE(chain.kink.has_value());
       for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
         EXPECT_NEAR(chain.mesh.x[k], standard * static_cast<double>(k), 1e-15);
       }

@@ -15,7 +15,7 @@ BeamModel<D> model_of(const ChainShape& shape, Random& random) {
   model.transport = shape.transport;
   model.gravity = random.vector<D>(10);
   model.length_control.standard_length = shape.element_length;
-  if (shape.joint != no_joint) model.joint = SlidingJoint{0.4};
+  if (shape.joint != no_joint) model.joint = SlidingJoint{0.4, shape.slopes};
   return model;
 }
 

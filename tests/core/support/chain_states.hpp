@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/joint/slope_conditions.hpp"
 #include "core/length_control/chain_state.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -14,7 +15,23 @@ struct ChainShape {
   bool rational = false;
   WeightTransport transport = WeightTransport::frozen;
   double element_length = 0.2;
+  JointSlopes slopes = JointSlopes::continuous;
 };
+
+/// A random slope behind the joint, and its rate, as the joint's mode allows beside the one before it.
+template <int D>
+typename ChainState<D>::Kink random_kink(JointSlopes slopes, const Vec<double, D>& before, const Vec<double, D>& rate,
+                                         Random& random) {
+  typename ChainState<D>::Kink kink{before + random.vector<D>(0.3), random.vector<D>()};
+  if (slopes == JointSlopes::tangent) {
+    const double ratio = random.uniform(0.8, 1.2), ratio_rate = random.uniform(-1, 1);
+    kink = {ratio * before, ratio * rate + ratio_rate * before};
+  } else if (slopes == JointSlopes::equal_stretch) {
+    kink.slope *= before.norm() / kink.slope.norm();
+    kink.rate += kink.slope * (before.dot(rate) - kink.slope.dot(kink.rate)) / before.squaredNorm();
+  }
+  return kink;
+}
 
 /// Positions and slopes of the nodes along a smooth curve about the first axis of a random frame, all in motion.
 template <int D>
@@ -38,6 +55,10 @@ ChainState<D> random_chain(const ChainShape& shape, Random& random) {
     slope<D>(chain.q.data(), k) = along + random.vector<D>(0.1);
     position<D>(chain.rate.data(), k) = random.vector<D>();
     slope<D>(chain.rate.data(), k) = random.vector<D>();
+  }
+  if (shape.slopes != JointSlopes::continuous) {
+    chain.kink = random_kink<D>(shape.slopes, slope<D>(chain.q.data(), shape.joint),
+                                slope<D>(chain.rate.data(), shape.joint), random);
   }
   for (int k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -72,6 +93,7 @@ ChainState<D> smooth_chain(const ChainShape& shape, double behind, Random& rando
     position<D>(chain.q.data(), static_cast<int>(k)) = Q * r;
     slope<D>(chain.q.data(), static_cast<int>(k)) = Q * r_x;
   }
+  if (chain.kink) chain.kink->slope = slope<D>(chain.q.data(), chain.joint) + random.vector<D>(0.1);
   for (std::size_t k = 0; k < chain.mesh.weights.size(); ++k) {
     chain.mesh.weights[k].x_a = chain.mesh.x[k];
     chain.mesh.weights[k].x_b = chain.mesh.x[k + 1];
@@ -98,6 +120,12 @@ ChainState<D> reversed(const ChainState<D>& chain) {
   }
   if (chain.joint != no_joint) result.joint = n - chain.joint;
   result.joint_rate = -chain.joint_rate;
+  if (chain.kink) {
+    auto at_joint = slope<D>(result.q.data(), result.joint), rate_at_joint = slope<D>(result.rate.data(), result.joint);
+    result.kink = {at_joint, rate_at_joint};
+    at_joint = -chain.kink->slope;
+    rate_at_joint = -chain.kink->rate;
+  }
   return result;
 }
 

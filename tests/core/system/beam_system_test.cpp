@@ -27,11 +27,42 @@ Eigen::MatrixXd free_motions(const Support<D>& support) {
   return motions;
 }
 
-/// Accelerations of all coordinates (nodes, then x of the joint) by a dense solve of all elements' equations, projected
-/// onto what the supports leave free.
+/// Conditions A a = b on the accelerations of the slopes s and p, before and behind a joint, in all three dimensions:
+/// twice the time derivative of s x p = 0, or of |s|^2 = |p|^2.
+struct DenseConditions {
+  Eigen::MatrixXd on_s, on_p;
+  Eigen::VectorXd b;
+};
+
 template <int D>
-Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<D>& chain) {
-  const int nodes = chain.mesh.last() + 1, nodal = node_size<D> * nodes, n = nodal + 1;
+DenseConditions dense_conditions(JointSlopes slopes, const ChainState<D>& chain) {
+  auto in_space = [](const Vec<double, D>& v) {
+    Eigen::Vector3d result = Eigen::Vector3d::Zero();
+    result.head<D>() = v;
+    return result;
+  };
+  const Eigen::Vector3d s = in_space(slope<D>(chain.q.data(), chain.joint)), p = in_space(chain.kink->slope),
+                        s_rate = in_space(slope<D>(chain.rate.data(), chain.joint)),
+                        p_rate = in_space(chain.kink->rate);
+  DenseConditions result{Eigen::MatrixXd(0, D), Eigen::MatrixXd(0, D), Eigen::VectorXd(0)};
+  if (slopes == JointSlopes::equal_stretch) {
+    result = {s.head<D>().transpose(), -p.head<D>().transpose(), Eigen::VectorXd(1)};
+    result.b << p_rate.squaredNorm() - s_rate.squaredNorm();
+  } else if (slopes == JointSlopes::tangent) {
+    result = {Eigen::MatrixXd(3, D), Eigen::MatrixXd(3, D), -2 * s_rate.cross(p_rate)};
+    for (int c = 0; c < D; ++c) {
+      result.on_s.col(c) = Eigen::Vector3d(Eigen::Vector3d::Unit(c)).cross(p);
+      result.on_p.col(c) = s.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(c)));
+    }
+  }
+  return result;
+}
+
+/// Accelerations of all coordinates (nodes, then x of the joint and the slope behind it) by a dense solve of all
+/// elements' equations, projected onto what the supports leave free. `force_on_x` is added to those on x.
+template <int D>
+Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<D>& chain, double force_on_x = 0) {
+  const int nodes = chain.mesh.last() + 1, nodal = node_size<D> * nodes, n = nodal + 1 + (chain.kink ? D : 0);
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd Q = Eigen::VectorXd::Zero(n);
   for (int k = 0; k < chain.mesh.elements(); ++k) {
@@ -42,6 +73,7 @@ Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<
     std::vector<int> rows;
     for (int i = 0; i < 4 * D; ++i) rows.push_back(node_size<D> * k + i);
     for (const int node : {k, k + 1}) rows.push_back(node == chain.joint ? nodal : -1);
+    for (int i = 0; i < D && chain.kink && k == chain.joint; ++i) rows[static_cast<std::size_t>(D + i)] = nodal + 1 + i;
     for (int i = 0; i < element_size<D>; ++i) {
       const int row = rows[static_cast<std::size_t>(i)];
       if (row < 0) continue;
@@ -55,15 +87,28 @@ Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<
   if (chain.joint != no_joint) {
     M.diagonal().segment<D>(node_size<D> * chain.joint).array() += model.joint->mass;
     Q.segment<D>(node_size<D> * chain.joint) += model.joint->mass * model.gravity;
+    Q[nodal] += force_on_x;
   }
   const Eigen::MatrixXd start = free_motions(model.start), end = free_motions(model.end);
-  const Eigen::Index inner = nodal - 4 * D, moving = chain.joint == no_joint ? 0 : 1;
+  const Eigen::Index inner = nodal - 4 * D, moving = chain.joint == no_joint ? 0 : n - nodal;
   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(n, start.cols() + inner + end.cols() + moving);
   Z.topLeftCorner(2 * D, start.cols()) = start;
   Z.block(2 * D, start.cols(), inner, inner).setIdentity();
   Z.block(2 * D + inner, start.cols() + inner, 2 * D, end.cols()) = end;
-  if (moving) Z(nodal, Z.cols() - 1) = 1;
-  return Z * (Z.transpose() * M * Z).ldlt().solve(Z.transpose() * Q);
+  if (moving > 0) Z.bottomRightCorner(moving, moving).setIdentity();
+  if (!chain.kink) return Z * (Z.transpose() * M * Z).ldlt().solve(Z.transpose() * Q);
+  const DenseConditions conditions = dense_conditions<D>(model.joint->slopes, chain);
+  const Eigen::Index count = conditions.b.size(), free = Z.cols();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(count, n);
+  A.middleCols(node_size<D> * chain.joint + D, D) = conditions.on_s;
+  A.rightCols(D) = conditions.on_p;
+  Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(free + count, free + count);
+  kkt.topLeftCorner(free, free) = Z.transpose() * M * Z;
+  kkt.topRightCorner(free, count) = (A * Z).transpose();
+  kkt.bottomLeftCorner(count, free) = A * Z;
+  Eigen::VectorXd rhs(free + count);
+  rhs << Z.transpose() * Q, conditions.b;
+  return Z * kkt.completeOrthogonalDecomposition().solve(rhs).head(free);  // the conditions are not independent
 }
 
 /// The chain held by the supports: their nodes move only as they may.
@@ -89,7 +134,7 @@ class BeamSystemOf : public ::testing::Test {
     const Eigen::VectorXd y = system.initial_state();
     Eigen::VectorXd dydt(system.size());
     system.rhs(y, dydt, t);
-    const Eigen::Index n = (y.size() - (model.section.damped() ? 1 : 0)) / 2;
+    const Eigen::Index n = (y.size() - (model.dissipates() ? 1 : 0)) / 2;
     EXPECT_EQ(dydt.head(n), y.segment(n, n)) << "the rates of the coordinates";
     return dydt.segment(n, n);
   }
@@ -108,6 +153,77 @@ class BeamSystemOf : public ::testing::Test {
   Random random_{6};
 };
 TYPED_TEST_SUITE(BeamSystemOf, Dimensions, DimensionNames);
+
+constexpr std::array<JointSlopes, 3> kinks{JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free};
+
+TYPED_TEST(BeamSystemOf, AKinkedJointsAccelerationsAreThoseOfADenseSolve) {
+  constexpr int D = TypeParam::value;
+  for (const auto slopes : kinks) {
+    for (const auto& kind : element_family) {
+      SCOPED_TRACE(std::string(kind.name()) + ", slopes " + std::to_string(static_cast<int>(slopes)));
+      for (const int joint : {1, 3}) {
+        const ChainShape shape{
+            .elements = 4, .joint = joint, .rational = kind.rational, .transport = kind.transport, .slopes = slopes};
+        auto model = model_of<D>(shape, this->random_);
+        model.strain_law = kind.law;
+        model.start = Support<D>::pin();
+        auto chain = random_chain<D>(shape, this->random_);
+        hold(model, chain);
+        this->expect_dense(model, chain);
+      }
+    }
+  }
+}
+
+TYPED_TEST(BeamSystemOf, FrictionIsTheCoefficientTimesTheNormalForceOfTheAccelerations) {
+  constexpr int D = TypeParam::value;
+  for (const auto slopes : {JointSlopes::continuous, JointSlopes::tangent, JointSlopes::free}) {
+    const ChainShape shape{.elements = 4, .joint = 2, .slopes = slopes};
+    auto model = model_of<D>(shape, this->random_);
+    model.joint->friction = AxialFriction{0.4, 0.3};
+    const auto chain = random_chain<D>(shape, this->random_);
+    BeamSystem<D> system(model, chain);
+    const Eigen::VectorXd y = system.initial_state();
+    Eigen::VectorXd dydt(system.size());
+    system.rhs(y, dydt, 0);
+    const Eigen::VectorXd a = dydt.segment(system.coordinates(), system.coordinates());
+    Vec<double, D> mean = slope<D>(chain.q.data(), 2);
+    if (chain.kink) mean = (mean + chain.kink->slope) / 2;
+    const Vec<double, D> pull = model.joint->mass * (a.segment<D>(2 * node_size<D>) - model.gravity),
+                         tangent = mean.normalized();
+    const double normal = (pull - tangent * tangent.dot(pull)).norm(), v = mean.norm() * chain.joint_rate;
+    const double friction = -0.4 * normal * std::tanh(v / 0.3);
+    EXPECT_GT(normal, 0.1);
+    const Eigen::VectorXd exact = dense_accelerations(model, chain, friction * mean.norm()).head(a.size());
+    EXPECT_LE((a - exact).norm(), 1e-10 * exact.norm());
+    EXPECT_NEAR(dydt[dydt.size() - 1], -friction * v, 1e-10) << "the power it takes";
+  }
+}
+
+TYPED_TEST(BeamSystemOf, TheRateOfItsLengthIsTheDerivativeOfItsLength) {
+  constexpr int D = TypeParam::value;
+  for (const auto& kind : element_family) {
+    SCOPED_TRACE(kind.name());
+    const ChainShape shape{
+        .elements = 4, .joint = 2, .rational = kind.rational, .transport = kind.transport, .slopes = JointSlopes::free};
+    BeamSystem<D> system(model_of<D>(shape, this->random_), random_chain<D>(shape, this->random_));
+    const Eigen::VectorXd y = system.initial_state();
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(y.size());
+    motion.head(system.coordinates()) = y.segment(system.coordinates(), system.coordinates());
+    const double h = 1e-5;
+    auto length = [&](double s) { return system.observe(y + s * motion, 0, 7).beam_length; };
+    EXPECT_NEAR(system.observe(y, 0, 7).beam_length_rate, (length(h) - length(-h)) / (2 * h), 1e-8);
+  }
+}
+
+TEST(Friction, JamsWhereItPressesTheMassOnHarderThanItResists) {
+  using Plane = Vec<double, 2>;
+  const Plane p(0, 2), harder(0, -1);
+  EXPECT_NEAR(*normal_force<2>(p, harder, 0.5), 4, 1e-14);  // N = |2 + N/2|
+  EXPECT_NEAR(*normal_force<2>(p, harder, -0.5), 4.0 / 3, 1e-14);
+  EXPECT_EQ(*normal_force<2>(Plane::Zero(), harder, 0.5), 0);
+  EXPECT_FALSE(normal_force<2>(p, harder, 1));
+}
 
 TYPED_TEST(BeamSystemOf, AccelerationsAreThoseOfTheDenseSystemUnderAnySupports) {
   for (const auto& start : this->supports()) {

@@ -17,6 +17,8 @@ class FreeBeam : public ::testing::Test {
     double t;
     Observation<dim> observation;
     Vec<double, 3> angular_momentum;
+    ConstraintResidual slopes;
+    double kink;  ///< jump of the slope at the joint
   };
 
   /// States along the run, the initial one first.
@@ -25,7 +27,9 @@ class FreeBeam : public ::testing::Test {
     BeamSystem<dim> system(model, chain);
     std::vector<Seen> seen;
     system.on_sample = [&](const Eigen::VectorXd& y, double t) {
-      seen.push_back({t, system.observe(y, t, model.quadrature_points), angular_momentum(system, y)});
+      const auto slopes = system.joint_slopes(y.data());
+      seen.push_back({t, system.observe(y, t, model.quadrature_points), angular_momentum(system, y),
+                      system.slope_residual(y), (slopes.template head<dim>() - slopes.template tail<dim>()).norm()});
     };
     Eigen::VectorXd y = system.initial_state();
     double t = 0;
@@ -76,6 +80,49 @@ TYPED_TEST(FreeBeam, VirtualWorkLosesEnergyWhereTheVariationalEquationsKeepIt) {
     const auto seen = this->run(model, random_chain<TypeParam::value>(shape, this->random_));
     const auto &first = seen.front().observation.energy, &last = seen.back().observation.energy;
     EXPECT_GT(std::abs(last.total() - first.total()), 1e-5 * first.kinetic);
+  }
+}
+
+/// Two slopes at the joint: the momentum that they pass from one to the other as the joint moves is part of the
+/// discrete Lagrangian, and of no virtual work at fixed material points.
+constexpr std::array<JointSlopes, 3> kinks{JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free};
+
+TYPED_TEST(FreeBeam, KeepsItsMomentaAndItsEnergyWithAKinkAtTheJoint) {
+  for (const auto slopes : kinks) {
+    for (const auto& kind : element_family) {
+      SCOPED_TRACE(std::string(kind.name()) + ", slopes " + std::to_string(static_cast<int>(slopes)));
+      const ChainShape shape{
+          .elements = 4, .joint = 2, .rational = kind.rational, .transport = kind.transport, .slopes = slopes};
+      auto model = model_of<TypeParam::value>(shape, this->random_);
+      model.strain_law = kind.law;
+      model.gravity.setZero();
+      const auto chain = random_chain<TypeParam::value>(shape, this->random_);
+      const auto seen = this->run(model, chain);
+      const auto &first = seen.front(), &last = seen.back();
+      EXPECT_NEAR(last.observation.energy.total(), first.observation.energy.total(),
+                  1e-10 * first.observation.energy.kinetic);
+      EXPECT_LE((last.observation.momentum - first.observation.momentum).norm(), 1e-11);
+      EXPECT_LE((last.angular_momentum - first.angular_momentum).norm(), 1e-11);
+      EXPECT_LE(last.slopes.position, 1e-10);
+      EXPECT_LE(last.slopes.velocity, 1e-9);
+      EXPECT_GT(last.kink, 1e-3) << "nothing is shown without a jump of the slopes";
+      model.formulation = Formulation::virtual_work;
+      const auto lossy = this->run(model, chain);
+      EXPECT_GT(std::abs(lossy.back().observation.energy.total() - first.observation.energy.total()),
+                1e-5 * first.observation.energy.kinetic);
+    }
+  }
+}
+
+TYPED_TEST(FreeBeam, WhatFrictionTakesIsOnTheLedger) {
+  for (const auto slopes : {JointSlopes::continuous, JointSlopes::tangent, JointSlopes::free}) {
+    const ChainShape shape{.elements = 4, .joint = 2, .slopes = slopes};
+    auto model = model_of<TypeParam::value>(shape, this->random_);
+    model.joint->friction = AxialFriction{0.3, 0.1};
+    const auto seen = this->run(model, random_chain<TypeParam::value>(shape, this->random_));
+    const auto &first = seen.front().observation.energy, &last = seen.back().observation.energy;
+    EXPECT_GT(last.dissipated, 1e-3 * first.kinetic);
+    EXPECT_NEAR(last.total(), first.total(), 1e-10 * first.kinetic);
   }
 }
 

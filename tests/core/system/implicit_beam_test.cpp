@@ -15,12 +15,14 @@ TYPED_TEST_SUITE(ImplicitBeamTest, Dimensions);
 /// A supported, damped chain in motion, with its coordinates, velocities and some acceleration.
 template <int D>
 struct Case {
-  Case(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated) : random(seed) {
+  Case(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated, bool friction = false)
+      : random(seed) {
     auto model = model_of<D>(shape, random);
     model.section.damping = 0.01;
     model.start = Support<D>::direction_clamp(random.vector<D>());
     model.end = Support<D>::pin();
     model.constraints = constraints;
+    if (friction) model.joint->friction = AxialFriction{0.3, 0.4};
     system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
     system->second_order()->expand(system->initial_state(), q, v);
     const Eigen::Index n = q.size();
@@ -40,10 +42,23 @@ const std::vector<ChainShape> shapes{
     {.elements = 2, .joint = 1, .rational = true},
     {.elements = 5, .joint = 3, .rational = true, .transport = WeightTransport::transported}};
 
-std::vector<std::pair<ChainShape, Constraints>> cases() {
-  std::vector<std::pair<ChainShape, Constraints>> result;
+struct Kind {
+  ChainShape shape;
+  Constraints constraints;
+  bool friction;
+};
+
+std::vector<Kind> cases() {
+  std::vector<Kind> result;
   for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
-    for (const auto& shape : shapes) result.emplace_back(shape, constraints);
+    for (const auto& shape : shapes) result.push_back({shape, constraints, false});
+    result.push_back({shapes[2], constraints, true});
+  }
+  for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
+    for (const bool friction : {false, true}) {
+      result.push_back(
+          {{.elements = 5, .joint = 2, .rational = true, .slopes = slopes}, Constraints::multipliers, friction});
+    }
   }
   return result;
 }
@@ -51,8 +66,8 @@ std::vector<std::pair<ChainShape, Constraints>> cases() {
 TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
   constexpr int D = TypeParam::value;
   unsigned seed = 1;
-  for (const auto& [shape, constraints] : cases()) {
-    Case<D> c(shape, seed++, constraints);
+  for (const auto& [shape, constraints, friction] : cases()) {
+    Case<D> c(shape, seed++, constraints, friction);
     auto& implicit = *c.system->second_order();
     Eigen::VectorXd a(c.q.size()), r(c.q.size());
     implicit.acceleration(c.q, c.v, 0, a);
@@ -65,8 +80,8 @@ TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
 TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   unsigned seed = 11;
-  for (const auto& [shape, constraints] : cases()) {
-    Case<D> c(shape, seed++, constraints);
+  for (const auto& [shape, constraints, friction] : cases()) {
+    Case<D> c(shape, seed++, constraints, friction);
     auto& implicit = *c.system->second_order();
     const Eigen::Index n = c.q.size();
     const double by_v = 7, by_a = 300;
@@ -88,6 +103,20 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
     Eigen::VectorXd r = (4 * change(5e-4) - change(1e-3)) / 3;
     implicit.solve(r);
     EXPECT_LE((r - d).norm(), 1e-6) << "elements " << shape.elements << " joint " << shape.joint;
+  }
+}
+
+TYPED_TEST(ImplicitBeamTest, ReactionsOfAKinkedBeamDoNotDependOnHowItsConstraintsAreTreated) {
+  constexpr int D = TypeParam::value;
+  for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
+    const ChainShape shape{.elements = 4, .joint = 2, .slopes = slopes};
+    Case<D> eliminated(shape, 41), multipliers(shape, 41, Constraints::multipliers);
+    const auto a = eliminated.system->reactions(eliminated.system->initial_state(), 0),
+               b = multipliers.system->reactions(multipliers.system->initial_state(), 0);
+    for (const std::size_t end : {0, 1}) {
+      EXPECT_GT(a[end].norm(), 1e-3);
+      EXPECT_LE((a[end] - b[end]).norm(), 1e-11 * a[end].norm());
+    }
   }
 }
 

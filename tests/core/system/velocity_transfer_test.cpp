@@ -9,9 +9,9 @@ namespace {
 /// One forward length-control event of a free beam in random motion, its mass sliding.
 template <int D>
 struct Transfer {
-  Transfer(VelocityTransfer velocities, bool rational, unsigned seed) {
+  Transfer(VelocityTransfer velocities, bool rational, unsigned seed, JointSlopes slopes = JointSlopes::continuous) {
     Random random(seed);
-    const ChainShape shape{.elements = 6, .joint = 2, .rational = rational};
+    const ChainShape shape{.elements = 6, .joint = 2, .rational = rational, .slopes = slopes};
     auto model = model_of<D>(shape, random);
     model.quadrature_points = 12;
     model.length_control.velocities = velocities;
@@ -26,10 +26,12 @@ struct Transfer {
     system.handle_event(0, y, 0);
     after = system.observe(y, 0, 12);
     angular_after = angular_momentum(system, y);
+    slopes_after = system.slope_residual(y);
   }
 
   Observation<D> before, after;
   Vec<double, 3> angular_before, angular_after;
+  ConstraintResidual slopes_after;
   double jump = 0;
 };
 
@@ -69,6 +71,25 @@ TYPED_TEST(VelocityTransferOf, AConservativeOneKeepsMomentaAndTotalEnergy) {
     if (std::abs(transfer.jump) < 1e-12) ++exact;
   }
   EXPECT_GE(exact, 4) << "a fluctuation that holds enough energy is the rule";
+}
+
+TYPED_TEST(VelocityTransferOf, AKinkedJointKeepsItAllAndItsConditions) {
+  constexpr int D = TypeParam::value;
+  for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
+    int exact = 0;
+    for (unsigned seed = 1; seed < 6; ++seed) {
+      const Transfer<D> projected(VelocityTransfer::projected, true, seed, slopes);
+      EXPECT_LE((projected.after.momentum - projected.before.momentum).norm(), 1e-9);
+      EXPECT_LE(projected.after.energy.kinetic, projected.before.energy.kinetic + 1e-9);
+      const Transfer<D> transfer(VelocityTransfer::conservative, true, seed, slopes);
+      EXPECT_LE((transfer.after.momentum - transfer.before.momentum).norm(), 1e-12);
+      EXPECT_LE((transfer.angular_after - transfer.angular_before).norm(), 1e-12);
+      EXPECT_LE(transfer.slopes_after.position, 1e-14);
+      EXPECT_LE(transfer.slopes_after.velocity, 1e-12);
+      if (std::abs(transfer.jump) < 1e-12) ++exact;
+    }
+    EXPECT_GE(exact, 4);
+  }
 }
 
 }  // namespace

@@ -24,6 +24,40 @@ TEST(SlidingMass, OnAStiffInclinedBeamFallsAsABeadOnAWire) {
   EXPECT_NEAR(*result.samples.back().joint_position, 0.1 + 9.81 * std::sin(slope) * 0.5 * 0.5 / 2, 1e-3);
 }
 
+/// A mass on a beam that hardly moves, clamped at both ends and inclined by 30 degrees.
+Scene inclined_bead(double friction) {
+  auto scene = falling_beam(ElementKind::ale_ancf, 4);
+  scene.beam.curve.end = {std::sqrt(0.75), -0.5, 0};
+  scene.beam.section = {Section::Type::stiffness, 0, 1e4, 1e2, 1};
+  scene.gravity_ramp = 0.1;
+  scene.sliding_mass->mass = 0.1;
+  scene.sliding_mass->friction = AxialFriction{friction, 1e-4};
+  scene.start = scene.end = {SupportType::clamp, ClampType::full};
+  scene.duration = 0.6;
+  scene.output.interval = 0.1;
+  set_tolerance(scene, IntegratorType::fehlberg78, 1e-8);
+  return scene;
+}
+
+TEST(SlidingMass, SlidesDownAnInclineAgainstFriction) {
+  for (const auto type : {IntegratorType::fehlberg78, IntegratorType::generalized_alpha}) {
+    auto scene = inclined_bead(0.3);
+    scene.integrator.type = type;
+    const auto result = simulate(scene);
+    ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+    const auto& samples = result.samples;
+    const double along = 9.81 * (0.5 - 0.3 * std::sqrt(0.75));
+    const double second = *samples[6].joint_position - 2 * *samples[4].joint_position + *samples[2].joint_position;
+    EXPECT_NEAR(second / 0.04, along, 5e-3 * along);
+  }
+}
+
+TEST(SlidingMass, RestsOnAnInclineThatFrictionHolds) {
+  const auto result = simulate(inclined_bead(0.7));  // tan 30 degrees is 0.577
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  EXPECT_NEAR(*result.samples.back().joint_position, 0.1, 2e-4) << "it creeps below the regularisation velocity";
+}
+
 TEST(SlidingMass, LeavesTheFreeEndAndFliesOnAParabola) {
   auto scene = falling_beam(ElementKind::ale_ancf, 5);
   scene.sliding_mass->position = 0.5;
