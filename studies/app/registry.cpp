@@ -9,6 +9,7 @@ namespace vlbeam {
 // One declaration and one line of the list for each folder studies/<name>/.
 Study energy_drift_study();
 Study falling_beam_study();
+Study suspended_beam_study();
 Study weights_study();
 Study work_precision_study();
 
@@ -17,6 +18,7 @@ const std::vector<Study>& all_studies() {
     std::vector<Study> list = {
         energy_drift_study(),
         falling_beam_study(),
+        suspended_beam_study(),
         weights_study(),
         work_precision_study(),
     };
