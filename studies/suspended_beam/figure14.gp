@@ -18,7 +18,7 @@ set xrange [0:*]
 set yrange [1:1.055]
 set title "(b) length of the beam"
 set ylabel "length (m)"
-set key top center horizontal samplen 2
+set key top center horizontal samplen 2 width 4
 plot for [e in "finer ancf rancf"] histories using "t":e."_length" with lines linewidth (e eq "finer" ? 2.5 : 1.3) \
        linecolor rgb element_colour(e) title (e eq "finer" ? "finer" : element_name(e))
 set title "(c) rate of the length"
@@ -29,7 +29,7 @@ plot for [e in "finer ancf rancf"] histories using "t":e."_rate" with lines line
        linecolor rgb element_colour(e)
 set title "(d) energies"
 set ylabel "energy (J)"
-set key outside bottom center horizontal maxrows 2
+set key outside bottom center horizontal maxrows 2 width 3
 quantities = "kinetic strain gravity total"
 dash(q) = q eq "kinetic" ? 1 : q eq "strain" ? 4 : q eq "gravity" ? 2 : 1
 plot for [e in "finer ancf rancf"] for [q in quantities] histories using "t":e."_".q with lines \

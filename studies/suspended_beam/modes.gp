@@ -1,5 +1,5 @@
 # What the beam's slopes do at the mass.
-width = 1150; height = 980
+width = 1150; height = 900
 load folder . "/style.gp"
 set multiplot layout 2,2 title "Slopes at the mass: continuous, tangent, equal-stretch, free"
 histories = csv("modes")
@@ -22,15 +22,17 @@ set format y "10^{%T}"
 set xlabel "elements N"
 set title "(c) error of x_i over 1.2 s against N = " . reference . " of the same limit"
 set ylabel "max |{/Symbol D}x_i| (m)"
-set key outside below maxrows 4 samplen 1
+set key bottom left Left reverse samplen 1
 is(m, e) = strcol("slopes") eq mode_name(m) && strcol("element") eq e && column("elements") < real(reference) ? column("error") : NaN
 plot for [m in modes] csv("modes_errors") using "elements":(is(m, "ALE-ANCF")) with points pointtype 7 pointsize 0.9 \
-       linecolor rgb mode_colour(m) title mode_name(m) . ", ALE-ANCF", \
+       linecolor rgb mode_colour(m), \
      for [m in modes] csv("modes_errors") using "elements":(is(m, "ALE-RANCF")) with points pointtype 8 pointsize 1.2 \
-       linecolor rgb mode_colour(m) title mode_name(m) . ", ALE-RANCF"
+       linecolor rgb mode_colour(m), \
+     NaN with points pointtype 7 linecolor rgb "#444444" title "ALE-ANCF", \
+     NaN with points pointtype 8 pointsize 1.2 linecolor rgb "#444444" title "ALE-RANCF"
 set title "(d) how far modes are apart, ALE-ANCF"
 set ylabel "max |{/Symbol D}x_i| (m)"
-set key outside below maxrows 3 samplen 2
+set key bottom left Left reverse samplen 2
 plot csv("modes_pairs") using "elements":"continuous_equal" with linespoints linewidth 2 pointtype 7 linecolor rgb "#444444" \
        title "continuous - equal-stretch", \
      "" using "elements":"continuous_tangent" with linespoints linewidth 2 pointtype 7 linecolor rgb "#08519c" \

@@ -292,10 +292,14 @@ class Report {
     double segmented = 0, merged = 0, length = 0, energy = 0;
     for (const Event* event : events) {
       const Displacement moved = displacement_by(*event);
+      const double longer = length_of(event->after) - length_of(event->before), jump = event->energy_jump.total();
+      const auto& k = event->weights;
+      events_.rows.push_back({key, event->t, event->joint_position, moved.segmented, moved.merged, longer, jump, k[0],
+                              k[1], k[2], event->unit_fallback ? 1 : 0});
       segmented = std::max(segmented, moved.segmented);
       merged = std::max(merged, moved.merged);
-      length = std::max(length, std::abs(length_of(event->after) - length_of(event->before)));
-      energy = std::max(energy, std::abs(event->energy_jump.total()));
+      length = std::max(length, std::abs(longer));
+      energy = std::max(energy, std::abs(jump));
     }
     report_.measured["events_" + key] = static_cast<double>(events.size());
     report_.measured["segmented_" + key] = segmented;
@@ -303,16 +307,6 @@ class Report {
     report_.measured["length_jump_" + key] = length;
     report_.measured["energy_jump_" + key] = energy;
     report_.measured["drift_" + key] = result.max_energy_drift / result.max_kinetic;
-    if (events_.rows.empty()) {
-      events_ = {.name = "events",
-                 .caption =
-                     "N as in the paper: events, and the largest of them: displacement of a material point on the "
-                     "segmented and on the merged side [m], jump of the beam's length [m] and of the total energy [J]; "
-                     "drift of the energy between events over the largest kinetic energy",
-                 .columns = {"run", "events", "segmented", "merged", "length_jump", "energy_jump", "drift"}};
-    }
-    events_.rows.push_back(
-        {key, events.size(), segmented, merged, length, energy, result.max_energy_drift / result.max_kinetic});
   }
 
   /// Joint modes: position of the mass and kink against time, and how they converge.
@@ -365,38 +359,44 @@ class Report {
       double& worst = report_.measured["drift_" + key_of(slopes)];
       worst = std::max(worst, drift);
     }
-    // the modes beside each other on one mesh
-    Table pairs{.name = "modes_pairs",
-                .caption = "ALE-ANCF: largest distance between the positions of the mass in two modes, all samples [m]",
-                .columns = {"elements", "continuous_tangent", "equal_free", "continuous_equal"}};
-    for (const int n : config.at("elements").get<std::vector<int>>()) {
-      auto of = [&](JointSlopes slopes) -> const RunResult* {
-        const auto found = select("modes", [&](const Scene& scene) {
-          return scene.beam.elements == n && scene.beam.element == ElementKind::ale_ancf &&
-                 scene.sliding_mass->slopes == slopes;
-        });
-        return found.empty() ? nullptr : found.front().second;
-      };
-      auto between = [&](JointSlopes a, JointSlopes b) {
-        const RunResult *first = of(a), *second = of(b);
-        double largest = first && second ? 0 : nan;
-        for (std::size_t i = 0; first && second && i < first->samples.size(); ++i) {
-          largest = std::max(largest, std::abs(*first->samples[i].joint_position - *second->samples[i].joint_position));
-        }
-        return largest;
-      };
-      const double beam = between(JointSlopes::continuous, JointSlopes::tangent),
-                   hinge = between(JointSlopes::equal_stretch, JointSlopes::free),
-                   apart = between(JointSlopes::continuous, JointSlopes::equal_stretch);
-      pairs.rows.push_back({n, beam, hinge, apart});
-      if (n != finest) continue;
-      report_.measured["pair_beam"] = beam;
-      report_.measured["pair_hinge"] = hinge;
-      report_.measured["apart"] = apart;
-    }
+    const Table pairs = pairs_of("modes", "modes_pairs", config.at("elements").get<std::vector<int>>());
     report_.tables.insert(report_.tables.end(), {histories, errors, pairs});
     figure("modes", "What the beam's slopes do at the mass", "modes.gp",
            {{"finest", std::to_string(finest)}, {"reference", std::to_string(reference)}});
+  }
+
+  /// The modes of one group beside each other, mesh by mesh; ALE-ANCF.
+  Table pairs_of(const std::string& group, const std::string& name, const std::vector<int>& elements) {
+    Table table{.name = name,
+                .caption = "Largest distance between the positions of the mass in two modes, all samples [m]; ALE-ANCF",
+                .columns = {"elements", "continuous_tangent", "equal_free", "continuous_equal"}};
+    for (const int n : elements) {
+      const auto largest = [&](JointSlopes a, JointSlopes b) {
+        const auto with = [&](JointSlopes slopes) {
+          return select(group, [&](const Scene& scene) {
+            return scene.beam.elements == n && scene.beam.element == ElementKind::ale_ancf &&
+                   scene.sliding_mass->slopes == slopes;
+          });
+        };
+        const auto first = with(a), second = with(b);
+        if (first.empty() || second.empty()) return nan;
+        double distance = 0;
+        const auto &one = first.front().second->samples, &other = second.front().second->samples;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+          distance = std::max(distance, std::abs(*one[i].joint_position - *other[i].joint_position));
+        }
+        return distance;
+      };
+      const double beam = largest(JointSlopes::continuous, JointSlopes::tangent),
+                   hinge = largest(JointSlopes::equal_stretch, JointSlopes::free),
+                   apart = largest(JointSlopes::continuous, JointSlopes::equal_stretch);
+      table.rows.push_back({n, beam, hinge, apart});
+      const std::string suffix = "_" + group + "_n" + std::to_string(n);
+      report_.measured["continuous_tangent" + suffix] = beam;
+      report_.measured["equal_free" + suffix] = hinge;
+      report_.measured["continuous_equal" + suffix] = apart;
+    }
+    return table;
   }
 
   /// Energy between events by formulation.
@@ -479,7 +479,8 @@ class Report {
       double& worst = report_.measured["friction_drift"];
       worst = std::max(worst, drift);
     }
-    report_.tables.insert(report_.tables.end(), {histories, table});
+    const Table pairs = pairs_of("friction", "friction_pairs", config.at("elements").get<std::vector<int>>());
+    report_.tables.insert(report_.tables.end(), {histories, table, pairs});
     figure("friction", "Axial friction by joint mode", "friction.gp",
            {{"finest", std::to_string(finest)}, {"coefficient", number_text(config.at("coefficient"))}});
   }
@@ -487,7 +488,13 @@ class Report {
   const StudyContext& context_;
   const std::vector<Case>& cases_;
   std::vector<Outcome<RunResult>> outcomes_;
-  Table events_;
+  Table events_{.name = "events",
+                .caption =
+                    "Length control of the coarse runs: largest displacement of a material point on the segmented "
+                    "and on the merged side [m], jumps of the beam's length [m] and of the total energy [J], "
+                    "weights of the merged element, 1 where it fell back to unit weights",
+                .columns = {"run", "t", "joint_position", "segmented", "merged", "length_jump", "energy_jump", "k_0",
+                            "k_1", "k_2", "fallback"}};
   StudyReport report_;
 };
 

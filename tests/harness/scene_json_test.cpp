@@ -48,6 +48,7 @@ TEST(SceneJson, ReadsEveryKey) {
   EXPECT_EQ(scene.end.type, SupportType::free);
   EXPECT_EQ(scene.sliding_mass->velocity, 0.5);
   EXPECT_EQ(scene.sliding_mass->separation_distance, 0.002);
+  EXPECT_EQ(scene.sliding_mass->friction->coefficient, 0.2);
   EXPECT_EQ(scene.formulation, Formulation::virtual_work);
   EXPECT_EQ(scene.integrator.type, IntegratorType::cash_karp);
   EXPECT_EQ(scene.integrator.atol, 1e-8);
@@ -130,24 +131,23 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"/beam/elemnets", "5", "/beam/elemnets", "nearest known key is \"elements\""},
                     BadScene{"/beam/material/youngs modulus", "5", "/beam/material/youngs modulus",
                              "\"youngs_modulus\""},
-                    BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/constraint", "\"eliminated\""},
+                    BadScene{"/sliding_mass/friction/mu", "0.1"}, BadScene{"/constraint", "\"eliminated\""},
                     BadScene{"/supports/0/clmap", "\"full\"", "/supports/0/clmap", "\"clamp\""}, BadScene{"/a~1b", "1"},
                     BadScene{"/beam/curve/radius", "1"}, BadScene{"/supports/0/at=start", "1"}));
 
-INSTANTIATE_TEST_SUITE_P(MistypedValues, BadInput,
-                         testing::Values(BadScene{"/dimension", "\"2\""}, BadScene{"/dimension", "2.5"},
-                                         BadScene{"/dimension", "4"}, BadScene{"/dimension", "4294967298"},
-                                         BadScene{"/title", "5"}, BadScene{"/schema", "\"vlbeam.scene/2\""},
-                                         BadScene{"/gravity", "-9.81"}, BadScene{"/gravity", "[0, 0, -9.81]"},
-                                         BadScene{"/gravity", "[0, \"g\"]"}, BadScene{"/gravity", "[0, null]"},
-                                         BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
-                                         BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""},
-                                         BadScene{"/beam/weights", "[1, 1, 1]"}, BadScene{"/beam/elements", "20.0"},
-                                         BadScene{"/length_control/enabled", "1"},
-                                         BadScene{"/integrator/locate_events", "\"no\""}, BadScene{"/supports", "{}"},
-                                         BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
-                                         BadScene{"/output/configurations", "0.5"},
-                                         BadScene{"/output/configurations", "[0, true]"}));
+INSTANTIATE_TEST_SUITE_P(
+    MistypedValues, BadInput,
+    testing::Values(BadScene{"/dimension", "\"2\""}, BadScene{"/dimension", "2.5"}, BadScene{"/dimension", "4"},
+                    BadScene{"/dimension", "4294967298"}, BadScene{"/title", "5"},
+                    BadScene{"/schema", "\"vlbeam.scene/2\""}, BadScene{"/gravity", "-9.81"},
+                    BadScene{"/gravity", "[0, 0, -9.81]"}, BadScene{"/gravity", "[0, \"g\"]"},
+                    BadScene{"/gravity", "[0, null]"}, BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
+                    BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""},
+                    BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/beam/weights", "[1, 1, 1]"},
+                    BadScene{"/beam/elements", "20.0"}, BadScene{"/length_control/enabled", "1"},
+                    BadScene{"/integrator/locate_events", "\"no\""}, BadScene{"/supports", "{}"},
+                    BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
+                    BadScene{"/output/configurations", "0.5"}, BadScene{"/output/configurations", "[0, true]"}));
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownChoices, BadInput,
@@ -157,7 +157,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"/beam/rest_shape", "\"as_built\""}, BadScene{"/beam/strain_law", "\"seed\""},
                     BadScene{"/formulation", "\"virtual work\""}, BadScene{"/weights", "\"moving\""},
                     BadScene{"/integrator/type", "\"rk4\"", "/integrator/type", "\"bulirsch-stoer\""},
-                    BadScene{"/length_control/merge", "\"none\""}, BadScene{"/sliding_mass/slopes", "\"free\""},
+                    BadScene{"/length_control/merge", "\"none\""},
+                    BadScene{"/sliding_mass/slopes", "\"kinked\"", "/sliding_mass/slopes", "\"equal-stretch\""},
                     BadScene{"/supports/0/at", "\"middle\"", "/supports/0/at", "\"start\", \"end\""},
                     BadScene{"/supports/0/type", "\"weld\""}, BadScene{"/supports/0/clamp", "\"half\""}));
 
@@ -176,12 +177,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     MissingKeys, BadInput,
-    testing::Values(BadScene{"/sliding_mass", R"({"position": 0.1})", "/sliding_mass/mass", "missing"},
-                    BadScene{"/sliding_mass", R"({"mass": 0.1})", "/sliding_mass/position", "missing"},
-                    BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1})", "/beam/section/rhoA",
-                             "missing"},
-                    BadScene{"/supports/0", R"({"at": "start"})", "/supports/0/type", "missing"},
-                    BadScene{"/supports/0", R"({"type": "pin"})", "/supports/0/at", "missing"}));
+    testing::Values(
+        BadScene{"/sliding_mass", R"({"position": 0.1})", "/sliding_mass/mass", "missing"},
+        BadScene{"/sliding_mass", R"({"mass": 0.1})", "/sliding_mass/position", "missing"},
+        BadScene{"/sliding_mass/friction", R"({"velocity": 0.1})", "/sliding_mass/friction/coefficient", "missing"},
+        BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1})", "/beam/section/rhoA", "missing"},
+        BadScene{"/supports/0", R"({"at": "start"})", "/supports/0/type", "missing"},
+        BadScene{"/supports/0", R"({"type": "pin"})", "/supports/0/at", "missing"}));
 
 TEST(SceneJson, WhatIsNotJsonIsRefused) {
   EXPECT_THROW(parse_scene(""), InvalidInput);

@@ -48,10 +48,13 @@ namespace vlbeam::test {
 namespace {
 
 template <int D>
-void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double damping) {
+void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double damping,
+                          JointSlopes slopes = JointSlopes::continuous) {
   Random random(12);
-  const ChainShape shape{.elements = 9, .joint = joint, .rational = kind.rational, .transport = kind.transport};
+  const ChainShape shape{
+      .elements = 9, .joint = joint, .rational = kind.rational, .transport = kind.transport, .slopes = slopes};
   auto model = model_of<D>(shape, random);
+  if (slopes != JointSlopes::continuous) model.joint->friction = AxialFriction{0.2};
   model.strain_law = kind.law;
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
@@ -81,14 +84,20 @@ TEST(RightHandSide, AllocatesNothing) {
         expect_no_allocation<3>(kind, joint, damping);
       }
     }
+    for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
+      expect_no_allocation<2>(kind, 4, 0, slopes);
+      expect_no_allocation<3>(kind, 4, 0, slopes);
+    }
   }
 }
 
 template <int D>
-void expect_steady_steps(int joint, double damping, Constraints constraints, NewtonKind newton) {
+void expect_steady_steps(int joint, double damping, Constraints constraints, NewtonKind newton,
+                         JointSlopes slopes = JointSlopes::continuous) {
   Random random(12);
-  const ChainShape shape{.elements = 9, .joint = joint, .rational = true};
+  const ChainShape shape{.elements = 9, .joint = joint, .rational = true, .slopes = slopes};
   auto model = model_of<D>(shape, random);
+  if (slopes != JointSlopes::continuous) model.joint->friction = AxialFriction{0.2, 0.1};
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
   model.constraints = constraints;
@@ -117,6 +126,10 @@ TEST(GeneralizedAlphaStep, AllocatesNothingOnceItIsGoing) {
         expect_steady_steps<3>(joint, 0, constraints, newton);
       }
     }
+  }
+  for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
+    expect_steady_steps<2>(4, 0, Constraints::multipliers, NewtonKind::modified, slopes);
+    expect_steady_steps<3>(4, 0, Constraints::multipliers, NewtonKind::full, slopes);
   }
 }
 
