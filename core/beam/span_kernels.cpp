@@ -177,10 +177,10 @@ template <int D>
 template <StrainLaw Law, bool Bending, bool Damped>
 void Span<D>::use_kernels(bool curved_at_rest) {
   forces_ = &Span::forces<Law, Bending, Damped>;
+  tangents_ = &Span::tangents<Law, Bending, Damped>;
   if (!curved_at_rest) return;
   rest_forces_ = &Span::rest_forces<Law, Bending>;
   rest_tangents_ = &Span::rest_tangents<Law, Bending>;
-  tangents_ = &Span::tangents<Law, Bending, Damped>;
 }
 
 template <int D>

@@ -133,13 +133,13 @@ CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x) {
     own.push_back(e.s_a.norm());
     product.push_back(e.s_a.norm() * e.s_b.norm());
   }
-  // log of the slopes at the nodes, +-first + offset with alternating sign; the first makes them least
+  // log of the slopes at the nodes, +-first + offset with alternating sign; the first makes them least, the mean over
+  // the elements of the mean of their ends, so that equal elements get equal slopes
   std::vector<double> offset{0};
   for (const double p : product) offset.push_back(std::log(p) - offset.back());
   double first = 0, sign = 1;
-  for (const double o : offset) {
-    first -= sign * o / static_cast<double>(offset.size());
-    sign = -sign;
+  for (std::size_t k = 0; k < product.size(); ++k, sign = -sign) {
+    first -= sign * (offset[k] - offset[k + 1]) / (2 * static_cast<double>(product.size()));
   }
   sign = 1;
   for (std::size_t k = 0; k < x.size(); ++k, sign = -sign) {
