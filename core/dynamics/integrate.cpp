@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 
+#include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
 
 namespace vlbeam {
@@ -24,6 +25,9 @@ std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions&
   }
   if (options.type == IntegratorType::energy_momentum) {
     return make_energy_momentum(*ode.second_order(), options.energy_momentum);
+  }
+  if (of_sundials(options.type)) {
+    return make_sundials_stepper(options.type, options.tolerances, ode.second_order(), &counters.newton);
   }
   return make_odeint_stepper(options.type, options.tolerances, options.step);
 }

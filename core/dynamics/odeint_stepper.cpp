@@ -155,6 +155,9 @@ std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Toleranc
     case IntegratorType::dopri5:
     case IntegratorType::generalized_alpha:  // not one of Odeint's
     case IntegratorType::energy_momentum:
+    case IntegratorType::ida:
+    case IntegratorType::cvode:
+    case IntegratorType::arkode:
       break;
   }
   return wrap(odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(atol, rtol));

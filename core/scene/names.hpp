@@ -62,7 +62,10 @@ constexpr auto names(IntegratorType) {
                                                {adams_bashforth_moulton, "adams-bashforth-moulton"},
                                                {rosenbrock4, "rosenbrock4"},
                                                {generalized_alpha, "generalized-alpha"},
-                                               {energy_momentum, "energy-momentum"}});
+                                               {energy_momentum, "energy-momentum"},
+                                               {ida, "ida"},
+                                               {cvode, "cvode"},
+                                               {arkode, "arkode"}});
 }
 constexpr auto names(Constraints) {
   using enum Constraints;

@@ -419,11 +419,14 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
       Option{.pointer = "/constraints",
              .unit = "",
              .description = "supports and the beam's continuity at the mass: eliminated coordinates, or equations with "
-                            "multipliers (generalized-alpha only)"},
+                            "multipliers (generalized-alpha and ida only)"},
       scene.constraints);
 
   const std::string_view integrator_type = "/integrator/type";
-  visitor(Option{.pointer = integrator_type, .unit = "", .description = "time integrator"}, scene.integrator.type);
+  visitor(Option{.pointer = integrator_type,
+                 .unit = "",
+                 .description = "time integrator; ida, cvode and arkode need a build with SUNDIALS"},
+          scene.integrator.type);
   visitor(Option{.pointer = "/integrator/rtol",
                  .unit = "-",
                  .description = "relative tolerance of a step, of the methods that choose their step",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
 #include "core/geometry/nurbs.hpp"
 #include "core/scene/build.hpp"
@@ -210,10 +211,19 @@ void check_energy_momentum(const Scene& scene) {
 
 void check_integrator(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
-  if (scene.constraints == Constraints::multipliers && integrator.type != IntegratorType::generalized_alpha) {
+  const std::string type = "\"" + std::string(to_string(integrator.type)) + "\"";
+  if (of_sundials(integrator.type) && !have_sundials()) {
+    refuse("/integrator/type", type,
+           "this program is built without SUNDIALS: install it (Debian: libsundials-dev) and build with "
+           "-DVLBEAM_SUNDIALS=ON, or take another integrator");
+  }
+  if (scene.constraints == Constraints::multipliers && integrator.type != IntegratorType::generalized_alpha &&
+      integrator.type != IntegratorType::ida) {
     refuse("/constraints", "\"multipliers\"",
-           "\"" + std::string(to_string(integrator.type)) +
-               "\" integrates minimal coordinates: take \"eliminated\", or the integrator \"generalized-alpha\"");
+           type + " integrates minimal coordinates: take \"eliminated\", or the integrator \"generalized-alpha\"");
+  }
+  if (scene.constraints == Constraints::eliminated && integrator.type == IntegratorType::ida) {
+    refuse("/constraints", "\"eliminated\"", "\"ida\" integrates with constraints: take \"multipliers\"");
   }
   if (has_fixed_step(integrator.type) && integrator.step > scene.duration) {
     refuse("/integrator/step", number_text(integrator.step),

@@ -267,6 +267,12 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 }
 
 template <int D>
+void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& v, Eigen::VectorXd& rates) const {
+  Eigen::Index at = rates.size() - multipliers();
+  for (const auto& constraint : constraints_) rates[at++] = constraint(v.data(), true);
+}
+
+template <int D>
 void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                double by_v, double by_a) {
   refresh();

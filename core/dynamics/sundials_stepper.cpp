@@ -1,0 +1,301 @@
+// The only file that includes SUNDIALS.
+#include "core/dynamics/sundials_stepper.hpp"
+
+#ifdef VLBEAM_HAVE_SUNDIALS
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <cmath>
+#endif
+
+namespace vlbeam {
+
+#ifdef VLBEAM_HAVE_SUNDIALS
+
+namespace {
+
+constexpr long most_steps = 20000;  // of SUNDIALS in one of ours
+constexpr int explicit_order = 5;
+
+using State = Eigen::VectorXd;
+using Map = Eigen::Map<State>;
+
+Map values(N_Vector v) { return {N_VGetArrayPointer(v), N_VGetLength(v)}; }
+
+void silent(int, const char*, const char*, char*, void*) {}  // a step that fails is repeated, or reported by the driver
+
+/// The handles of one solver, freed in the right order.
+struct Handles {
+  explicit Handles(void (*free_)(void**)) : free(free_) { SUNContext_Create(nullptr, &context); }
+  ~Handles() {
+    if (memory != nullptr) free(&memory);
+    if (linear != nullptr) SUNLinSolFree(linear);
+    if (matrix != nullptr) SUNMatDestroy(matrix);
+    for (N_Vector vector : {state, rate, id}) {
+      if (vector != nullptr) N_VDestroy(vector);
+    }
+    SUNContext_Free(&context);
+  }
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
+
+  N_Vector vector(Eigen::Index n) const { return N_VNew_Serial(n, context); }
+  void dense() {
+    const sunindextype n = N_VGetLength(state);
+    matrix = SUNDenseMatrix(n, n, context);
+    linear = SUNLinSol_Dense(state, matrix, context);
+  }
+
+  SUNContext context = nullptr;
+  void* memory = nullptr;
+  SUNLinearSolver linear = nullptr;
+  SUNMatrix matrix = nullptr;
+  N_Vector state = nullptr, rate = nullptr, id = nullptr;
+  void (*free)(void**);
+};
+
+class SundialsStepper : public Stepper {
+ public:
+  explicit SundialsStepper(const Tolerances& tolerances) : tolerances_(tolerances) {}
+
+  bool try_step(Ode& ode, State& y, double& t, double& dt) override {
+    if (!handles_) start(ode, y, t);
+    const double to = t + dt;
+    if (!advance(to)) {
+      dt /= 10;
+      reset();
+      return false;
+    }
+    store(y);
+    t = to;
+    dt = proposed();
+    return true;
+  }
+
+  void reset() override { handles_.reset(); }
+
+ protected:
+  virtual void start(Ode& ode, const State& y, double t) = 0;
+  /// Integrates to `to`; false where it cannot.
+  virtual bool advance(double to) = 0;
+  virtual void store(State& y) { y = values(handles_->state); }
+  virtual double proposed() = 0;
+
+  Tolerances tolerances_;
+  std::unique_ptr<Handles> handles_;
+};
+
+/// The equations in first order, as SUNDIALS calls them.
+class FirstOrder : public SundialsStepper {
+ public:
+  using SundialsStepper::SundialsStepper;
+
+ protected:
+  void begin(Ode& ode, const State& y, void (*free)(void**)) {
+    ode_ = &ode;
+    at_.resize(y.size());
+    dydt_.resize(y.size());
+    handles_ = std::make_unique<Handles>(free);
+    handles_->state = handles_->vector(y.size());
+    values(handles_->state) = y;
+  }
+
+  static int rhs(double t, N_Vector y, N_Vector dydt, void* self) {
+    auto& me = *static_cast<FirstOrder*>(self);
+    me.at_ = values(y);
+    me.ode_->rhs(me.at_, me.dydt_, t);
+    values(dydt) = me.dydt_;
+    return me.dydt_.allFinite() ? 0 : 1;  // 1: try a shorter step
+  }
+
+  static int jacobian(double t, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector, N_Vector, N_Vector) {
+    auto& me = *static_cast<FirstOrder*>(self);
+    me.at_ = values(y);
+    const Eigen::Index n = me.at_.size();
+    me.dfdy_.resize(n, n);
+    me.ode_->jacobian(me.at_, t, me.dfdy_, me.dydt_);
+    Eigen::Map<Eigen::MatrixXd>(SM_DATA_D(matrix), n, n) = me.dfdy_;
+    return me.dfdy_.allFinite() ? 0 : 1;
+  }
+
+ private:
+  Ode* ode_ = nullptr;
+  State at_, dydt_;
+  Eigen::MatrixXd dfdy_;
+};
+
+class Cvode final : public FirstOrder {
+ public:
+  using FirstOrder::FirstOrder;
+
+ private:
+  void start(Ode& ode, const State& y, double t) override {
+    begin(ode, y, CVodeFree);
+    Handles& h = *handles_;
+    h.memory = CVodeCreate(CV_BDF, h.context);
+    CVodeSetErrHandlerFn(h.memory, silent, nullptr);
+    CVodeInit(h.memory, rhs, t, h.state);
+    CVodeSetUserData(h.memory, static_cast<FirstOrder*>(this));
+    CVodeSStolerances(h.memory, tolerances_.rtol, tolerances_.atol);
+    h.dense();
+    CVodeSetLinearSolver(h.memory, h.linear, h.matrix);
+    CVodeSetJacFn(h.memory, jacobian);
+    CVodeSetMaxNumSteps(h.memory, most_steps);
+  }
+  bool advance(double to) override {
+    double reached = 0;
+    CVodeSetStopTime(handles_->memory, to);
+    return CVode(handles_->memory, to, handles_->state, &reached, CV_NORMAL) >= 0;
+  }
+  double proposed() override {
+    double step = 0;
+    CVodeGetCurrentStep(handles_->memory, &step);
+    return step;
+  }
+};
+
+class Arkode final : public FirstOrder {
+ public:
+  using FirstOrder::FirstOrder;
+
+ private:
+  void start(Ode& ode, const State& y, double t) override {
+    begin(ode, y, ERKStepFree);
+    Handles& h = *handles_;
+    h.memory = ERKStepCreate(rhs, t, h.state, h.context);
+    ERKStepSetErrHandlerFn(h.memory, silent, nullptr);
+    ERKStepSetUserData(h.memory, static_cast<FirstOrder*>(this));
+    ERKStepSStolerances(h.memory, tolerances_.rtol, tolerances_.atol);
+    ERKStepSetOrder(h.memory, explicit_order);
+    ERKStepSetMaxNumSteps(h.memory, most_steps);
+  }
+  bool advance(double to) override {
+    double reached = 0;
+    ERKStepSetStopTime(handles_->memory, to);
+    return ERKStepEvolve(handles_->memory, to, handles_->state, &reached, ARK_NORMAL) >= 0;
+  }
+  double proposed() override {
+    double step = 0;
+    ERKStepGetCurrentStep(handles_->memory, &step);
+    return step;
+  }
+};
+
+/// Unknowns (q, v, lambda, dissipated energy): 0 = (q' - v, M v' + C_q^T lambda - Q, C_q v, E' - P).
+class Ida final : public SundialsStepper {
+ public:
+  Ida(const Tolerances& tolerances, SecondOrderSystem& system, NewtonCounters* counters)
+      : SundialsStepper(tolerances), system_(system), counters_(counters) {}
+
+ private:
+  void start(Ode&, const State& y, double t) override {
+    system_.expand(y, q_, v_);
+    n_ = system_.coordinates();
+    multipliers_ = system_.multipliers();
+    own_ = n_ - multipliers_;
+    damped_ = y.size() % 2;
+    a_.resize(n_);
+    r_.resize(n_);
+    system_.acceleration(q_, v_, t, a_);
+    const double power = system_.residual(q_, v_, a_, t, r_);
+
+    handles_ = std::make_unique<Handles>(IDAFree);
+    Handles& h = *handles_;
+    const Eigen::Index size = 2 * own_ + multipliers_ + damped_;
+    h.state = h.vector(size);
+    h.rate = h.vector(size);
+    h.id = h.vector(size);
+    values(h.state) << q_.head(own_), v_.head(own_), a_.tail(multipliers_), y.tail(damped_);
+    values(h.rate) << v_.head(own_), a_.head(own_), State::Zero(multipliers_), State::Constant(damped_, power);
+    values(h.id) << State::Ones(2 * own_), State::Zero(multipliers_), State::Ones(damped_);
+    h.memory = IDACreate(h.context);
+    IDASetErrHandlerFn(h.memory, silent, nullptr);
+    IDAInit(h.memory, residual, t, h.state, h.rate);
+    IDASetUserData(h.memory, this);
+    IDASStolerances(h.memory, tolerances_.rtol, tolerances_.atol);
+    IDASetId(h.memory, h.id);
+    IDASetSuppressAlg(h.memory, SUNTRUE);  // multipliers of a problem of index 2 would defeat the error test
+    h.dense();
+    IDASetLinearSolver(h.memory, h.linear, h.matrix);
+    IDASetMaxNumSteps(h.memory, most_steps);
+  }
+
+  void unpack(N_Vector state, N_Vector rate) {
+    const auto y = values(state), dy = values(rate);
+    q_.head(own_) = y.head(own_);
+    v_.head(own_) = y.segment(own_, own_);
+    a_.head(own_) = dy.segment(own_, own_);
+    a_.tail(multipliers_) = y.segment(2 * own_, multipliers_);
+  }
+
+  static int residual(double t, N_Vector state, N_Vector rate, N_Vector result, void* self) {
+    auto& me = *static_cast<Ida*>(self);
+    me.unpack(state, rate);
+    const double power = me.system_.residual(me.q_, me.v_, me.a_, t, me.r_);
+    auto out = values(result);
+    const auto dy = values(rate);
+    out.head(me.own_) = dy.head(me.own_) - me.v_.head(me.own_);
+    out.segment(me.own_, me.own_) = me.r_.head(me.own_);
+    me.system_.constraint_rates(me.v_, me.r_);
+    out.segment(2 * me.own_, me.multipliers_) = me.r_.tail(me.multipliers_);
+    if (me.damped_ > 0) out[out.size() - 1] = dy[out.size() - 1] - power;
+    return out.allFinite() ? 0 : 1;
+  }
+
+  bool advance(double to) override {
+    double reached = 0;
+    IDASetStopTime(handles_->memory, to);
+    return IDASolve(handles_->memory, to, &reached, handles_->state, handles_->rate, IDA_NORMAL) >= 0;
+  }
+
+  void store(State& y) override {
+    unpack(handles_->state, handles_->rate);
+    system_.contract(q_, v_, y);
+    if (damped_ > 0) y[y.size() - 1] = values(handles_->state)[2 * own_ + multipliers_];
+    if (counters_ == nullptr) return;
+    const ConstraintResidual now = system_.constraint_residual(q_, v_);
+    auto& largest = counters_->constraints;
+    largest.position = std::max(largest.position, now.position);
+    largest.velocity = std::max(largest.velocity, now.velocity);
+    counters_->multipliers = a_.tail(multipliers_);
+  }
+
+  double proposed() override {
+    double step = 0;
+    IDAGetCurrentStep(handles_->memory, &step);
+    return step;
+  }
+
+  SecondOrderSystem& system_;
+  NewtonCounters* counters_;
+  Eigen::Index n_ = 0, own_ = 0, multipliers_ = 0, damped_ = 0;
+  State q_, v_, a_, r_;
+};
+
+}  // namespace
+
+bool have_sundials() { return true; }
+
+std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType type, const Tolerances& tolerances,
+                                               SecondOrderSystem* system, NewtonCounters* counters) {
+  if (type == IntegratorType::ida) return std::make_unique<Ida>(tolerances, *system, counters);
+  if (type == IntegratorType::cvode) return std::make_unique<Cvode>(tolerances);
+  return std::make_unique<Arkode>(tolerances);
+}
+
+#else
+
+bool have_sundials() { return false; }
+
+std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType, const Tolerances&, SecondOrderSystem*, NewtonCounters*) {
+  return nullptr;
+}
+
+#endif
+
+}  // namespace vlbeam

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "core/dynamics/generalized_alpha.hpp"
+#include "core/dynamics/stepper.hpp"
+
+namespace vlbeam {
+
+/// Whether SUNDIALS is built in (VLBEAM_SUNDIALS).
+bool have_sundials();
+
+/// A method of SUNDIALS, by tolerances. A step of length dt may be several of its own; the one proposed is the next of
+/// its own, so that usually both agree.
+///
+/// cvode: BDF of orders 1 to 5 with the dense Jacobian of the equations; arkode: an explicit Runge-Kutta method of
+/// order
+/// 5. Both take the first-order form. ida: BDF on M q'' + C_q^T lambda = Q with multipliers, in the form of index 2: q'
+/// = v and C_q v = 0. Constraints are linear in q, so that C = 0 is kept as well as Newton's iteration converges; both
+/// residuals are in `counters`, which may be null. Its dense Jacobian is one of difference quotients.
+/// Only where have_sundials().
+std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType type, const Tolerances& tolerances,
+                                               SecondOrderSystem* system, NewtonCounters* counters);
+
+}  // namespace vlbeam

@@ -1,0 +1,106 @@
+#include "core/dynamics/sundials_stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tests/core/support/scenes.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+/// A falling beam with two length-control events, damped or not.
+Scene scene_for(IntegratorType type, double tolerance, double damping = 0) {
+  Scene scene = falling_beam(ElementKind::ale_ancf, 6);
+  scene.duration = 0.4;
+  scene.output.interval = 0.1;
+  scene.length_control.velocities = VelocityTransfer::conservative;
+  scene.beam.material.damping = damping;
+  scene.constraints = type == IntegratorType::ida ? Constraints::multipliers : Constraints::eliminated;
+  set_tolerance(scene, type, tolerance);
+  return scene;
+}
+
+double difference(const RunResult& a, const RunResult& b) {
+  EXPECT_EQ(a.samples.size(), b.samples.size());
+  EXPECT_EQ(a.events.size(), b.events.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(a.samples.size(), b.samples.size()); ++i) {
+    const Sample &p = a.samples[i], &q = b.samples[i];
+    largest = std::max({largest, std::abs(*p.joint_position - *q.joint_position), std::abs(p.end[0] - q.end[0]),
+                        std::abs(p.end[1] - q.end[1]), std::abs(p.energy.dissipated - q.energy.dissipated)});
+  }
+  return largest;
+}
+
+RunResult finished(const Scene& scene) {
+  RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
+  return result;
+}
+
+class Sundials : public ::testing::TestWithParam<IntegratorType> {
+ protected:
+  void SetUp() override {
+    if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, Sundials,
+                         ::testing::Values(IntegratorType::ida, IntegratorType::cvode, IntegratorType::arkode));
+
+TEST_P(Sundials, AgreesWithFehlbergToItsTolerance) {
+  const RunResult exact = finished(scene_for(IntegratorType::fehlberg78, 1e-12));
+  ASSERT_GE(exact.events.size(), 2u);
+  double last = 1;
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    const double error = difference(finished(scene_for(GetParam(), tolerance)), exact);
+    EXPECT_LE(error, 2000 * tolerance);
+    EXPECT_LT(error, last / 3);
+    last = error;
+  }
+}
+
+TEST_P(Sundials, CountsWhatDampingDissipates) {
+  const RunResult exact = finished(scene_for(IntegratorType::fehlberg78, 1e-11, 1e-3));
+  EXPECT_GT(exact.samples.back().energy.dissipated, 1e-3);
+  EXPECT_LE(difference(finished(scene_for(GetParam(), 1e-8, 1e-3)), exact), 1e-4);
+}
+
+TEST(Ida, KeepsConstraintsAndFindsTheirReactions) {
+  if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
+  const RunResult by_ida = finished(scene_for(IntegratorType::ida, 1e-9));
+  EXPECT_LE(by_ida.solver.newton.constraints.position, 1e-9);
+  EXPECT_LE(by_ida.solver.newton.constraints.velocity, 1e-8);
+  Scene scene = scene_for(IntegratorType::ida, 1e-9);
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = 2e-5;
+  const Eigen::VectorXd other = finished(scene).solver.newton.multipliers;
+  const Eigen::VectorXd multipliers = by_ida.solver.newton.multipliers;
+  ASSERT_EQ(multipliers.size(), other.size());
+  EXPECT_LE((multipliers - other).norm(), 2e-2 * other.norm());
+}
+
+TEST(WithoutSundials, ItsIntegratorsAreRefused) {
+  if (have_sundials()) GTEST_SKIP() << "built with SUNDIALS";
+  for (const auto type : {IntegratorType::ida, IntegratorType::cvode, IntegratorType::arkode}) {
+    try {
+      simulate(scene_for(type, 1e-6));
+      FAIL();
+    } catch (const InvalidInput& refused) {
+      EXPECT_EQ(refused.field, "/integrator/type");
+      EXPECT_NE(refused.allowed.find("VLBEAM_SUNDIALS"), std::string::npos);
+    }
+  }
+}
+
+TEST(Ida, NeedsMultipliers) {
+  if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
+  Scene scene = scene_for(IntegratorType::ida, 1e-6);
+  scene.constraints = Constraints::eliminated;
+  EXPECT_THROW(simulate(scene), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vlbeam::test
