@@ -5,7 +5,8 @@ n_low = int(coarsest); n_high = int(finest); spin = real(turns)
 set multiplot layout 1,3 title sprintf("Drill stem fed through its guide, %.0f turns a second", spin)
 of(n) = column("elements") == n ? 1 : NaN
 set xlabel "overhang (m)"
-set key top left
+set xtics 0.1
+set key bottom right
 set title "(a) whirl of the bit"
 set ylabel "distance from the axis (mm)"
 plot csv("feed") using "overhang":(of(n_low) * column("whirl") * 1e3) with lines linewidth 3 linecolor rgb light title sprintf("%d elements", n_low), \
