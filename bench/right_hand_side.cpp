@@ -1,9 +1,12 @@
-// One right-hand side of the falling beam with its mass solve, as time an element: planar, 5 points.
+// One right-hand side with its mass solve, as time an element, 5 points: of the falling beam, and of a beam all of
+// whose nodes travel.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
+#include "core/element/circular_shaft.hpp"
 #include "core/scene/build.hpp"
+#include "core/system/flowing_beam.hpp"
 
 namespace {
 
@@ -60,6 +63,34 @@ BENCHMARK_CAPTURE(planar, ALE_RANCF, ElementKind::ale_rancf, WeightTransport::fr
     ->Arg(10000);
 BENCHMARK_CAPTURE(planar, ALE_RANCF_transported, ElementKind::ale_rancf, WeightTransport::transported)->Arg(40);
 BENCHMARK_CAPTURE(spatial, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)->Arg(40);
+
+/// A beam all of whose nodes travel, as one under a moving load.
+template <int D>
+void flowing(benchmark::State& state, bool spins) {
+  const int elements = static_cast<int>(state.range(0));
+  const CircularShaft shaft{.radius = 0.01, .density = 7200, .youngs_modulus = 2e7};
+  FlowingModel<D> model;
+  model.section = shaft.section();
+  if (spins) model.spin = shaft.spin();
+  model.motion = MeshMotion({{0, steadily(0, -0.1)}, {elements / 2, steadily(0.5, 1)}, {elements, steadily(1, 0.1)}});
+  model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
+  FlowingBeam<D> beam(model);
+  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0), dydt(y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += 1e-6 * std::sin(static_cast<double>(i));
+  for (auto _ : state) {
+    beam.rhs(y, dydt, 0);
+    benchmark::DoNotOptimize(dydt.data());
+  }
+  state.counters["per_element"] = benchmark::Counter(
+      static_cast<double>(elements), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void flowing_planar(benchmark::State& state, bool spins) { flowing<2>(state, spins); }
+void flowing_spatial(benchmark::State& state, bool spins) { flowing<3>(state, spins); }
+
+BENCHMARK_CAPTURE(flowing_planar, no_spin, false)->Arg(40);
+BENCHMARK_CAPTURE(flowing_spatial, no_spin, false)->Arg(40);
+BENCHMARK_CAPTURE(flowing_spatial, spin, true)->Arg(40);
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 namespace vlbeam {
 
 // One declaration and one line of the list for each folder studies/<name>/.
+Study drill_stem_study();
 Study energy_drift_study();
 Study exact_arc_study();
 Study falling_beam_study();
@@ -24,6 +25,7 @@ Study work_precision_study();
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
+        drill_stem_study(),
         energy_drift_study(),
         exact_arc_study(),
         falling_beam_study(),

@@ -4,17 +4,19 @@ load folder . "/../moving_string/style.gp"
 what = set eq "slow" ? "Figure 7: a = 0.5, k_{/Symbol w} = 1" : "Figure 9: a = 1.5, k_{/Symbol w} = 0.5"
 set multiplot layout 2,2 title what . ", load at 1/4 ... 4/4 of the length. Lines: 4 elements; points: closed form"
 of(q) = strcol("set") eq set && column("quarter") == q ? 1 : NaN
-low = set eq "slow" ? -2 : -1.5
-high = set eq "slow" ? 2 : 1.5
+high = set eq "slow" ? 2.5 : 1.5
+low = -high
 set xrange [0:1]
 set yrange [low:high]
 set zrange [low:high]
 set xyplane at low
-set view 62, 40
+set view 62, 40, 1, 1.15
+set ytics 1
+set ztics 1
 set xlabel "X_3 / l"
 set ylabel "U_2 / U_s"
 set zlabel "U_1 / U_s" rotate parallel
-set xtics 0.25
+set xtics 0.5
 set key top right font ",12"
 letters = "(a) (b) (c) (d)"
 do for [q=1:4] {

@@ -1,13 +1,13 @@
 # Largest errors against the number of elements, with the paper's.
 width = 1100; height = 480
 load folder . "/../moving_string/style.gp"
-set multiplot layout 1,2 title "Largest error of the deflections over U_s against the closed form"
+set multiplot layout 1,2 title "Largest error of the deflections over U_s, against the closed form"
 of(s, q) = strcol("set") eq s && strcol("quantity") eq q ? 1 : NaN
 set logscale xy
 set format y "10^{%T}"
 set xtics (4, 8, 16, 32)
 set xrange [3.5:40]
-set yrange [1e-5:0.05]
+set yrange [3e-6:0.05]
 set xlabel "elements N"
 set ylabel "max |{/Symbol D}U| / U_s"
 set key bottom left font ",12"

@@ -91,6 +91,7 @@ class Shaft {
     IntegrationOptions options;
     options.type = IntegratorType::generalized_alpha;
     options.generalized_alpha.step = duration / run.steps;
+    options.generalized_alpha.newton_tolerance = 1e-15;  // of the length; deflections are 1e-4 of it
     SolverCounters counters;
     double t = 0;
     Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitZ(), 1, 0, spin_);

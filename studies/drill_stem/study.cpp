@@ -1,0 +1,196 @@
+// A drill stem that is fed through a rotary table and a guide while it spins: what the shaft element VLBSE (2017) is
+// for. Its overhang grows, and the whirl of its unbalanced bit passes through resonance.
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/element/circular_shaft.hpp"
+#include "core/system/steady_flow.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int D = 3;
+using Vector = Vec<double, D>;
+
+/// The stem from the table, at depth 0, to the bit.
+struct Stem {
+  CircularShaft shaft;
+  double guide, overhang;  ///< depth of the guide, and of the bit below it at t = 0 [m]
+  double feed;             ///< [m/s]
+  double spin;             ///< of the table [rad/s]
+  double torque;           ///< of the soil on the bit, once it is fully there [N m]
+  double ramp;             ///< [s]
+  double unbalance;        ///< force at the bit that turns with the table [N]
+  double duration;         ///< [s]
+
+  explicit Stem(const Json& json)
+      : shaft{.radius = json.at("radius"),
+              .density = json.at("density"),
+              .youngs_modulus = json.at("youngs_modulus"),
+              .poisson_ratio = json.at("poisson_ratio"),
+              .damping = 0},
+        guide(json.at("guide")),
+        overhang(json.at("overhang")),
+        feed(json.at("feed")),
+        spin(json.at("spin")),
+        torque(json.at("torque")),
+        ramp(json.at("ramp")),
+        unbalance(json.at("unbalance")),
+        duration(json.at("duration")) {
+    shaft.check();
+  }
+};
+
+/// `elements` of them, a third between table and guide, which the stem flows through; the others grow with the
+/// overhang.
+FlowingModel<D> model_of(const Stem& stem, int elements, bool ledger) {
+  const int guide = elements / 3;
+  FlowingModel<D> model;
+  model.section = stem.shaft.section();
+  model.spin = stem.shaft.spin();
+  model.motion = MeshMotion({{0, steadily(0, -stem.feed)},
+                             {guide, steadily(stem.guide, -stem.feed)},
+                             {elements, steadily(stem.guide + stem.overhang, 0)}});
+  model.supports = {{0, Support<D>::pin()}, {guide, Support<D>::slide(Vector::UnitZ())}};
+  model.angles = {{0, steadily(0, stem.spin)}};
+  auto turning = [=](double t) -> Vector {
+    return stem.unbalance * Vector(std::cos(stem.spin * t), std::sin(stem.spin * t), 0);
+  };
+  auto soil = [=](double t) {
+    const double s = std::min(1.0, t / stem.ramp);
+    return -stem.torque * s * s * (3 - 2 * s);
+  };
+  model.loads = {{.node = elements, .force = turning, .follower = {}, .torque = soil}};
+  model.ledger = ledger;
+  return model;
+}
+
+Eigen::VectorXd at_rest(const FlowingBeam<D>& beam, const Stem& stem, double t = 0) {
+  return beam.straight_state(Vector::Zero(), Vector::UnitZ(), 1, stem.feed, stem.spin, t);
+}
+
+struct Sample {
+  double overhang;   ///< [m]
+  double whirl;      ///< distance of the bit from the axis [m]
+  double twist;      ///< angle of the bit behind the table [rad]
+  double frequency;  ///< the lowest, of the overhang as it is [Hz]
+};
+
+std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples) {
+  FlowingBeam<D> beam(model_of(stem, elements, false));
+  std::vector<Sample> history;
+  std::vector<double> times;
+  for (int i = 0; i <= samples; ++i) times.push_back(stem.duration * i / samples);
+  beam.on_sample = [&](const Eigen::VectorXd& y, double t) {
+    const Vector bit = position<D>(y.data(), elements);
+    const double angle = y[beam.first_angle() + elements] - y[beam.first_angle()];
+    FlowingBeam<D> frozen(model_of(stem, elements, false));
+    const auto modes = frequencies(eigenvalues(linear_flows(frozen, at_rest(frozen, stem, t), t).axis));
+    history.push_back({stem.overhang + stem.feed * t, std::hypot(bit[0], bit[1]), -angle, modes.front()});
+  };
+  IntegrationOptions options;
+  options.type = IntegratorType::generalized_alpha;
+  options.generalized_alpha.step = stem.duration / steps;
+  options.generalized_alpha.newton_tolerance = 1e-14;
+  SolverCounters counters;
+  double t = 0;
+  Eigen::VectorXd y = at_rest(beam, stem);
+  integrate(beam, y, t, stem.duration, times, options, counters);
+  return history;
+}
+
+/// What the ledger misses, over what passed.
+struct Gap {
+  double energy, mass, momentum, spin_momentum;
+  double mesh;  ///< work of moving the guide's node along the stem, over the energy that passed
+};
+
+Gap ledger(const Stem& stem, int elements, double duration) {
+  FlowingBeam<D> beam(model_of(stem, elements, true));
+  Eigen::VectorXd y = at_rest(beam, stem);
+  const auto before = beam.observe(y, 0);
+  IntegrationOptions options;
+  options.type = IntegratorType::fehlberg78;
+  options.tolerances = {1e-9, 1e-11};
+  SolverCounters counters;
+  double t = 0;
+  integrate(beam, y, t, duration, {}, options, counters);
+  const auto after = beam.observe(y, t);
+  const auto book = beam.ledger(y);
+  const double passed = std::abs(book.ends) + std::abs(book.loads);
+  return {.energy = std::abs(after.energy.total() - before.energy.total() - book.energy()) / passed,
+          .mass = std::abs(after.mass - before.mass - book.mass) / book.mass,
+          .momentum = (after.momentum - before.momentum - book.impulse).norm() / book.impulse.norm(),
+          .spin_momentum =
+              std::abs(after.spin_momentum - before.spin_momentum - book.spin_impulse) / std::abs(book.spin_impulse),
+          .mesh = std::abs(book.mesh) / passed};
+}
+
+StudyReport run(const StudyContext& context) {
+  const Stem stem(context.config.at("stem"));
+  const auto counts = context.config.at("elements").get<std::vector<int>>();
+  const int steps = context.config.at("steps"), samples = context.config.at("samples");
+  const auto histories = context.sweep(
+      counts, [&](int n) { return feed(stem, n, steps, samples); }, [](int n) { return n; });
+  StudyReport report;
+  Table table{.name = "feed",
+              .caption =
+                  "Overhang [m], whirl of the bit [m], its angle behind the table [rad], lowest frequency of the "
+                  "overhang [Hz]",
+              .columns = {"elements", "overhang", "whirl", "twist", "frequency"},
+              .curve = true};
+  std::vector<Sample> coarser;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    report.cases.push_back({.options = {{"elements", counts[i]}}, .results = {}, .failure = histories[i].failure});
+    if (!histories[i]) continue;
+    double largest = 0, change = 0;
+    for (std::size_t k = 0; k < histories[i]->size(); ++k) {
+      const Sample& at = (*histories[i])[k];
+      table.rows.push_back({counts[i], at.overhang, at.whirl, at.twist, at.frequency});
+      largest = std::max(largest, at.whirl);
+      if (!coarser.empty()) change = std::max(change, std::abs(at.whirl - coarser[k].whirl));
+    }
+    report.cases.back().results = {{"largest_whirl", largest}, {"twist_at_the_end", histories[i]->back().twist}};
+    if (!coarser.empty()) report.measured["change_n" + std::to_string(counts[i])] = change / largest;
+    const auto& last = histories[i]->back();
+    const double length = stem.guide + last.overhang;
+    report.measured["twist_over_static_n" + std::to_string(counts[i])] =
+        last.twist / (stem.torque * length / stem.shaft.spin().GIp);
+    coarser = *histories[i];
+  }
+  report.tables.push_back(std::move(table));
+
+  const double short_duration = context.config.at("ledger_duration");
+  const Gap gap = ledger(stem, counts.front(), short_duration);
+  report.cases.push_back({.options = {{"ledger", short_duration}, {"elements", counts.front()}},
+                          .results = {{"energy", gap.energy},
+                                      {"mass", gap.mass},
+                                      {"momentum", gap.momentum},
+                                      {"spin_momentum", gap.spin_momentum},
+                                      {"mesh", gap.mesh}}});
+  report.measured["ledger_energy"] = gap.energy;
+  report.measured["ledger_mass"] = gap.mass;
+  report.measured["ledger_momentum"] = gap.momentum;
+  report.measured["ledger_spin_momentum"] = gap.spin_momentum;
+  report.figures = {{"feed",
+                     "Whirl of the bit and twist of the stem while the overhang grows",
+                     "feed.gp",
+                     {{"folder", context.folder.string()},
+                      {"turns", std::to_string(stem.spin / (2 * std::numbers::pi))},
+                      {"finest", std::to_string(counts.back())},
+                      {"coarsest", std::to_string(counts.front())}}}};
+  return report;
+}
+
+}  // namespace
+
+Study drill_stem_study();
+
+Study drill_stem_study() {
+  return {.name = "drill_stem", .title = "A spinning drill stem fed through its guide", .run = run};
+}
+
+}  // namespace vlbeam
