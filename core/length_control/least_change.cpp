@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <unsupported/Eigen/AutoDiff>
 
 #include "core/length_control/chain_motion.hpp"
@@ -12,10 +13,11 @@ namespace {
 
 constexpr int points_a_piece = 10;
 constexpr int most_iterations = 40;
-constexpr double converged = 1e-9;      // of slopes and logarithms of weights
-constexpr double longest_step = 0.3;    // of the same, in one iteration
-constexpr double gauge = 0.03;          // c, how much weights cost that change nothing
-constexpr double least_bending = 1e-3;  // of EA l^2, in K
+constexpr double converged = 1e-9;               // of slopes and logarithms of weights
+constexpr double longest_step = 0.3;             // of the same, in one iteration
+constexpr double prices[] = {1, 1e2, 1e4, 1e6};  // of a change of strain energy
+constexpr double gauge = 0.03;                   // c, how much weights cost that change nothing
+constexpr double least_bending = 1e-3;           // of EA l^2, in K
 
 /// The search for slopes and weights of one merged element.
 template <int D>
@@ -50,12 +52,29 @@ class Search {
     }
   }
 
-  /// Finds the unknowns; false where they do not converge.
-  bool operator()(Unknowns& p) {
+  /// The unknowns of the nearest shape that keeps the strain energy; of that which keeps it best where none does.
+  Unknowns operator()() {
+    Unknowns p = Unknowns::Zero();
+    if (newton(p)) return p;
+    // from far away: the condition as a growing price, then once more exactly
     p.setZero();
+    for (const double price : prices) descend(p, price);
+    Unknowns exact = p;
+    return newton(exact) && (exact - p).cwiseAbs().maxCoeff() < longest_step ? exact : p;
+  }
+
+ private:
+  struct Point {
+    double x, weight;
+    int element;
+    PointMotion<double, D> old;
+  };
+
+  /// Newton's iteration for the nearest shape under the condition that the strain energy stays; false where it does not
+  /// converge.
+  bool newton(Unknowns& p) {
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       evaluate(p);
-      // Newton's step for the nearest shape under the linearized condition that the strain energy stays
       Eigen::Matrix<double, N + 1, N + 1> kkt = Eigen::Matrix<double, N + 1, N + 1>::Zero();
       kkt.template topLeftCorner<N, N>() = hessian_;
       kkt.template topRightCorner<N, 1>() = energy_gradient_;
@@ -78,12 +97,37 @@ class Search {
     return false;
   }
 
- private:
-  struct Point {
-    double x, weight;
-    int element;
-    PointMotion<double, D> old;
-  };
+  /// Levenberg and Marquardt's descent of the distance plus `price` times the square of the change of strain energy
+  /// over the energy there was.
+  void descend(Unknowns& p, double price) {
+    const double scale = price / old_energy_;
+    auto objective = [&] { return distance_ + 0.5 * scale * energy_ * energy_; };
+    evaluate(p);
+    double best = objective(), damping = 1e-3;
+    for (int iteration = 0; iteration < most_iterations && damping < 1e8; ++iteration) {
+      Square matrix = hessian_ + scale * energy_gradient_ * energy_gradient_.transpose();
+      matrix.diagonal() *= 1 + damping;
+      Unknowns rhs = -gradient_ - scale * energy_ * energy_gradient_;
+      for (int i = 0; i < N; ++i) {
+        if (free_[i] != 0) continue;
+        matrix.row(i).setZero();
+        matrix.col(i).setZero();
+        matrix(i, i) = 1;
+        rhs[i] = 0;
+      }
+      const Unknowns step = matrix.ldlt().solve(rhs), tried = p + step;
+      evaluate(tried);
+      if (std::isfinite(objective()) && objective() < best) {
+        best = objective();
+        p = tried;
+        damping *= 0.2;
+        if (step.cwiseAbs().maxCoeff() < converged) return;
+      } else {
+        damping *= 5;
+        evaluate(p);
+      }
+    }
+  }
 
   /// Where the beam may be kinked at the joint its slopes there obey conditions of their own.
   bool held(int node) const { return chain_.kink && node == chain_.joint; }
@@ -92,7 +136,10 @@ class Search {
   void evaluate(const Unknowns& p) {
     hessian_.setZero();
     gradient_.setZero();
+    distance_ = 0;
+    old_energy_ = std::numeric_limits<double>::min();
     auto add = [&](const Real& residual) {
+      distance_ += 0.5 * residual.value() * residual.value();
       hessian_ += residual.derivatives() * residual.derivatives().transpose();
       gradient_ += residual.derivatives() * residual.value();
     };
@@ -107,6 +154,7 @@ class Search {
         const ElasticStress<Law, true, Real, D> is(now.r_x, now.r_xx, k);
         const ElasticStress<Law, true, double, D> was(point.old.r_x, point.old.r_xx, k);
         energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
+        old_energy_ += w * (was.axial + was.bending);
         add((stretch<Law, Real>(now.r_x) - Real(stretch<Law, double>(point.old.r_x), Unknowns::Zero())) *
             std::sqrt(w * k.EA));
         if (law_.section.bends()) {
@@ -199,7 +247,7 @@ class Search {
   std::vector<Point> points_;
   Unknowns free_, gradient_, energy_gradient_;
   Square hessian_;
-  double energy_ = 0;
+  double energy_ = 0, distance_ = 0, old_energy_ = 0;
 };
 
 }  // namespace
@@ -210,12 +258,7 @@ MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, in
   const auto i = static_cast<std::size_t>(merged);
   MergedWeights weights;
   chain.mesh.weights[i] = {unit_weights, chain.mesh.x[i], chain.mesh.x[i + 1]};
-  typename Search<D>::Unknowns p;
-  Search<D> search(chain, before, merged, rational, strain_law, law);
-  if (!search(p)) {
-    weights.unit_fallback = true;
-    return weights;
-  }
+  const typename Search<D>::Unknowns p = Search<D>(chain, before, merged, rational, strain_law, law)();
   slope<D>(chain.q.data(), merged) += p.template head<D>();
   slope<D>(chain.q.data(), merged + 1) += p.template segment<D>(D);
   for (std::size_t k = 0; k < 3; ++k) weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)]);

@@ -12,8 +12,8 @@ namespace vlbeam {
 /// in
 ///   integral of EA (eps - eps_old)^2 + EI (kappa - kappa_old)^2 + K |r - r_old|^2/l^4 dx + K/l c^2 |ln w - mean|^2,
 /// K = max(EI, EA l^2/1000), c = 0.03: the last term alone fixes the weights where the beam is straight and they change
-/// nothing, so that they depend continuously on the curve (derived; not in the paper). Returns the weights. Leaves
-/// slopes and unit weights as they are where the search does not converge.
+/// nothing, so that they depend continuously on the curve (derived; not in the paper). Where no
+/// shape keeps the strain energy, as with two slopes alone, the one that changes it least. Returns the weights.
 template <int D>
 MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational,
                            StrainLaw strain_law, const MovingLaw<D>& law);

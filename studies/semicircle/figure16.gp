@@ -15,10 +15,10 @@ last = real(word(times, words(times)))
 set key top center horizontal maxrows 2 title "t (s)" samplen 1.5
 plot for [t in times] csv("shapes") using "asbuilt_".t."_x":"asbuilt_".t."_y" with lines linewidth 2 linecolor palette frac (real(t)/last) title t, \
      csv("nodes") using (strcol("run") eq "asbuilt" && column("joint") == 1 ? column("x") : NaN):"y":(column("t")/last) with points pointtype 7 pointsize 1.1 linecolor palette
-unset size
+set size noratio
 set autoscale
 set key title ""
-set key bottom right vertical nobox
+set key vertical maxrows 6
 
 set title "(b) beam length"
 set xlabel "t (s)"
@@ -39,7 +39,7 @@ plot for [n in meshes] csv("meshes_history") using "mass_x_n".n:"mass_y_n".n wit
 set title "(d) energies, N = " . finest
 set xlabel "t (s)"
 set ylabel "energy less its initial value (J)"
-set key center right
+set key at graph 0.98,0.62 right
 stats csv("meshes_history") using "gravity_n".finest every ::0::0 nooutput
 start = STATS_mean
 plot csv("meshes_history") using "t":"kinetic_n".finest with lines linewidth 2 linecolor rgb "#a63603" title "kinetic", \

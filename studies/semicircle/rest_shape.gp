@@ -18,7 +18,7 @@ plot csv("shapes") using "asbuilt_".first."_x":"asbuilt_".first."_y" with lines 
      "" using "asbuilt_".third."_x":"asbuilt_".third."_y" with lines linewidth 2 linecolor rgb "#08306b" title "as-built, ".third." s", \
      "" using "paper_".second."_x":"paper_".second."_y" with lines linewidth 2 linecolor rgb "#fdae6b" title "straight, ".second." s", \
      "" using "paper_".third."_x":"paper_".third."_y" with lines linewidth 2 linecolor rgb "#a63603" title "straight, ".third." s"
-unset size
+set size noratio
 set autoscale
 
 set title "(b) trajectory of the sliding node"
