@@ -51,7 +51,7 @@ TEST_P(KinkedMultipliers, TendToTheExplicitSolutionWithOrderTwo) {
       if (friction > 0) scene.sliding_mass->friction = AxialFriction{friction, 0.1};
       if (spatial) {
         scene.dimension = 3;
-        scene.beam.curve.end = {0.6, 0.64, 0.48};
+        scene.beam.curve.end = {0.36, 0.48, 0.8};
       }
       scene.gravity_ramp = 0.1;
       scene.duration = scene.output.interval = 0.2;
