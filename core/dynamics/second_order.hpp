@@ -40,8 +40,9 @@ class SecondOrderSystem {
   virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const {
     return {};
   }
-  /// Writes the rates C_q v of the constraints where the multipliers stand, at the end of `rates`, of all coordinates.
-  virtual void constraint_rates(const Eigen::VectorXd& /*v*/, Eigen::VectorXd& /*rates*/) const {}
+  /// Writes C_q v where the multipliers stand, at the end of `rates`.
+  virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                Eigen::VectorXd& /*rates*/) const {}
   /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before, for whichever
   /// stepper. Returns false where it is singular.
   virtual bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,

@@ -186,7 +186,7 @@ class Arkode final : public FirstOrder {
   }
 };
 
-/// Unknowns (q, v, lambda, dissipated energy): 0 = (q' - v, M v' + C_q^T lambda - Q, C_q v, E' - P).
+/// Unknowns (q, v, lambda, mu, E): 0 = (q' - v + C_q^T mu, M v' + C_q^T lambda - Q, C_q v, C, E' - P), E dissipated.
 class Ida final : public SundialsStepper {
  public:
   Ida(const Tolerances& tolerances, SecondOrderSystem& system, NewtonCounters* counters)
@@ -206,13 +206,13 @@ class Ida final : public SundialsStepper {
 
     handles_ = std::make_unique<Handles>(IDAFree);
     Handles& h = *handles_;
-    const Eigen::Index size = 2 * own_ + multipliers_ + damped_;
+    const Eigen::Index size = 2 * (own_ + multipliers_) + damped_;
     h.state = h.vector(size);
     h.rate = h.vector(size);
     h.id = h.vector(size);
-    values(h.state) << q_.head(own_), v_.head(own_), a_.tail(multipliers_), y.tail(damped_);
-    values(h.rate) << v_.head(own_), a_.head(own_), State::Zero(multipliers_), State::Constant(damped_, power);
-    values(h.id) << State::Ones(2 * own_), State::Zero(multipliers_), State::Ones(damped_);
+    values(h.state) << q_.head(own_), v_.head(own_), a_.tail(multipliers_), State::Zero(multipliers_), y.tail(damped_);
+    values(h.rate) << v_.head(own_), a_.head(own_), State::Zero(2 * multipliers_), State::Constant(damped_, power);
+    values(h.id) << State::Ones(2 * own_), State::Zero(2 * multipliers_), State::Ones(damped_);
     h.memory = IDACreate(h.context);
     IDASetErrHandlerFn(h.memory, silent, nullptr);
     IDAInit(h.memory, residual, t, h.state, h.rate);
@@ -238,11 +238,16 @@ class Ida final : public SundialsStepper {
     me.unpack(state, rate);
     const double power = me.system_.residual(me.q_, me.v_, me.a_, t, me.r_);
     auto out = values(result);
-    const auto dy = values(rate);
-    out.head(me.own_) = dy.head(me.own_) - me.v_.head(me.own_);
-    out.segment(me.own_, me.own_) = me.r_.head(me.own_);
-    me.system_.constraint_rates(me.v_, me.r_);
-    out.segment(2 * me.own_, me.multipliers_) = me.r_.tail(me.multipliers_);
+    const auto y = values(state), dy = values(rate);
+    const Eigen::Index own = me.own_, m = me.multipliers_;
+    out.head(own) = dy.head(own) - me.v_.head(own) - me.r_.head(own);
+    out.segment(own, own) = me.r_.head(own);
+    out.segment(2 * own + m, m) = me.r_.tail(m);
+    me.a_.tail(m) += y.segment(2 * own + m, m);  // the equations are linear in the multipliers
+    me.system_.residual(me.q_, me.v_, me.a_, t, me.r_);
+    out.head(own) += me.r_.head(own);
+    me.system_.constraint_rates(me.q_, me.v_, me.r_);
+    out.segment(2 * own, m) = me.r_.tail(m);
     if (me.damped_ > 0) out[out.size() - 1] = dy[out.size() - 1] - power;
     return out.allFinite() ? 0 : 1;
   }
@@ -256,7 +261,7 @@ class Ida final : public SundialsStepper {
   void store(State& y) override {
     unpack(handles_->state, handles_->rate);
     system_.contract(q_, v_, y);
-    if (damped_ > 0) y[y.size() - 1] = values(handles_->state)[2 * own_ + multipliers_];
+    if (damped_ > 0) y[y.size() - 1] = values(handles_->state)[2 * (own_ + multipliers_)];
     if (counters_ == nullptr) return;
     const ConstraintResidual now = system_.constraint_residual(q_, v_);
     auto& largest = counters_->constraints;

@@ -179,7 +179,8 @@ void check_joint(const Scene& scene) {
              "\"generalized-alpha\" needs \"constraints\": \"multipliers\" for two slopes at the mass, or an explicit "
              "integrator; with \"eliminated\" they must be \"continuous\"");
     }
-    if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum) {
+    if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum ||
+        type == IntegratorType::cvode) {
       refuse("/sliding_mass/slopes", quoted(to_string(mass.slopes)),
              quoted(to_string(type)) +
                  " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\" with "

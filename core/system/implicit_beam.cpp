@@ -267,9 +267,13 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 }
 
 template <int D>
-void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& v, Eigen::VectorXd& rates) const {
+void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                       Eigen::VectorXd& rates) const {
   Eigen::Index at = rates.size() - multipliers();
   for (const auto& constraint : constraints_) rates[at++] = constraint(v.data(), true);
+  for (int i = 0; i < slope_conditions_.count(); ++i) {
+    rates[at++] = slope_conditions_.rate(i, joint_slopes(q.data()), joint_slopes(v.data()));
+  }
 }
 
 template <int D>

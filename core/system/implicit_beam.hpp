@@ -33,7 +33,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override;
-  void constraint_rates(const Eigen::VectorXd& v, Eigen::VectorXd& rates) const override;
+  void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& rates) const override;
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
