@@ -35,8 +35,8 @@ void MeshMotion::at(double t, std::vector<Prescribed>& nodes) const {
     const Prescribed to = guides_[k].x(t);
     for (int i = 1; i < count; ++i) {
       const double u = static_cast<double>(i) / count, v = 1 - u;
-      nodes[static_cast<std::size_t>(first + i)] = {v * from.value + u * to.value, v * from.rate + u * to.rate,
-                                                    v * from.acceleration + u * to.acceleration};
+      nodes[static_cast<std::size_t>(first) + static_cast<std::size_t>(i)] = {
+          v * from.value + u * to.value, v * from.rate + u * to.rate, v * from.acceleration + u * to.acceleration};
     }
     nodes[static_cast<std::size_t>(guides_[k].node)] = to;
     from = to;

@@ -417,6 +417,9 @@ void FlowingBeam<D>::jacobian(const Eigen::VectorXd& /*y*/, double /*t*/, Eigen:
 
 template <int D>
 SecondOrderSystem* FlowingBeam<D>::second_order() {
+  if (model_.ledger) {
+    throw InvalidInput("/ledger", "true", "false with an implicit method: it integrates the motion alone");
+  }
   if (!implicit_) implicit_ = std::make_unique<ImplicitFlow<D>>(*this);
   return implicit_.get();
 }
@@ -457,6 +460,16 @@ std::vector<Prescribed> FlowingBeam<D>::nodes_at(double t) const {
   std::vector<Prescribed> nodes;
   model_.motion.at(t, nodes);
   return nodes;
+}
+
+template <int D>
+void FlowingBeam<D>::check_motion(double until) const {
+  const auto tangle = model_.motion.tangle(0, until, shortest * reference_length_);
+  if (!tangle) return;
+  throw InvalidInput("/beam/nodes",
+                     "a motion by which element " + std::to_string(tangle->element) +
+                         " has no length left at t = " + text(tangle->t) + " s",
+                     "material coordinates increase from node to node until the end, t = " + text(until) + " s");
 }
 
 template <int D>

@@ -107,6 +107,7 @@ class FlowingBeam final : public EventedOde {
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   /// Not there: throws InvalidInput.
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
+  /// Throws InvalidInput where the state holds a ledger.
   SecondOrderSystem* second_order() override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
@@ -125,6 +126,9 @@ class FlowingBeam final : public EventedOde {
   /// Where the angles stand among the coordinates.
   Eigen::Index first_angle() const { return nodal_; }
 
+  /// Throws InvalidInput, with the time, where the prescribed nodes tangle in [0, until]. A run ends where they do at
+  /// the latest, with ComputationFailed.
+  void check_motion(double until) const;
   /// The beam along a straight line at time t, from `start` in the unit direction `along`, stretched by `stretch`; its
   /// material moves at `velocity` along the line, and spins at `spin` [rad/s] from the angle zero.
   Eigen::VectorXd straight_state(const Vector& start, const Vector& along, double stretch, double velocity, double spin,
@@ -182,7 +186,7 @@ class FlowingBeam final : public EventedOde {
   std::vector<Element> elements_;
   ChainMass<D> mass_;
   std::vector<double> spin_inverse_;  ///< of the pivots of the angles' mass matrix
-  Eigen::VectorXd still_;     // accelerations of zero
+  Eigen::VectorXd still_;             // accelerations of zero
   Eigen::VectorXd residual_;          // of the ledger
   std::size_t rhs_evaluations_ = 0;
   std::unique_ptr<ImplicitFlow<D>> implicit_;

@@ -81,6 +81,7 @@ struct Sample {
 
 std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples) {
   FlowingBeam<D> beam(model_of(stem, elements, false));
+  beam.check_motion(stem.duration);
   std::vector<Sample> history;
   std::vector<double> times;
   for (int i = 0; i <= samples; ++i) times.push_back(stem.duration * i / samples);

@@ -72,6 +72,7 @@ class Shaft {
     };
     model.loads = {{.node = middle, .force = turning, .follower = {}, .torque = {}}};
     FlowingBeam<D> beam(model);
+    beam.check_motion((1 - 2 * margin) * duration);
 
     std::vector<double> times;
     for (int i = 1; i < samples; ++i) times.push_back(duration * (static_cast<double>(i) / samples - margin));

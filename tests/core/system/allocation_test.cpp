@@ -6,6 +6,7 @@
 #include "core/system/beam_system.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/element_family.hpp"
+#include "tests/core/support/flows.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define VLBEAM_COUNTS_ALLOCATIONS 0  // the sanitizer has its own malloc
@@ -131,6 +132,28 @@ TEST(GeneralizedAlphaStep, AllocatesNothingOnceItIsGoing) {
     expect_steady_steps<2>(4, 0, Constraints::multipliers, NewtonKind::modified, slopes);
     expect_steady_steps<3>(4, 0, Constraints::multipliers, NewtonKind::full, slopes);
   }
+}
+
+TEST(RightHandSide, OfAFlowingBeamAllocatesNothing) {
+  if (!VLBEAM_COUNTS_ALLOCATIONS) GTEST_SKIP() << "not under a sanitizer";
+  Random random(4);
+  FlowingModel<3> model = moving_span<3>(6, true, 10);
+  model.spin = SpinSection{.rhoIp = 1, .GIp = 1, .damping = 0.1};
+  model.loads = {{.node = 3,
+                  .force = [](double t) { return Eigen::Vector3d(t, 1, 0); },
+                  .follower = [](double) { return 1.0; },
+                  .torque = [](double) { return 1.0; }}};
+  model.line_force = [](double t) { return Eigen::Vector3d(0, t, 1); };
+  model.line_torque = [](double) { return 1.0; };
+  model.ledger = true;
+  FlowingBeam<3> beam(model);
+  const Eigen::VectorXd y = random_state(beam, random);
+  Eigen::VectorXd dydt(beam.size());
+  beam.rhs(y, dydt, 0);
+  const std::size_t before = allocations;
+  beam.rhs(y, dydt, 0.01);
+  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_TRUE(dydt.allFinite());
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
   FlowingModel<D> model = resting<D>(5);
   model.section = {.rhoA = 1.3, .stiffness = {2.1, 0.7}};
   model.spin = SpinSection{.rhoIp = 1.3, .GIp = 0.9};
-  model.motion = MeshMotion(
-      {{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(2, wave(0.3, 2.1))}, {5, shifted(5, wave(0.4, 0.7))}});
+  model.motion =
+      MeshMotion({{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(2, wave(0.3, 2.1))}, {5, shifted(5, wave(0.4, 0.7))}});
   FlowingBeam<D> beam(model);
   const double t = 0.4, spin = 1.7, velocity = 0.6;
   const Vec<double, D> along = this->random_.template vector<D>().normalized();
@@ -147,6 +147,8 @@ TEST(FlowingBeam, StopsWhereItsNodesTangle) {
   model.motion = MeshMotion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});
   for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
     FlowingBeam<3> beam(model);
+    EXPECT_NO_THROW(beam.check_motion(0.24));
+    EXPECT_THROW(beam.check_motion(0.26), InvalidInput);
     Eigen::VectorXd y = beam.straight_state(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1, 0, 0);
     IntegrationOptions options;
     options.type = type;

@@ -130,5 +130,12 @@ TEST(ImplicitFlow, RefusesMethodsThatDoNotApply) {
   }
 }
 
+TEST(ImplicitFlow, KeepsNoLedger) {
+  FlowingModel<2> model = whirling<2>();
+  model.ledger = true;
+  FlowingBeam<2> beam(model);
+  EXPECT_THROW(beam.second_order(), InvalidInput);
+}
+
 }  // namespace
 }  // namespace vlbeam::test
