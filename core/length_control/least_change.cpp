@@ -23,7 +23,7 @@ constexpr double least_bending = 1e-3;           // of EA l^2, in K
 template <int D>
 class Search {
  public:
-  static constexpr int N = 2 * D + 3;  // two slopes, three logarithms of weights
+  static constexpr int N = 2 * D + 4;  // two slopes, four logarithms of weights
   using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
   using Unknowns = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
@@ -34,7 +34,7 @@ class Search {
     free_.setOnes();
     if (merged == 0 || held(merged)) free_.template head<D>().setZero();
     if (merged + 1 == chain.mesh.last() || held(merged + 1)) free_.template segment<D>(D).setZero();
-    if (!rational) free_.template tail<3>().setZero();
+    if (!rational) free_.template tail<4>().setZero();
     const int first = std::max(0, merged - 1), last = std::min(chain.mesh.elements(), merged + 2);
     const auto& x = chain.mesh.x;
     length_ = x[static_cast<std::size_t>(merged) + 1] - x[static_cast<std::size_t>(merged)];
@@ -179,11 +179,7 @@ class Search {
         add((now.r[c] - Real(point.old.r[c], Unknowns::Zero())) * std::sqrt(w * scale_ / std::pow(length_, 4)));
       }
     }
-    // ln w against its mean, so that neither end is preferred
-    const Real mean = (unknown[2 * D] + unknown[2 * D + 1] + unknown[2 * D + 2]) * 0.25;
-    const double price = gauge * std::sqrt(scale_ / length_);
-    for (std::size_t i = 0; i < 3; ++i) add((unknown[2 * D + i] - mean) * price);
-    add(mean * price);
+    for (std::size_t i = 0; i < 4; ++i) add(unknown[2 * D + i] * (gauge * std::sqrt(scale_ / length_)));
     energy_ = energy.value();
     energy_gradient_ = energy.derivatives();
   }
@@ -217,7 +213,7 @@ class Search {
       move(s_b, D);
       using std::exp;
       const Weights<Real> w{exp(unknown[2 * D]), exp(unknown[2 * D + 1]), exp(unknown[2 * D + 2]),
-                            Real(1, Unknowns::Zero())};
+                            exp(unknown[2 * D + 3])};
       f = rational_shape(w, Real(u, Unknowns::Zero()));
     } else {
       if (point.element == merged_ - 1) move(s_b, 0);
@@ -261,7 +257,7 @@ MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, in
   const typename Search<D>::Unknowns p = Search<D>(chain, before, merged, rational, strain_law, law)();
   slope<D>(chain.q.data(), merged) += p.template head<D>();
   slope<D>(chain.q.data(), merged + 1) += p.template segment<D>(D);
-  for (std::size_t k = 0; k < 3; ++k) weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)]);
+  for (std::size_t k = 0; k < 3; ++k) weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)] - p[2 * D + 3]);
   chain.mesh.weights[i].w = weights.weights();
   return weights;
 }

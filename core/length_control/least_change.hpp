@@ -10,7 +10,7 @@ namespace vlbeam {
 /// its two nodes (inside the beam; a kinked joint keeps its slopes) and, for a `rational` one, by its weights. Of the
 /// shapes that store the strain energy of the old ones it takes, over that element and its neighbours, the one nearest
 /// in
-///   integral of EA (eps - eps_old)^2 + EI (kappa - kappa_old)^2 + K |r - r_old|^2/l^4 dx + K/l c^2 |ln w - mean|^2,
+///   integral of EA (eps - eps_old)^2 + EI (kappa - kappa_old)^2 + K |r - r_old|^2/l^4 dx + K/l c^2 |ln w|^2,
 /// K = max(EI, EA l^2/1000), c = 0.03: the last term alone fixes the weights where the beam is straight and they change
 /// nothing, so that they depend continuously on the curve (derived; not in the paper). Where no
 /// shape keeps the strain energy, as with two slopes alone, the one that changes it least. Returns the weights.

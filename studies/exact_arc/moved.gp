@@ -2,7 +2,7 @@
 width = 1100; height = 470
 load folder . "/style.gp"
 angles = "20 40 60"
-set multiplot layout 1,3 title "Two arc elements, the joint between them moved along the circle" margins 0.08,0.98,0.14,0.82 spacing 0.06,0.1
+set multiplot layout 1,3 title "Two arc elements, the joint between them moved along the circle" margins 0.09,0.98,0.14,0.82 spacing 0.06,0.1
 set logscale y
 set format y "10^{%T}"
 set yrange [1e-17:1]
