@@ -14,7 +14,7 @@ namespace {
 /// A falling beam with two length-control events, damped or not.
 Scene scene_for(IntegratorType type, double tolerance, double damping = 0) {
   Scene scene = falling_beam(ElementKind::ale_ancf, 6);
-  scene.duration = 0.4;
+  scene.duration = 0.45;
   scene.output.interval = 0.1;
   scene.length_control.velocities = VelocityTransfer::conservative;
   scene.beam.material.damping = damping;
