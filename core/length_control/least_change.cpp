@@ -24,6 +24,7 @@ template <int D>
 class Search {
  public:
   static constexpr int N = 2 * D + 4;  // two slopes, four logarithms of weights
+  static constexpr std::size_t first_weight = N - 4;
   using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
   using Unknowns = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
@@ -179,7 +180,9 @@ class Search {
         add((now.r[c] - Real(point.old.r[c], Unknowns::Zero())) * std::sqrt(w * scale_ / std::pow(length_, 4)));
       }
     }
-    for (std::size_t i = 0; i < 4; ++i) add(unknown[2 * D + i] * (gauge * std::sqrt(scale_ / length_)));
+    for (std::size_t i = first_weight; i < first_weight + 4; ++i) {
+      add(unknown[i] * (gauge * std::sqrt(scale_ / length_)));
+    }
     energy_ = energy.value();
     energy_gradient_ = energy.derivatives();
   }

@@ -67,7 +67,8 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
       const auto was = motion_at(before, from, x, model_.transport), is = motion_at(after, to, x, model_.transport);
       const Vector excess = (was.v - is.v) * (weight * length * model_.section.rhoA);
       for (int i = 0; i < 4; ++i) {
-        const Eigen::Index at = to == joint_ && i == 1 ? behind_ : Eigen::Index{node_size<D>} * to + i * D;
+        const Eigen::Index at =
+            to == joint_ && i == 1 ? behind_ : Eigen::Index{node_size<D>} * to + Eigen::Index{D} * i;
         momentum.segment<D>(at) += is.s[static_cast<std::size_t>(i)] * excess;
       }
       if (to + 1 == joint_) momentum[nodal_] += is.y_b.dot(excess);

@@ -208,7 +208,8 @@ class Report {
       for (const double share : config_.at("moved").at("shares").get<std::vector<double>>()) {
         const double x = share * angle;
         const auto at = curve.evaluate(share / 2);
-        const Vec<double, 2> r = at[0], r_x = at[1] / (2 * angle);
+        const Vec<double, 2>& r = at[0];
+        const Vec<double, 2> r_x = at[1] / (2 * angle);
         auto pair = [&](const Weights<double>& left, const Weights<double>& right) -> std::vector<Element<2>> {
           return {{{whole.e.r_a, whole.e.s_a, r, r_x}, left, x},
                   {{r, r_x, whole.e.r_b, whole.e.s_b}, right, 2 * angle - x}};

@@ -23,13 +23,14 @@ set key vertical maxrows 6
 set title "(b) beam length"
 set xlabel "t (s)"
 set ylabel "length (m)"
-set yrange [6.2825:6.295]
+set yrange [6.2825:6.298]
 set format y "%.3f"
-set key top right
+set key top center horizontal
 plot for [n in meshes] csv("meshes_history") using "t":"beam_length_n".n with lines linewidth 1.6 linecolor rgb mesh_colour(int(n)) title "N = ".n
 set format y
 set autoscale y
 
+set key vertical
 set title "(c) trajectory of the sliding node"
 set xlabel "X (m)"
 set ylabel "Y (m)"
@@ -39,7 +40,8 @@ plot for [n in meshes] csv("meshes_history") using "mass_x_n".n:"mass_y_n".n wit
 set title "(d) energies, N = " . finest
 set xlabel "t (s)"
 set ylabel "energy less its initial value (J)"
-set key at graph 0.98,0.62 right
+set yrange [-40:45]
+set key top center horizontal maxrows 2
 stats csv("meshes_history") using "gravity_n".finest every ::0::0 nooutput
 start = STATS_mean
 plot csv("meshes_history") using "t":"kinetic_n".finest with lines linewidth 2 linecolor rgb "#a63603" title "kinetic", \
