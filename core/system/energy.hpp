@@ -23,8 +23,8 @@ struct Energy {
     return *this;
   }
   friend Energy operator-(const Energy& a, const Energy& b) {
-    return {a.kinetic - b.kinetic, a.axial - b.axial, a.bending - b.bending, a.gravity - b.gravity,
-            a.dissipated - b.dissipated, a.torsion - b.torsion};
+    return {a.kinetic - b.kinetic, a.axial - b.axial,           a.bending - b.bending,
+            a.gravity - b.gravity, a.dissipated - b.dissipated, a.torsion - b.torsion};
   }
 };
 

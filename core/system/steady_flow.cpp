@@ -26,7 +26,8 @@ double stretch_under(double force, double EA, StrainLaw law) {
   if (!(force > -EA / (3 * std::numbers::sqrt3))) {
     std::ostringstream text;
     text << force;
-    throw InvalidInput("/force", text.str(), "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses");
+    throw InvalidInput("/force", text.str(),
+                       "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses");
   }
   double stretch = 1;
   for (int i = 0; i < most_iterations; ++i) {
