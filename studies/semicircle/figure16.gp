@@ -40,10 +40,10 @@ plot for [n in meshes] csv("meshes_history") using "mass_x_n".n:"mass_y_n".n wit
 set title "(d) energies, N = " . finest
 set xlabel "t (s)"
 set ylabel "energy less its initial value (J)"
-set yrange [-40:45]
 set key top center horizontal maxrows 2
 stats csv("meshes_history") using "gravity_n".finest every ::0::0 nooutput
 start = STATS_mean
+set yrange [-40:45]
 plot csv("meshes_history") using "t":"kinetic_n".finest with lines linewidth 2 linecolor rgb "#a63603" title "kinetic", \
      "" using "t":"strain_n".finest with lines linewidth 2 linecolor rgb "#4292c6" title "strain", \
      "" using "t":(column("gravity_n".finest) - start) with lines linewidth 2 linecolor rgb "#08306b" title "gravity", \
