@@ -354,7 +354,7 @@ void ImplicitBeam<D>::add_friction_tangent(const Eigen::VectorXd& q, const Eigen
   const Real x_rate(v[after_nodes()], N, 2 * D);
   const Real force = friction_force<Real, D>(*joint.friction, joint.mass, active_pull, active_slope, x_rate).force;
   if (force.derivatives().size() == 0 || force.value() == 0) return;
-  const Eigen::Matrix<double, N, 1> by = force.derivatives();
+  const Eigen::Matrix<double, N, 1>& by = force.derivatives();
   auto& row = tangent_.border.front().row;  // from node j - 1 on
   row[1].template head<D>() -= by_a * by.template head<D>();
   row[1].template tail<D>() -= by.template segment<D>(D) / 2;

@@ -37,7 +37,8 @@ std::vector<Case> read_cases(const Json& config) {
   for (const auto& [group, spec] : config.at("groups").items()) {
     for (const auto& [variant, own] : spec.at("variants").items()) {
       const Json scene = merged(merged(config.at("scene"), spec.at("scene")), own.at("scene"));
-      const auto add = [&](const Json& integrator, bool judged) {
+      // clang 14 cannot capture structured bindings
+      const auto add = [&, &group = group, &variant = variant, &own = own](const Json& integrator, bool judged) {
         Scene read = scene_from_json(merged(scene, {{"integrator", integrator}}));
         read.output.interval = read.duration / samples;
         if (judged) read.output.configurations = {0, read.duration / 4, read.duration / 2, read.duration};
