@@ -65,7 +65,7 @@ FlowingBeam<D>::~FlowingBeam() = default;
 
 template <int D>
 void FlowingBeam<D>::check_model() const {
-  if (elements() < 1) throw InvalidInput("/beam/nodes", "no motion", "the first and the last node need theirs");
+  if (elements() < 1) throw InvalidInput("/flow/nodes", "no motion", "the first and the last node need theirs");
   if (!model_.weights.empty() && static_cast<int>(model_.weights.size()) != elements()) {
     throw InvalidInput("/beam/weights", std::to_string(model_.weights.size()) + " of them", "one an element, or none");
   }
@@ -74,11 +74,11 @@ void FlowingBeam<D>::check_model() const {
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
     const double length = nodes[k + 1].value - nodes[k].value;
     if (length > 0) continue;
-    throw InvalidInput("/beam/nodes", "element " + std::to_string(k) + " of length " + text(length) + " at t = 0",
+    throw InvalidInput("/flow/nodes", "element " + std::to_string(k) + " of length " + text(length) + " at t = 0",
                        "material coordinates increase from node to node");
   }
 
-  auto check_nodes = [&](const char* field, const auto& list) {
+  auto check_nodes = [&](const char* field, const auto& list, bool once) {
     std::vector<bool> taken(nodes.size(), false);
     for (const auto& entry : list) {
       if (entry.node < 0 || entry.node > elements()) {
@@ -87,23 +87,23 @@ void FlowingBeam<D>::check_model() const {
             "a node of the beam, 0 to " + std::to_string(elements()) + ": beyond its ends there is none");
       }
       const auto k = static_cast<std::size_t>(entry.node);
-      if (taken[k]) throw InvalidInput(field, "node " + std::to_string(entry.node) + " twice", "once a node");
+      if (taken[k] && once) throw InvalidInput(field, "node " + std::to_string(entry.node) + " twice", "once a node");
       taken[k] = true;
     }
     return taken;
   };
-  check_nodes("/supports", model_.supports);
-  const std::vector<bool> driven = check_nodes("/angles", model_.angles);
+  check_nodes("/supports", model_.supports, true);
+  const std::vector<bool> driven = check_nodes("/spin/drives", model_.angles, true);
   std::vector<PointLoad<D>> at_nodes;
   std::ranges::copy_if(model_.loads, std::back_inserter(at_nodes), [](const PointLoad<D>& load) { return !load.x; });
-  check_nodes("/loads", at_nodes);
+  check_nodes("/loads", at_nodes, false);
 
   if (!model_.spin && (!model_.angles.empty() || model_.line_torque)) {
-    throw InvalidInput("/beam/spin", "none", "a section that spins: angles or torques are given");
+    throw InvalidInput("/spin", "none", "a section that spins: angles or torques are given");
   }
   for (const auto& load : model_.loads) {
     if (!load.torque) continue;
-    if (!model_.spin) throw InvalidInput("/beam/spin", "none", "a section that spins: a torque is given");
+    if (!model_.spin) throw InvalidInput("/spin", "none", "a section that spins: a torque is given");
     if (!load.x && driven[static_cast<std::size_t>(load.node)]) {
       throw InvalidInput("/loads", "a torque at node " + std::to_string(load.node),
                          "a torque where the angle is not prescribed already");
@@ -112,7 +112,7 @@ void FlowingBeam<D>::check_model() const {
   for (const DrivenAngle& angle : model_.angles) {
     const double rate = angle.theta(0).rate, first = model_.angles.front().theta(0).rate;
     if (rate == first) continue;
-    throw InvalidInput("/angles", "spins of " + text(first) + " and " + text(rate) + " rad/s",
+    throw InvalidInput("/spin/drives", "spins of " + text(first) + " and " + text(rate) + " rad/s",
                        "one spin: a shaft driven at two places at different rates winds up without bound");
   }
 }
@@ -151,7 +151,8 @@ SpinChain::Coordinates FlowingBeam<D>::spin_of(const double* q, int k, double Pr
 
 template <int D>
 MovingLaw<D> FlowingBeam<D>::law(double t) const {
-  MovingLaw<D> result{model_.section, model_.formulation, model_.transport, model_.gravity};
+  MovingLaw<D> result{model_.section, model_.formulation, model_.transport,
+                      model_.gravity * smooth_ramp(t, model_.gravity_ramp).value};
   if (model_.line_force) result.gravity += model_.line_force(t) / model_.section.rhoA;
   return result;
 }
@@ -439,7 +440,7 @@ Guards FlowingBeam<D>::guards(const Eigen::VectorXd& /*y*/, double t) const {
   if (model_.transport == WeightTransport::transported) {
     for (int k = 0; k < elements(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Weights<double> w = weights(k).on(nodes[i].value, nodes[i + 1].value);
+      const Weights<double> w = weights_at(i, nodes);
       const double ratio = *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
       value[1] = std::max(value[1], smallest_weight - ratio);
     }
@@ -469,7 +470,7 @@ std::vector<Prescribed> FlowingBeam<D>::nodes_at(double t) const {
 template <int D>
 void FlowingBeam<D>::check_motion(double until) const {
   if (const auto tangle = model_.motion.tangle(0, until, shortest * reference_length_)) {
-    throw InvalidInput("/beam/nodes",
+    throw InvalidInput("/flow/nodes",
                        "a motion by which element " + std::to_string(tangle->element) +
                            " has no length left at t = " + text(tangle->t) + " s",
                        "material coordinates increase from node to node until the end, t = " + text(until) + " s");
@@ -530,7 +531,9 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
       seen.energy.gravity -= mass * model_.gravity.dot(at.r);
       seen.mass += mass;
       seen.momentum += mass * at.v;
-      seen.beam_length += length * at.r_x.norm();
+      const double stretch = at.r_x.norm();
+      seen.beam_length += length * stretch;
+      seen.beam_length_rate += length * at.r_x.dot(at.v_x) / stretch;
     }
     if (!spin_) continue;
     const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value),
@@ -543,6 +546,8 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
       seen.spin_momentum += length * model_.spin->rhoIp * at.spin;
     }
   }
+  seen.beam_length_rate += nodes_.back().rate * slope<D>(q, elements()).norm();
+  seen.beam_length_rate -= nodes_.front().rate * slope<D>(q, 0).norm();
   if (y.size() > 2 * coordinates()) seen.energy.dissipated = y[y.size() - 1];
   return seen;
 }
@@ -560,9 +565,20 @@ Vec<double, D> FlowingBeam<D>::position_at(const Eigen::VectorXd& y, double t, d
   while (k + 1 < elements() && x > nodes_[static_cast<std::size_t>(k) + 1].value) ++k;
   const MovingCoordinates<double, D> at = axis_of(y.data(), k, &Prescribed::value);
   const double l = at.x_b - at.x_a;
-  const Weights<double> w =
-      model_.transport == WeightTransport::transported ? weights(k).on(at.x_a, at.x_b) : weights(k).w;
+  const Weights<double> w = weights_at(static_cast<std::size_t>(k), nodes_);
   return RationalCubic<double, D>::from_nodal(at.e, l, w).evaluate((x - at.x_a) / l)[0];
+}
+
+template <int D>
+Vec<double, D> FlowingBeam<D>::position_of(const PointLoad<D>& load, const Eigen::VectorXd& y, double t) const {
+  return load.x ? position_at(y, t, load.x(t)) : Vector(position<D>(y.data(), load.node));
+}
+
+template <int D>
+Weights<double> FlowingBeam<D>::weights_at(std::size_t element, const std::vector<Prescribed>& nodes) const {
+  const WeightFunction& of = model_.weights[element];
+  return model_.transport == WeightTransport::transported ? of.on(nodes[element].value, nodes[element + 1].value)
+                                                          : of.w;
 }
 
 template class FlowingBeam<2>;

@@ -49,6 +49,7 @@ struct FlowingModel {
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
+  double gravity_ramp = 0;                          ///< time over which it grows smoothly [s]
   MeshMotion motion;
   std::vector<WeightFunction> weights = {};  ///< one an element; none for unit weights
   std::vector<NodeSupport<D>> supports = {};
@@ -80,6 +81,7 @@ struct FlowObservation {
   Energy energy;
   double mass = 0;                                   ///< between the end nodes [kg]
   double beam_length = 0;                            ///< of the deformed axis [m]
+  double beam_length_rate = 0;                       ///< [m/s], by stretching and by inflow
   double spin_momentum = 0;                          ///< about the axis [N m s]
   Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [N s]
 };
@@ -144,6 +146,10 @@ class FlowingBeam final : public EventedOde {
   std::vector<Prescribed> nodes_at(double t) const;
   /// Position of the material point x at time t, which must lie between the end nodes.
   Vector position_at(const Eigen::VectorXd& y, double t, double x) const;
+  /// Where a concentrated load is.
+  Vector position_of(const PointLoad<D>& load, const Eigen::VectorXd& y, double t) const;
+  /// Weights of an element between `nodes`.
+  Weights<double> weights_at(std::size_t element, const std::vector<Prescribed>& nodes) const;
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
 
  private:

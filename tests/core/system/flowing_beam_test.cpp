@@ -185,7 +185,7 @@ TEST(FlowingBeam, RefusesWhatMakesNoSense) {
   EXPECT_EQ(field_of([](auto& m) {
               m.motion = MeshMotion({{0, steadily(1, 0)}, {4, steadily(0, 0)}});
             }),
-            "/beam/nodes");
+            "/flow/nodes");
   EXPECT_EQ(field_of([](auto& m) { m.weights.resize(3); }), "/beam/weights");
   EXPECT_EQ(field_of([](auto& m) { m.supports = {{5, Support<3>::pin()}}; }), "/supports");
   EXPECT_EQ(field_of([](auto& m) { m.supports = {{1, Support<3>::pin()}, {1, Support<3>::clamp()}}; }), "/supports");
@@ -194,8 +194,8 @@ TEST(FlowingBeam, RefusesWhatMakesNoSense) {
             }),
             "/supports");
   EXPECT_EQ(field_of([&](auto& m) { m.loads = {{.node = 5, .follower = unit}}; }), "/loads");
-  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/angles");
-  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/angles");
+  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/spin/drives");
+  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/spin/drives");
   EXPECT_EQ(field_of([&](auto& m) {
               m.angles = {{4, steadily(0, 1)}};
               m.loads = {{.node = 4, .torque = unit}};
@@ -205,7 +205,7 @@ TEST(FlowingBeam, RefusesWhatMakesNoSense) {
               m.spin.reset();
               m.loads = {{.node = 4, .torque = unit}};
             }),
-            "/beam/spin");
+            "/spin");
 }
 
 TEST(CircularShaft, RefusesWhatIsNoShaft) {
