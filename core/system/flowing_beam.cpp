@@ -48,6 +48,7 @@ FlowingBeam<D>::FlowingBeam(const FlowingModel<D>& model)
   const auto& rule = gauss_legendre(model_.quadrature_points);
   for (int k = 0; k < elements(); ++k) tables_.emplace_back(rule, weights(k).w);
   elements_.resize(tables_.size());
+  rotary_.reserve(tables_.size());
   model_.motion.at(0, nodes_);
   reference_length_ = (nodes_.back().value - nodes_.front().value) / elements();
   adopt_supports();
@@ -107,6 +108,15 @@ void FlowingBeam<D>::check_model() const {
     if (!load.x && driven[static_cast<std::size_t>(load.node)]) {
       throw InvalidInput("/loads", "a torque at node " + std::to_string(load.node),
                          "a torque where the angle is not prescribed already");
+    }
+  }
+  if (model_.rotary.present()) {
+    if (model_.formulation == Formulation::virtual_work) {
+      throw InvalidInput("/beam/rotary_inertia", "with virtual-work", "\"none\", or the variational formulation");
+    }
+    const bool unequal = std::ranges::any_of(model_.weights, [](const auto& of) { return of.w != unit_weights; });
+    if (model_.transport == WeightTransport::transported && unequal) {
+      throw InvalidInput("/beam/rotary_inertia", "with transported weights", "\"none\", or frozen or unit weights");
     }
   }
   for (const DrivenAngle& angle : model_.angles) {
@@ -170,6 +180,21 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
     elements_[i] = axis_equations<D>(model_.strain_law, axis_of(q, k, &Prescribed::value),
                                      axis_of(rate, k, &Prescribed::rate), weights(k), tables_[i], moving);
   }
+  if (model_.rotary.present()) {
+    rotary_.clear();
+    for (int k = 0; k < elements(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const RotaryElement& rotary = rotary_.emplace_back(nodes_[i], nodes_[i + 1], tables_[i]);
+      const auto residual = rotary.residual(model_.rotary, element_nodes<D>(q, k), element_nodes<D>(rate, k));
+      for (int row = 0; row < 4; ++row) {
+        elements_[i].force[static_cast<std::size_t>(row)] -= residual[static_cast<std::size_t>(row)];
+        for (int column = 0; column < 4; ++column) {
+          elements_[i].mass[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] +=
+              model_.rotary.rhoJ * rotary.mass()(row, column);
+        }
+      }
+    }
+  }
   if (spin_) spin_->evaluate(q + nodal_, rate + nodal_, nodes_);
   return true;
 }
@@ -194,12 +219,23 @@ void FlowingBeam<D>::add_inflow(const double* q, const double* rate, double* f) 
     const double x_rate = start ? nodes_.front().rate : nodes_.back().rate;
     const double in = start ? -x_rate : x_rate;  // length that comes in a second
     position<D>(f, k) += (model_.section.rhoA * in) * (position<D>(rate, k) - x_rate * slope<D>(q, k));
+    if (model_.rotary.present()) slope<D>(f, k) += in * rotary_momentum(q, rate, k);
     if (!spin_) continue;
     const int element = start ? 0 : k - 1;
     const SpinChain::Point end =
         spin_->at(spin_of(q, element, &Prescribed::value), spin_of(rate, element, &Prescribed::rate), start ? 0 : 1);
     f[angle(k)] += spin_->section().rhoIp * in * end.spin;
   }
+}
+
+template <int D>
+Vec<double, D> FlowingBeam<D>::rotary_momentum(const double* q, const double* rate, int k) const {
+  const int element = k == 0 ? 0 : k - 1;
+  const MovingKinematics<double, D> axis(axis_of(q, element, &Prescribed::value),
+                                         axis_of(rate, element, &Prescribed::rate), model_.transport, weights(element));
+  const double u = k == 0 ? 0 : 1;
+  const PointMotion<double, D> at = axis.at(u, rational_shape(axis.weights(), u));
+  return model_.rotary.rhoJ * at.v_x - 0.5 * model_.rotary.gyroscopic * model_.rotary.turned(at.r_x);
 }
 
 template <int D>
@@ -369,6 +405,19 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
         power += torque * (point.by_a * rates.x_a + point.by_b * rates.x_b);
       }
     }
+    if (model_.rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
+      const auto e = element_nodes<D>(q, k), e_rate = element_nodes<D>(rate, k), e_a = element_nodes<D>(a, k);
+      power += rotary_power(model_.rotary, nodes_[i], nodes_[i + 1], tables_[i], e, e_rate, e_a);
+      const auto r = rotary_[i].residual(model_.rotary, e, e_rate);
+      const auto rates = RotaryElement::nodal(e_rate), accelerations = RotaryElement::nodal(e_a);
+      for (std::size_t row = 0; row < 4; ++row) {
+        power -= r[row].dot(rates[row]);
+        for (std::size_t column = 0; column < 4; ++column) {
+          power -= model_.rotary.rhoJ * rotary_[i].mass()(static_cast<int>(row), static_cast<int>(column)) *
+                   accelerations[column].dot(rates[row]);
+        }
+      }
+    }
     drive(k, force_a);
     drive(k + 1, force_b);
   }
@@ -525,7 +574,7 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
       const PointMotion<double, D> at = kinematics.at(u, rational_shape(kinematics.weights(), u));
       const double length = w * kinematics.length(), mass = length * model_.section.rhoA;
       const auto [axial, bending] = elastic(at);
-      seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm();
+      seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm() + 0.5 * length * model_.rotary.rhoJ * at.v_x.squaredNorm();
       seen.energy.axial += length * axial;
       seen.energy.bending += length * bending;
       seen.energy.gravity -= mass * model_.gravity.dot(at.r);

@@ -10,6 +10,7 @@
 #include "core/beam/support.hpp"
 #include "core/dynamics/integrate.hpp"
 #include "core/element/driven_tangent.hpp"
+#include "core/element/rotary_inertia.hpp"
 #include "core/system/energy.hpp"
 #include "core/system/spin_chain.hpp"
 
@@ -44,6 +45,7 @@ struct FlowingModel {
   BeamSection section;
   std::optional<SpinSection> spin;  ///< without it there is no angle at all
   AngleField angle_field = AngleField::linear;
+  RotaryInertia<D> rotary = {};  ///< needs the variational formulation and frozen weights
   StrainLaw strain_law = StrainLaw::green;
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
@@ -178,6 +180,8 @@ class FlowingBeam final : public EventedOde {
   static Vector force_of(const PointLoad<D>& load, const Vector& tangent, double t);
   /// Adds the momentum that comes in with the matter at the end nodes.
   void add_inflow(const double* q, const double* rate, double* f) const;
+  /// Momentum conjugate to the slope at an end, of rotary inertia [kg m/s].
+  Vector rotary_momentum(const double* q, const double* rate, int k) const;
   double dissipation() const;
   /// Solves M a = f in place; false where the mass matrix is singular.
   bool solve_mass(double* f);
@@ -192,6 +196,7 @@ class FlowingBeam final : public EventedOde {
   std::vector<ShapeTabulation> tables_;
   mutable std::vector<Prescribed> nodes_;
   std::vector<MovingEquations<double, D>> elements_;
+  std::vector<RotaryElement> rotary_;
   std::optional<SpinChain> spin_;
   ChainMass<D> mass_;
   Eigen::VectorXd prescribed_;  // accelerations: zero but for driven angles

@@ -91,10 +91,14 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   if (spin) angles_.reset(beam_.nodes());
   for (int k = 0; k < beam_.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const auto axis = axis_tangent<D>(beam_.model_.strain_law, beam_.axis_of(q.data(), k, &Prescribed::value),
-                                      beam_.axis_of(v.data(), k, &Prescribed::rate),
-                                      beam_.axis_of(a.data(), k, &Prescribed::acceleration), by, beam_.weights(k),
-                                      beam_.tables_[i], law);
+    auto axis = axis_tangent<D>(beam_.model_.strain_law, beam_.axis_of(q.data(), k, &Prescribed::value),
+                                beam_.axis_of(v.data(), k, &Prescribed::rate),
+                                beam_.axis_of(a.data(), k, &Prescribed::acceleration), by, beam_.weights(k),
+                                beam_.tables_[i], law);
+    const auto& nodes = beam_.nodes_;
+    if (const auto& rotary = beam_.model_.rotary; rotary.present()) {
+      axis += RotaryElement(nodes[i], nodes[i + 1], beam_.tables_[i]).tangent(rotary, by);
+    }
     axis_.diagonal[i] += axis.template topLeftCorner<B, B>();
     axis_.upper[i] += axis.template topRightCorner<B, B>();
     axis_.lower[i + 1] += axis.template bottomLeftCorner<B, B>();
@@ -141,6 +145,7 @@ void ImplicitFlow<D>::add_inflow(const TangentWeights& by) {
     Block& block = axis_.diagonal[i];
     block.template topLeftCorner<D, D>().diagonal().array() -= beam_.model_.section.rhoA * in * by.v;
     block.template topRightCorner<D, D>().diagonal().array() += beam_.model_.section.rhoA * in * x_rate * by.q;
+    if (beam_.model_.rotary.present()) add_rotary_inflow(k, in, by);
     if (!beam_.spin_) continue;
     // the spin of the matter at the end is the rate of its angle less x' times the twist there
     const double inertia = beam_.spin_->section().rhoIp * in, twist = by.q * inertia * x_rate;
@@ -153,6 +158,24 @@ void ImplicitFlow<D>::add_inflow(const TangentWeights& by) {
     const double share = twist / (beam_.nodes_[i].value - beam_.nodes_[other].value);  // negative at the start
     angles_.diagonal[i](0, 0) += share;
     (k == 0 ? angles_.upper[0] : angles_.lower[i])(0, 0) -= share;
+  }
+}
+
+template <int D>
+void ImplicitFlow<D>::add_rotary_inflow(int k, double in, const TangentWeights& by) {
+  const auto& rotary = beam_.model_.rotary;
+  const auto element = static_cast<std::size_t>(k == 0 ? 0 : k - 1);
+  const double u = k == 0 ? 0 : 1;
+  const RotaryPoint at(beam_.nodes_[element], beam_.nodes_[element + 1], u, 1,
+                       rational_shape(beam_.weights(static_cast<int>(element)).w, u));
+  for (int j = 0; j < 4; ++j) {
+    Block& block = j < 2 ? (k == 0 ? axis_.diagonal[0] : axis_.lower[element + 1])
+                         : (k == 0 ? axis_.upper[0] : axis_.diagonal[element + 1]);
+    auto part = block.template block<D, D>(D, D * (j % 2));
+    part.diagonal().array() -= in * rotary.rhoJ * (by.v * at.s[j] + by.q * at.g[j]);
+    for (int c = 0; c < D; ++c) {
+      part.col(c) += in * 0.5 * rotary.gyroscopic * by.q * at.s[j] * rotary.turned(Vec<double, D>::Unit(c));
+    }
   }
 }
 

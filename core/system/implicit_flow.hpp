@@ -45,6 +45,7 @@ class ImplicitFlow final : public SecondOrderSystem {
   void add_loads(const double* q, const double* rate, double t, const TangentWeights& by);
   /// Derivatives of the momentum that comes in with the matter at the ends.
   void add_inflow(const TangentWeights& by);
+  void add_rotary_inflow(int k, double in, const TangentWeights& by);
   /// Projector onto what the support at a node leaves free.
   Block kept(int node) const;
   void constrain();

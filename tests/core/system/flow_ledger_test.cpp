@@ -15,6 +15,11 @@ FlowingModel<D> everything(WeightTransport transport) {
   model.section = shaft.section();
   model.spin = shaft.spin();
   model.transport = transport;
+  if (transport == WeightTransport::frozen) model.rotary.rhoJ = 0.5 * model.spin->rhoIp;
+  if (D == 3 && transport == WeightTransport::frozen) {
+    model.rotary.gyroscopic = 6 * model.spin->rhoIp;
+    model.rotary.direction[0] = 1;
+  }
   model.gravity = Vec<double, D>::UnitY() * -4;
   auto wavering = [](double x, double rate, double size) -> TimeFunction {
     return [=](double t) {
@@ -98,6 +103,7 @@ TYPED_TEST(FlowLedgerTest, DoesNotCloseWithoutTheFluxAndTheConfigurationalForce)
   constexpr int D = TypeParam::value;
   FlowingModel<D> model = everything<D>(WeightTransport::frozen);
   model.formulation = Formulation::virtual_work;
+  model.rotary = {};
   EXPECT_GT(gap_of(model).energy, 1e-4);
 }
 

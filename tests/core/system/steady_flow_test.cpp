@@ -53,6 +53,35 @@ TEST(SteadyFlow, OfAHangingBeamIsItsStaticShape) {
   EXPECT_GT(-position<2>(y.data(), 4)[1], 0.4 * sag);
 }
 
+// Of a simply supported Rayleigh shaft of wave number k = n pi/l the whirling frequencies solve
+// (rhoA + rhoJ k^2) omega^2 - rhoI_p Omega k^2 omega - EI k^4 = 0: forward (omega > 0) and backward.
+TEST(SteadyFlow, RotaryInertiaSplitsTheWhirlOfASpinningShaft) {
+  const CircularShaft shaft{.radius = 0.05, .density = 7800, .youngs_modulus = 2e11};
+  const double spin = 2000;
+  const SpinSection section = shaft.spin();
+  const double k2 = std::numbers::pi * std::numbers::pi, m = shaft.section().rhoA + section.rhoIp / 2 * k2;
+  const double g = section.rhoIp * spin * k2, stiffness = shaft.section().stiffness.EI * k2 * k2;
+  const double root = std::sqrt(g * g + 4 * m * stiffness);
+  const double forward = (root + g) / (2 * m) / (2 * std::numbers::pi),
+               backward = (root - g) / (2 * m) / (2 * std::numbers::pi);
+  EXPECT_GT(forward / backward, 1.01);
+  std::vector<double> errors;
+  for (const int elements : {4, 8, 16}) {
+    FlowingModel<3> model;
+    model.section = shaft.section();
+    model.spin = section;
+    model.rotary = {section.rhoIp / 2, section.rhoIp * spin, Eigen::Vector3d::UnitX()};
+    model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
+    model.supports = {{0, Support<3>::pin()}, {elements, Support<3>::slide(Eigen::Vector3d::UnitX())}};
+    FlowingBeam<3> beam(model);
+    const Eigen::VectorXd y = beam.straight_state(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1, 0, spin);
+    const auto found = frequencies(eigenvalues(linear_flows(beam, y).axis));
+    errors.push_back(std::hypot(found[0] / backward - 1, found[1] / forward - 1));
+  }
+  EXPECT_LE(errors[0], 5e-4);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4, 0.2);
+}
+
 /// First torsional frequency of a rod fixed at both ends that flows at half the speed of its waves; l = c = 1.
 double flowing_rod(int elements, Formulation formulation) {
   FlowingModel<2> model;
