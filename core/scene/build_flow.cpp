@@ -94,6 +94,11 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
     model.angle_field = scene.spin->angles;
     for (const auto& drive : scene.spin->drives) model.angles.push_back({drive.node, time_function(drive.angle)});
   }
+  if (scene.beam.rotary_inertia != BendingInertia::none) {
+    const double rhoIp = build_spin(scene.beam).rhoIp;
+    model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = 0, .direction = along};
+    if (scene.beam.rotary_inertia == BendingInertia::gyroscopic) model.rotary.gyroscopic = rhoIp * initial_spin(scene);
+  }
   model.strain_law = scene.beam.strain_law;
   model.formulation = scene.formulation;
   model.transport = scene.weights;

@@ -29,6 +29,10 @@ constexpr auto names(CurveType) {
 constexpr auto names(RestShape) {
   return std::to_array<Named<RestShape>>({{RestShape::as_built, "as-built"}, {RestShape::paper, "paper"}});
 }
+constexpr auto names(BendingInertia) {
+  using enum BendingInertia;
+  return std::to_array<Named<BendingInertia>>({{none, "none"}, {rayleigh, "rayleigh"}, {gyroscopic, "gyroscopic"}});
+}
 constexpr auto names(StrainLaw) {
   return std::to_array<Named<StrainLaw>>({{StrainLaw::green, "green"}, {StrainLaw::engineering, "engineering"}});
 }

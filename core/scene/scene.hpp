@@ -76,6 +76,12 @@ struct TimeSpec {
   double ramp = 0;           ///< [s]
 };
 
+enum class BendingInertia {
+  none,
+  rayleigh,    ///< of sections that turn with the axis
+  gyroscopic,  ///< and that spin: valid for small slopes against the initial axis and an even spin
+};
+
 struct BeamSpec {
   CurveSpec curve;
   Section section;
@@ -84,6 +90,7 @@ struct BeamSpec {
   ElementKind element = ElementKind::ale_rancf;
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
+  BendingInertia rotary_inertia = BendingInertia::none;
   int quadrature_points = 0;                  ///< Gauss points an element; 0 stands for the element's default
   std::array<double, 4> weights{1, 1, 1, 1};  ///< initial weights of every element
 };

@@ -270,7 +270,12 @@ void validate(const Scene& scene) {
   check_joint(scene);
   check_energy_momentum(scene);
   check_output(scene);
-  if (flows(scene)) validate_flow(scene);
+  if (flows(scene)) {
+    validate_flow(scene);
+  } else if (scene.beam.rotary_inertia != BendingInertia::none) {
+    refuse("/beam/rotary_inertia", quoted(to_string(scene.beam.rotary_inertia)),
+           "without /spin, /flow and /loads it must be \"none\"");
+  }
 }
 
 }  // namespace vlbeam

@@ -32,11 +32,17 @@ void check_parts(const Scene& scene) {
     refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /spin, /flow or /loads it must be \"line\"");
   }
   const auto& section = scene.beam.section;
-  if (scene.spin && section.type == Section::Type::stiffness) {
-    if (!(section.GIp > 0)) refuse("/beam/section/GIp", number_text(section.GIp), "with /spin it must be > 0 [N m^2]");
-    if (!(section.rhoIp > 0)) {
-      refuse("/beam/section/rhoIp", number_text(section.rhoIp), "with /spin it must be > 0 [kg m]");
+  const BendingInertia rotary = scene.beam.rotary_inertia;
+  if (section.type == Section::Type::stiffness) {
+    if (scene.spin && !(section.GIp > 0)) {
+      refuse("/beam/section/GIp", number_text(section.GIp), "with /spin it must be > 0 [N m^2]");
     }
+    if ((scene.spin || rotary != BendingInertia::none) && !(section.rhoIp > 0)) {
+      refuse("/beam/section/rhoIp", number_text(section.rhoIp), "with /spin or rotary inertia it must be > 0 [kg m]");
+    }
+  }
+  if (rotary == BendingInertia::gyroscopic && (!scene.spin || scene.dimension == 2)) {
+    refuse("/beam/rotary_inertia", quoted(rotary), "it needs /spin and three dimensions");
   }
   const IntegratorType type = scene.integrator.type;
   if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum || of_sundials(type)) {

@@ -143,6 +143,7 @@ const BadFlow bad[] = {
      R"({"curve": {"end": [0,0,1]}, "section": {"type": "stiffness", "EA": 1, "EI": 1, "rhoA": 1, "rhoIp": 1}})",
      "/beam/section/GIp"},
     {"/beam/element", R"("ANCF")", "/beam/element"},
+    {"/beam/rotary_inertia", R"("katz")", "/beam/rotary_inertia"},
     {"/integrator", R"({"type": "rosenbrock4"})", "/integrator/type"},
     {"/integrator", R"({"type": "energy-momentum"})", "/integrator/type"},
     {"/constraints", R"("multipliers")", "/constraints"},
@@ -170,6 +171,24 @@ const BadFlow bad[] = {
     {"/loads", "{}", "/loads"},
 };
 INSTANTIATE_TEST_SUITE_P(Flow, BadFlowScene, testing::ValuesIn(bad));
+
+TEST(FlowScene, RotaryInertiaIsForWhatItHoldsFor) {
+  Json json = shaft();
+  json["beam"]["rotary_inertia"] = "gyroscopic";
+  Scene scene = scene_from_json(json);
+  scene.gravity_ramp = 0;
+  const RunResult result = simulate(scene);
+  EXPECT_LE(result.max_energy_drift, 1e-9 * std::abs(result.samples.back().flow->ledger->ends));
+  scene.formulation = Formulation::virtual_work;
+  EXPECT_THROW(validate(scene), InvalidInput);
+  scene = scene_from_json(json);
+  scene.spin.reset();
+  scene.loads.clear();
+  EXPECT_THROW(validate(scene), InvalidInput);
+  Scene plain;
+  plain.beam.rotary_inertia = BendingInertia::rayleigh;
+  EXPECT_THROW(validate(plain), InvalidInput);
+}
 
 TEST(FlowScene, ATorqueNeedsSpin) {
   Json json = shaft();
