@@ -10,7 +10,8 @@
 namespace vlbeam {
 
 /// Mass matrix of a chain of elements whose lengths change: a block tridiagonal matrix of positions and slopes, the
-/// same for all components but for what supports fix. Assembled and factored anew at every evaluation.
+/// same for all components but for what supports fix and what is added to some components only. Assembled and factored
+/// anew at every evaluation.
 template <int D>
 class ChainMass {
  public:
@@ -31,7 +32,24 @@ class ChainMass {
     diagonal_[i + 1].rr += m[2][2];
     diagonal_[i + 1].rs += m[2][3];
     diagonal_[i + 1].ss += m[3][3];
-    coupling_[i] = {m[0][2], m[0][3], m[1][2], m[1][3]};
+    auto all = [](double value) -> Components { return Components::Constant(value); };
+    coupling_[i] = {all(m[0][2]), all(m[0][3]), all(m[1][2]), all(m[1][3])};
+  }
+
+  /// Adds the 4 x 4 matrix `m` to the components of element k with a 1 in `to`.
+  template <class Matrix>
+  void add_to(const Components& to, int k, const Matrix& m) {
+    const auto i = static_cast<std::size_t>(k);
+    diagonal_[i].rr += m(0, 0) * to;
+    diagonal_[i].rs += m(0, 1) * to;
+    diagonal_[i].ss += m(1, 1) * to;
+    diagonal_[i + 1].rr += m(2, 2) * to;
+    diagonal_[i + 1].rs += m(2, 3) * to;
+    diagonal_[i + 1].ss += m(3, 3) * to;
+    coupling_[i].rr += m(0, 2) * to;
+    coupling_[i].rs += m(0, 3) * to;
+    coupling_[i].sr += m(1, 2) * to;
+    coupling_[i].ss += m(1, 3) * to;
   }
 
   /// Factors it on the free components (masks of 1 and 0, one pair a node). False where it is not positive.
@@ -62,8 +80,9 @@ class ChainMass {
       s = slope<D>(f, k);
       if (k > 0) {
         const auto& c = coupling_[static_cast<std::size_t>(k) - 1];
-        r -= c.rr * position<D>(f, k - 1) + c.sr * slope<D>(f, k - 1);
-        s -= c.rs * position<D>(f, k - 1) + c.ss * slope<D>(f, k - 1);
+        const auto r_before = position<D>(f, k - 1).array(), s_before = slope<D>(f, k - 1).array();
+        r.array() -= c.rr * r_before + c.sr * s_before;
+        s.array() -= c.rs * r_before + c.ss * s_before;
       }
       apply_inverse(k, r, s);
       position<D>(f, k) = r;
@@ -71,8 +90,9 @@ class ChainMass {
     }
     for (int k = last - 1; k >= 0; --k) {
       const auto& c = coupling_[static_cast<std::size_t>(k)];
-      r = c.rr * position<D>(f, k + 1) + c.rs * slope<D>(f, k + 1);
-      s = c.sr * position<D>(f, k + 1) + c.ss * slope<D>(f, k + 1);
+      const auto r_behind = position<D>(f, k + 1).array(), s_behind = slope<D>(f, k + 1).array();
+      r = c.rr * r_behind + c.rs * s_behind;
+      s = c.sr * r_behind + c.ss * s_behind;
       apply_inverse(k, r, s);
       position<D>(f, k) -= r;
       slope<D>(f, k) -= s;
@@ -88,7 +108,7 @@ class ChainMass {
   }
 
   std::vector<NodeBlock<D>> diagonal_;  ///< once factored, inverses of the pivots
-  std::vector<CouplingBlock<double>> coupling_;
+  std::vector<CouplingBlock<Components>> coupling_;
 };
 
 }  // namespace vlbeam

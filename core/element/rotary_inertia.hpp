@@ -11,9 +11,10 @@ namespace vlbeam {
 
 /// What a section's turning with the axis adds to the kinetic energy per length (Rayleigh's beam, and the shaft of Katz
 /// 2001):
-///   rhoJ r_x'.r_x'/2 - rhoI_p Omega d.(r_x x r_x')/2,   r_x' the rate of the slope at a fixed material point.
-/// The first is that of a section normal to the axis as long as stretching is slow; the second holds for small slopes
-/// against the direction d, and for one spin Omega of the whole shaft, on which bending does not react.
+///   rhoJ |P r_x'|^2/2 - rhoI_p Omega d.(r_x x r_x')/2,   r_x' the rate of the slope at a fixed material point,
+/// P = 1 - d d^T. It holds for small slopes against the direction d, and for one spin Omega of the whole shaft, on
+/// which bending does not react. What is along d must stay out: stretching has no such inertia, and as no stiffness
+/// opposes its gradients, short elements that move along the beam would be unstable with it.
 template <int D>
 struct RotaryInertia {
   double rhoJ = 0;                                    ///< [kg m]
@@ -22,6 +23,8 @@ struct RotaryInertia {
 
   bool present() const { return rhoJ != 0 || gyroscopic != 0; }
 
+  /// P v.
+  Vec<double, D> across(const Vec<double, D>& v) const { return v - direction.dot(v) * direction; }
   /// d x v, which is nothing in the plane.
   Vec<double, D> turned([[maybe_unused]] const Vec<double, D>& v) const {
     if constexpr (D == 3) return direction.cross(v);
@@ -59,7 +62,7 @@ struct RotaryPoint {
 
 /// Lagrange's equations of that energy, summed over the points of one element whose material coordinates are
 /// prescribed. All is linear in the nodal coordinates e, of which component by component
-///   residual = rhoJ (A e'' + B e' + C e) - rhoI_p Omega d x (A e' + B e/2).
+///   residual = rhoJ P (A e'' + B e' + C e) - rhoI_p Omega d x (A e' + B e/2).
 class RotaryElement {
  public:
   template <int D>
@@ -77,7 +80,7 @@ class RotaryElement {
     }
   }
 
-  /// Without the inertia of e'', which is rhoJ times mass() for every component.
+  /// Without the inertia of e'', which is rhoJ P mass().
   template <int D>
   Nodal<D> residual(const RotaryInertia<D>& rotary, const NodalCubic<double, D>& e,
                     const NodalCubic<double, D>& rate) const {
@@ -91,23 +94,37 @@ class RotaryElement {
         sum += B_(i, j) * v + C_(i, j) * q;
         gyroscopic += A_(i, j) * v + 0.5 * B_(i, j) * q;
       }
-      r[static_cast<std::size_t>(i)] = rotary.rhoJ * sum - rotary.gyroscopic * rotary.turned(gyroscopic);
+      r[static_cast<std::size_t>(i)] = rotary.rhoJ * rotary.across(sum) - rotary.gyroscopic * rotary.turned(gyroscopic);
     }
     return r;
   }
   const Eigen::Matrix4d& mass() const { return A_; }
+  /// The inertia of the accelerations `a`.
+  template <int D>
+  Nodal<D> inertia(const RotaryInertia<D>& rotary, const NodalCubic<double, D>& a) const {
+    const Nodal<D> nodes = nodal(a);
+    Nodal<D> r;
+    for (int i = 0; i < 4; ++i) {
+      Vec<double, D> sum = Vec<double, D>::Zero();
+      for (int j = 0; j < 4; ++j) sum += A_(i, j) * nodes[static_cast<std::size_t>(j)];
+      r[static_cast<std::size_t>(i)] = rotary.rhoJ * rotary.across(sum);
+    }
+    return r;
+  }
 
   template <int D>
   Eigen::Matrix<double, 4 * D, 4 * D> tangent(const RotaryInertia<D>& rotary, const TangentWeights& by) const {
-    Eigen::Matrix<double, D, D> cross;
-    for (int c = 0; c < D; ++c) cross.col(c) = rotary.turned(Vec<double, D>::Unit(c));
+    Eigen::Matrix<double, D, D> cross, across;
+    for (int c = 0; c < D; ++c) {
+      cross.col(c) = rotary.turned(Vec<double, D>::Unit(c));
+      across.col(c) = rotary.across(Vec<double, D>::Unit(c));
+    }
     Eigen::Matrix<double, 4 * D, 4 * D> result;
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) {
         const double inertia = rotary.rhoJ * (by.a * A_(i, j) + by.v * B_(i, j) + by.q * C_(i, j));
         result.template block<D, D>(i * D, j * D) =
-            inertia * Eigen::Matrix<double, D, D>::Identity() -
-            rotary.gyroscopic * (by.v * A_(i, j) + by.q * 0.5 * B_(i, j)) * cross;
+            inertia * across - rotary.gyroscopic * (by.v * A_(i, j) + by.q * 0.5 * B_(i, j)) * cross;
       }
     }
     return result;
@@ -133,7 +150,7 @@ double rotary_power(const RotaryInertia<D>& rotary, const Prescribed& x_a, const
   double power = 0;
   for (std::size_t i = 0; i < table.rule.size(); ++i) {
     const RotaryPoint at(x_a, x_b, table.rule[i].u, table.rule[i].weight, table.shape[i]);
-    const Vec<double, D> turning = sum(at.s, rate) + sum(at.g, e);
+    const Vec<double, D> turning = rotary.across(sum(at.s, rate) + sum(at.g, e));
     const Vec<double, D> change = sum(at.s, a) + sum(at.s_rate + at.g, rate) + sum(at.g_rate, e);
     power += rotary.rhoJ * (0.5 * at.m_rate * turning.squaredNorm() + at.m * turning.dot(change));
   }

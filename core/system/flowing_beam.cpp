@@ -111,6 +111,9 @@ void FlowingBeam<D>::check_model() const {
     }
   }
   if (model_.rotary.present()) {
+    if (!(std::abs(model_.rotary.direction.norm() - 1) < 1e-9)) {
+      throw InvalidInput("/beam/rotary_inertia", "without direction", "a unit vector to go with it");
+    }
     if (model_.formulation == Formulation::virtual_work) {
       throw InvalidInput("/beam/rotary_inertia", "with virtual-work", "\"none\", or the variational formulation");
     }
@@ -130,13 +133,19 @@ void FlowingBeam<D>::check_model() const {
 template <int D>
 void FlowingBeam<D>::adopt_supports() {
   free_.assign(static_cast<std::size_t>(nodes()), {Components::Ones(), Components::Ones()});
-  bool oriented = false;
+  bool oriented = model_.rotary.present();
+  if (oriented) {
+    const Support<D> along = Support<D>::slide(model_.rotary.direction);
+    frame_ = along.frame;
+    aligned_ = along.aligned;
+  }
   for (const auto& [node, support] : model_.supports) {
     free_[static_cast<std::size_t>(node)] = {support.free_position, support.free_slope};
     auto same = [](const Components& c) { return (c == c[0]).all(); };
     if (same(support.free_position) && same(support.free_slope)) continue;  // the same in any frame
     if (oriented && (support.frame - frame_).norm() > 1e-12) {
-      throw InvalidInput("/supports", "slides or clamps of two directions", "those of one beam to share one direction");
+      throw InvalidInput("/supports", "slides or clamps of two directions",
+                         "those of one beam to share one direction, that of rotary inertia, too");
     }
     oriented = true;
     frame_ = support.frame;
@@ -186,13 +195,7 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
       const auto i = static_cast<std::size_t>(k);
       const RotaryElement& rotary = rotary_.emplace_back(nodes_[i], nodes_[i + 1], tables_[i]);
       const auto residual = rotary.residual(model_.rotary, element_nodes<D>(q, k), element_nodes<D>(rate, k));
-      for (int row = 0; row < 4; ++row) {
-        elements_[i].force[static_cast<std::size_t>(row)] -= residual[static_cast<std::size_t>(row)];
-        for (int column = 0; column < 4; ++column) {
-          elements_[i].mass[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] +=
-              model_.rotary.rhoJ * rotary.mass()(row, column);
-        }
-      }
+      for (std::size_t row = 0; row < 4; ++row) elements_[i].force[row] -= residual[row];
     }
   }
   if (spin_) spin_->evaluate(q + nodal_, rate + nodal_, nodes_);
@@ -202,7 +205,12 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
 template <int D>
 void FlowingBeam<D>::add_residual(const double* a, double* r) const {
   for (int k = 0; k < elements(); ++k) {
-    const auto axis = nodal_residual(elements_[static_cast<std::size_t>(k)], axis_of(a, k, &Prescribed::acceleration));
+    const auto i = static_cast<std::size_t>(k);
+    auto axis = nodal_residual(elements_[i], axis_of(a, k, &Prescribed::acceleration));
+    if (model_.rotary.present()) {
+      const auto inertia = rotary_[i].inertia(model_.rotary, element_nodes<D>(a, k));
+      for (std::size_t row = 0; row < 4; ++row) axis[row] += inertia[row];
+    }
     position<D>(r, k) += axis[0];
     slope<D>(r, k) += axis[1];
     position<D>(r, k + 1) += axis[2];
@@ -235,7 +243,8 @@ Vec<double, D> FlowingBeam<D>::rotary_momentum(const double* q, const double* ra
                                          axis_of(rate, element, &Prescribed::rate), model_.transport, weights(element));
   const double u = k == 0 ? 0 : 1;
   const PointMotion<double, D> at = axis.at(u, rational_shape(axis.weights(), u));
-  return model_.rotary.rhoJ * at.v_x - 0.5 * model_.rotary.gyroscopic * model_.rotary.turned(at.r_x);
+  return model_.rotary.rhoJ * model_.rotary.across(at.v_x) -
+         0.5 * model_.rotary.gyroscopic * model_.rotary.turned(at.r_x);
 }
 
 template <int D>
@@ -312,6 +321,13 @@ template <int D>
 bool FlowingBeam<D>::solve_mass(double* f) {
   mass_.reset(nodes());
   for (int k = 0; k < elements(); ++k) mass_.add(k, elements_[static_cast<std::size_t>(k)].mass);
+  if (model_.rotary.present()) {
+    Components across = Components::Ones();
+    across[0] = 0;  // of the frame, whose first axis is the direction then
+    for (int k = 0; k < elements(); ++k) {
+      mass_.add_to(across, k, model_.rotary.rhoJ * rotary_[static_cast<std::size_t>(k)].mass());
+    }
+  }
   if (!mass_.factor(free_)) return false;
   auto turn = [&](const Eigen::Matrix<double, D, D>& into) {
     for (int k = 0; k < 2 * nodes(); ++k) {
@@ -408,15 +424,9 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
     if (model_.rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
       const auto e = element_nodes<D>(q, k), e_rate = element_nodes<D>(rate, k), e_a = element_nodes<D>(a, k);
       power += rotary_power(model_.rotary, nodes_[i], nodes_[i + 1], tables_[i], e, e_rate, e_a);
-      const auto r = rotary_[i].residual(model_.rotary, e, e_rate);
-      const auto rates = RotaryElement::nodal(e_rate), accelerations = RotaryElement::nodal(e_a);
-      for (std::size_t row = 0; row < 4; ++row) {
-        power -= r[row].dot(rates[row]);
-        for (std::size_t column = 0; column < 4; ++column) {
-          power -= model_.rotary.rhoJ * rotary_[i].mass()(static_cast<int>(row), static_cast<int>(column)) *
-                   accelerations[column].dot(rates[row]);
-        }
-      }
+      const auto r = rotary_[i].residual(model_.rotary, e, e_rate), inertia = rotary_[i].inertia(model_.rotary, e_a);
+      const auto rates = RotaryElement::nodal(e_rate);
+      for (std::size_t row = 0; row < 4; ++row) power -= (r[row] + inertia[row]).dot(rates[row]);
     }
     drive(k, force_a);
     drive(k + 1, force_b);
@@ -574,7 +584,8 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
       const PointMotion<double, D> at = kinematics.at(u, rational_shape(kinematics.weights(), u));
       const double length = w * kinematics.length(), mass = length * model_.section.rhoA;
       const auto [axial, bending] = elastic(at);
-      seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm() + 0.5 * length * model_.rotary.rhoJ * at.v_x.squaredNorm();
+      seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm() +
+                             0.5 * length * model_.rotary.rhoJ * model_.rotary.across(at.v_x).squaredNorm();
       seen.energy.axial += length * axial;
       seen.energy.bending += length * bending;
       seen.energy.gravity -= mass * model_.gravity.dot(at.r);

@@ -172,8 +172,8 @@ void ImplicitFlow<D>::add_rotary_inflow(int k, double in, const TangentWeights& 
     Block& block = j < 2 ? (k == 0 ? axis_.diagonal[0] : axis_.lower[element + 1])
                          : (k == 0 ? axis_.upper[0] : axis_.diagonal[element + 1]);
     auto part = block.template block<D, D>(D, D * (j % 2));
-    part.diagonal().array() -= in * rotary.rhoJ * (by.v * at.s[j] + by.q * at.g[j]);
     for (int c = 0; c < D; ++c) {
+      part.col(c) -= in * rotary.rhoJ * (by.v * at.s[j] + by.q * at.g[j]) * rotary.across(Vec<double, D>::Unit(c));
       part.col(c) += in * 0.5 * rotary.gyroscopic * by.q * at.s[j] * rotary.turned(Vec<double, D>::Unit(c));
     }
   }

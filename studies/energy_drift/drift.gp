@@ -4,7 +4,7 @@ load folder . "/../weights/style.gp"
 set multiplot layout 1,2 title "Total energy without the jumps of length control: |E - E_0| over the largest kinetic energy"
 set logscale y
 set format y "10^{%T}"
-set xlabel "t (s)"
+set xlabel "t (s)" offset 0,0.7
 set yrange [1e-17:10]
 set key below font ",12"
 set xrange [0:*]

@@ -18,7 +18,7 @@ array labels[3] = ["condition number of the scaled mass matrix", "position error
 array panels[3] = ["(a) mass matrix", "(b) position", "(c) energy"]
 array lowest[3] = [10, 3e-8, 1e-9]
 set xlabel "value of the sweep"
-set multiplot layout 1,3 margins 0.06,0.78,0.15,0.9 spacing 0.07
+set multiplot layout 1,3 title "Hard cases: what grows with what makes them hard" margins 0.06,0.78,0.15,0.84 spacing 0.07
 do for [p = 1:3] {
   set title panels[p]
   set ylabel labels[p]

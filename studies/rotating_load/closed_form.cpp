@@ -1,7 +1,9 @@
 #include "studies/rotating_load/closed_form.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace vlbeam {
 namespace {
@@ -10,14 +12,24 @@ using namespace std::complex_literals;
 constexpr int modes = 400;  // amplitudes fall with the fourth power
 constexpr double pi = std::numbers::pi;
 
-/// Of q'' + natural^2 q = exp(i nu t), at rest at t = 0.
-std::complex<double> response(double natural, double nu, double t) {
-  const std::complex<double> forced = std::exp(1i * nu * t);
-  if (std::abs(std::abs(nu) - natural) < 1e-9 * natural) {
-    return (t * forced - std::sin(natural * t) / natural) / (2i * nu);
-  }
-  return (forced - std::cos(natural * t) - 1i * nu / natural * std::sin(natural * t)) / (natural * natural - nu * nu);
+/// (exp(i a t) - exp(i b t))/(a - b), also where a and b meet.
+std::complex<double> difference(double a, double b, double t) {
+  if (std::abs(a - b) < 1e-9 * std::max(std::abs(a), std::abs(b))) return 1i * t * std::exp(1i * a * t);
+  return (std::exp(1i * a * t) - std::exp(1i * b * t)) / (a - b);
 }
+
+/// One mode: m q'' - i g q' + k q.
+struct Mode {
+  double m, g, k;
+
+  /// Of  m q'' - i g q' + k q = exp(i nu t), at rest at t = 0.
+  std::complex<double> response(double nu, double t) const {
+    const double root = std::sqrt(g * g + 4 * m * k);
+    double near = (g + root) / (2 * m), far = (g - root) / (2 * m);
+    if (std::abs(nu - far) < std::abs(nu - near)) std::swap(near, far);
+    return (difference(near, far, t) - difference(nu, near, t)) / (m * (nu - far));
+  }
+};
 
 }  // namespace
 
@@ -26,7 +38,9 @@ std::complex<double> closed_form(const RotatingLoad& set, double load, double z)
   std::complex<double> sum = 0;
   for (int n = 1; n <= modes; ++n) {
     const double natural = n * n * pi / set.a, passing = n * pi;
-    const auto q = (response(natural, omega + passing, load) - response(natural, omega - passing, load)) / 1i;
+    const double turning = std::pow(set.slenderness * passing / 2, 2);  // J k^2/A
+    const Mode mode{1 + turning, 2 * turning * set.spin, natural * natural};
+    const auto q = (mode.response(omega + passing, load) - mode.response(omega - passing, load)) / 1i;
     sum += q * std::sin(passing * z);
   }
   return sum * 48.0 / (pi * set.a * pi * set.a);

@@ -9,6 +9,7 @@
 
 #include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
+#include "core/scene/options.hpp"
 #include "core/system/flowing_beam.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/rotating_load/closed_form.hpp"
@@ -30,7 +31,8 @@ constexpr int points = 40;  // of a configuration
 struct Case {
   RotatingLoad set;
   int elements;
-  int steps;  ///< of the implicit method, on the whole way
+  int steps;         ///< of the implicit method, on the whole way
+  double spin = -1;  ///< of a shaft with rotary inertia [rad/s]; negative for none
 };
 
 /// Deflections over P l^3/(48 EJ).
@@ -53,19 +55,25 @@ class Shaft {
   }
 
   History history(const Case& run) const {
-    const double EJ = shaft_.section().stiffness.EI;
-    const double speed = run.set.a * pi / length_ * std::sqrt(EJ / shaft_.section().rhoA);
+    CircularShaft shaft = shaft_;
+    if (run.set.slenderness > 0) shaft.radius = run.set.slenderness * length_;
+    const double EJ = shaft.section().stiffness.EI, spin = run.spin < 0 ? spin_ : run.spin;
+    const double speed = speed_of(run.set);
     const double duration = length_ / speed, omega = 2 * pi * run.set.k_omega / duration;
     const double force = 48 * EJ * deflection_ / (length_ * length_ * length_);
     const int middle = run.elements / 2;
 
     FlowingModel<D> model;
-    model.section = shaft_.section();
-    model.spin = shaft_.spin();
+    model.section = shaft.section();
+    model.spin = shaft.spin();
+    if (run.spin >= 0) {
+      const double rhoIp = shaft.spin().rhoIp;
+      model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = rhoIp * spin, .direction = Vector::UnitZ()};
+    }
     model.motion = MeshMotion(
         {{0, steadily(0, 0)}, {middle, steadily(margin * length_, speed)}, {run.elements, steadily(length_, 0)}});
     model.supports = {{0, Support<D>::pin()}, {run.elements, Support<D>::slide(Vector::UnitZ())}};
-    model.angles = {{0, steadily(0, spin_)}};
+    model.angles = {{0, steadily(0, spin)}};
     auto turning = [=](double t) -> Vector {
       const double angle = omega * (t + margin * duration);
       return {force * std::cos(angle), force * std::sin(angle), 0};
@@ -95,7 +103,7 @@ class Shaft {
     options.generalized_alpha.newton_tolerance = 1e-15;  // of the length; deflections are 1e-4 of it
     SolverCounters counters;
     double t = 0;
-    Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitZ(), 1, 0, spin_);
+    Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitZ(), 1, 0, spin);
     integrate(beam, y, t, times.back(), times, options, counters);
 
     const auto last = history.at.back();
@@ -103,6 +111,14 @@ class Shaft {
     for (std::size_t q = 0; q < last.size(); ++q) history.at.back()[q] = 2 * last[q] - history.at.back()[q];
     return history;
   }
+
+  /// Of the load [m/s].
+  double speed_of(const RotatingLoad& set) const {
+    CircularShaft shaft = shaft_;
+    if (set.slenderness > 0) shaft.radius = set.slenderness * length_;
+    return set.a * pi / length_ * std::sqrt(shaft.section().stiffness.EI / shaft.section().rhoA);
+  }
+  double length() const { return length_; }
 
  private:
   CircularShaft shaft_;
@@ -131,6 +147,7 @@ class Report {
     add_closed_form();
     add_errors();
     add_curves();
+    add_model_error(shaft);
     const std::string folder = context_.folder.string();
     for (const auto& [first, set] : {std::pair{7, "slow"}, std::pair{9, "fast"}}) {
       const GnuplotVariables variables{{"folder", folder}, {"set", set}};
@@ -144,6 +161,8 @@ class Report {
     }
     report_.figures.push_back(
         {"errors", "Largest errors against the number of elements", "errors.gp", {{"folder", folder}}});
+    report_.figures.push_back(
+        {"model", "What rotary inertia and spin change, against the thickness", "model.gp", {{"folder", folder}}});
     return std::move(report_);
   }
 
@@ -242,6 +261,61 @@ class Report {
       return largest;
     }
     return std::nan("");
+  }
+
+  /// What Euler and Bernoulli's beam leaves out, by the closed forms, and how near elements with rotary inertia come to
+  /// the closed form with it.
+  void add_model_error(const Shaft& shaft) {
+    const Json& sweep = context_.config.at("rotary");
+    std::vector<Case> runs;
+    for (const double slenderness : sweep.at("radius_over_length").get<std::vector<double>>()) {
+      for (const double spin : sweep.at("spin").get<std::vector<double>>()) {
+        RotatingLoad set{sweep.at("a"), sweep.at("k_omega"), slenderness};
+        set.spin = spin * shaft.length() / shaft.speed_of(set);
+        runs.push_back({set, sweep.at("elements"), context_.config.at("steps"), spin});
+      }
+    }
+    const auto found = context_.sweep(
+        runs, [&](const Case& run) { return shaft.history(run); }, [](const Case& run) { return run.steps; });
+    Table table{.name = "model",
+                .caption =
+                    "Largest change of the deflections over P l^3/(48 EJ) by rotary inertia and spin [rad/s], and "
+                    "largest error of elements that have them",
+                .columns = {"radius_over_length", "spin", "change", "error"}};
+    double largest = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const Case& run = runs[i];
+      StudyCase item{.options = {{"group", "rotary"},
+                                 {"radius_over_length", run.set.slenderness},
+                                 {"spin", run.spin},
+                                 {"elements", run.elements}},
+                     .results = {},
+                     .failure = found[i].failure};
+      if (found[i]) {
+        double change = 0, error = 0;
+        for (std::size_t k = 0; k < found[i]->at.size(); ++k) {
+          const double z = static_cast<double>(k + 1) / samples;
+          const std::array<double, 2> places{z, 0.5};
+          for (std::size_t place = 0; place < 2; ++place) {
+            const auto exact = closed_form(run.set, z, places[place]);
+            const RotatingLoad slender{run.set.a, run.set.k_omega};
+            const auto without = closed_form(slender, z, places[place]);
+            const auto& at = found[i]->at[k];
+            const std::complex<double> ours(at[2 * place], at[2 * place + 1]);
+            for (const auto& [u, largest_of] : {std::pair{without - exact, &change}, std::pair{ours - exact, &error}}) {
+              *largest_of = std::max({*largest_of, std::abs(u.real()), std::abs(u.imag())});
+            }
+          }
+        }
+        item.results = {{"change", change}, {"error", error}};
+        table.rows.push_back({run.set.slenderness, run.spin, change, error});
+        largest = std::max(largest, error);
+        report_.measured["rotary_change_" + number_text(run.set.slenderness) + "_" + number_text(run.spin)] = change;
+      }
+      report_.cases.push_back(std::move(item));
+    }
+    report_.measured["rotary_error"] = largest;
+    report_.tables.push_back(std::move(table));
   }
 
   /// Four elements, as in the paper, beside the closed form.

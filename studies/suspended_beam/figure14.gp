@@ -28,6 +28,7 @@ unset key
 plot for [e in "finer ancf rancf"] histories using "t":e."_rate" with lines linewidth 1.3 \
        linecolor rgb element_colour(e)
 set title "(d) energies"
+set xlabel "t (s)" offset 0,0.7
 set ylabel "energy (J)"
 set key outside bottom center horizontal maxrows 2 width 3
 quantities = "kinetic strain gravity total"

@@ -15,6 +15,7 @@ set ylabel "energy (J)"
 plot for [m in modes] histories using "t":m."_dissipated" with lines linewidth mode_width(m) dashtype mode_dash(m) \
        linecolor rgb mode_colour(m) title mode_name(m)
 set title "(c) stretch before and behind the mass"
+set xlabel "t (s)" offset 0,0.7
 set ylabel "|r_x|"
 set key outside below maxrows 2 samplen 2
 plot histories using "t":"tangent_before" with lines linewidth 2 linecolor rgb "#08519c" title "tangent, before", \

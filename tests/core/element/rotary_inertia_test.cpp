@@ -49,7 +49,10 @@ Real lagrangian(const Column<Real>& q, const Column<Real>& rate) {
       const int d = (c + 1) % 3, e = (c + 2) % 3;
       triple += Real(rotary.direction[c]) * (slope[d] * turning[e] - slope[e] * turning[d]);
     }
-    sum += Real(w) * l * (Real(rotary.rhoJ / 2) * turning.dot(turning) - Real(rotary.gyroscopic / 2) * triple);
+    Real along(0);
+    for (int c = 0; c < 3; ++c) along += Real(rotary.direction[c]) * turning[c];
+    sum += Real(w) * l *
+           (Real(rotary.rhoJ / 2) * (turning.dot(turning) - along * along) - Real(rotary.gyroscopic / 2) * triple);
   }
   return sum;
 }
@@ -86,7 +89,7 @@ TEST(RotaryInertia, FollowsLagrangesEquationsOfTheMovingElement) {
       power -= expected * rate[i];  // all forces, guiding ones among them, supply the energy
       if (i >= 12) continue;
       double found = residual[static_cast<std::size_t>(i / 3)][i % 3];
-      for (int j = 0; j < 4; ++j) found += rotary.rhoJ * element.mass()(i / 3, j) * a[3 * j + i % 3];
+      found += element.inertia(rotary, nodal(a))[static_cast<std::size_t>(i / 3)][i % 3];
       size = std::max(size, std::abs(expected));
       error = std::max(error, std::abs(found - expected));
     }

@@ -16,10 +16,8 @@ FlowingModel<D> everything(WeightTransport transport) {
   model.spin = shaft.spin();
   model.transport = transport;
   if (transport == WeightTransport::frozen) model.rotary.rhoJ = 0.5 * model.spin->rhoIp;
-  if (D == 3 && transport == WeightTransport::frozen) {
-    model.rotary.gyroscopic = 6 * model.spin->rhoIp;
-    model.rotary.direction[0] = 1;
-  }
+  if (D == 3 && transport == WeightTransport::frozen) model.rotary.gyroscopic = 6 * model.spin->rhoIp;
+  model.rotary.direction[0] = 1;
   model.gravity = Vec<double, D>::UnitY() * -4;
   auto wavering = [](double x, double rate, double size) -> TimeFunction {
     return [=](double t) {
