@@ -80,6 +80,7 @@ class GeneralizedAlpha final : public Stepper {
 
   void resume(const Stepper& other) override {
     const auto& main = dynamic_cast<const GeneralizedAlpha&>(other);
+    if (&main != this) system_.follow(main.system_);
     end_ = main.start_;
     started_ = true;
     stalled_ = false;
@@ -107,7 +108,7 @@ class GeneralizedAlpha final : public Stepper {
   /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls.
   bool solve(double t, double h, double& dissipation) {
     const double by_a = (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)), by_v = gamma_ / (h * beta_);
-    if (by_a != tangent_by_a_ || system_.factorizations() != factorization_) tangent_by_a_ = 0;
+    if (by_a != tangent_by_a_) tangent_by_a_ = 0;
     double previous = 0;
     bool fresh = false;         // the tangent is of this step
     int with_this_tangent = 0;  // iterations of this step
@@ -119,7 +120,6 @@ class GeneralizedAlpha final : public Stepper {
         if (!system_.linearize(q_, v_, acceleration_, t, by_v, by_a)) return false;
         if (counters_) ++counters_->tangents;
         tangent_by_a_ = by_a;
-        factorization_ = system_.factorizations();
         fresh = true;
         with_this_tangent = 0;
       }
@@ -196,7 +196,6 @@ class GeneralizedAlpha final : public Stepper {
   bool started_ = false;
   bool stalled_ = false;             ///< Newton's iteration has asked for the shorter step
   double tangent_by_a_ = 0;          ///< what the factored tangent was made for; 0 for none
-  std::size_t factorization_ = 0;    ///< which one the factored tangent is, if it is still this stepper's
   Memory start_, end_;               ///< at the start and at the end of the last step
   Eigen::VectorXd base_q_, base_v_;  ///< at the start of the step
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;

@@ -191,6 +191,11 @@ SecondOrderSystem* BeamSystem<D>::second_order() {
 }
 
 template <int D>
+std::unique_ptr<SecondOrderSystem> BeamSystem<D>::new_second_order() {
+  return std::make_unique<ImplicitBeam<D>>(*this);
+}
+
+template <int D>
 std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> BeamSystem<D>::reactions(const Eigen::VectorXd& y, double t) {
   second_order();
   const std::size_t evaluations = rhs_evaluations_;  // those of the integrator

@@ -104,7 +104,9 @@ class BeamSystem final : public EventedOde {
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
     second_order()->jacobian(y, t, dfdy, dfdt);
   }
-  SecondOrderSystem* second_order() override;
+  /// A view of the equations for whoever needs one for a moment: another call may factor another matrix in it.
+  SecondOrderSystem* second_order();
+  std::unique_ptr<SecondOrderSystem> new_second_order() override;
   /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]).
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
   /// Evaluations of the equations, as accelerations or as a residual.

@@ -326,10 +326,10 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
-  ++factorizations_;
   assemble(q, v, a, t, by_v, by_a);
   if (with_multipliers()) {
-    add_constraints(q, a, by_a);
+    constraint_scale_ = reference_mass_ * by_a;  // as the rest of the tangent: by a mass and by_a
+    add_constraints(q, a, constraint_scale_);
   } else {
     constrain_tangent();
   }
@@ -394,21 +394,19 @@ void ImplicitBeam<D>::constrain_tangent() {
   });
 }
 
-/// Rows and columns of the constraints, scaled as the rest of the tangent is: by a mass and by_a.
 template <int D>
-void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double by_a) {
-  constraint_scale_ = reference_mass_ * by_a;
+void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale) {
   for (const auto& constraint : constraints_) {
     auto& border = tangent_.add_border(constraint.node);
-    border.column[0] = border.row[0] = constraint_scale_ * constraint.direction;
-    if (constraint.tied) border.column[1] = border.row[1] = -constraint_scale_ * constraint.direction;
+    border.column[0] = border.row[0] = scale * constraint.direction;
+    if (constraint.tied) border.column[1] = border.row[1] = -scale * constraint.direction;
   }
   if (slope_conditions_.count() == 0) return;
   const auto& conditions = slope_conditions(q.data());
   const Slopes slopes = joint_slopes(q.data());
   const auto j = static_cast<std::size_t>(system_.joint());
   for (int i = 0; i < conditions.count(); ++i) {
-    const Slopes gradient = constraint_scale_ * conditions.gradient(i, slopes);
+    const Slopes gradient = scale * conditions.gradient(i, slopes);
     auto& border = tangent_.add_border(system_.joint());
     border.column[0].template tail<D>() = border.row[0].template tail<D>() = gradient.template head<D>();
     border.column[1].template tail<D>() = border.row[1].template tail<D>() = gradient.template tail<D>();
@@ -419,6 +417,35 @@ void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::Vec
     tangent_.lower[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomLeftCorner<D, D>();
     tangent_.diagonal[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomRightCorner<D, D>();
   }
+}
+
+template <int D>
+void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                              double by_v, double by_a, Eigen::MatrixXd& dense) {
+  assemble(q, v, a, t, by_v, by_a);
+  add_constraints(q, a, reference_mass_);
+  dense.setZero(coordinates(), coordinates());
+  tangent_.expand(dense);
+  dense.bottomRows(multipliers()) /= reference_mass_;
+}
+
+template <int D>
+void ImplicitBeam<D>::add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const {
+  const Eigen::Index before = Eigen::Index{B} * system_.joint() + D, behind = before + B;
+  const typename JointSlopeConditions::Form form = factor * slope_conditions_.form(static_cast<int>(i));
+  dense.block<D, D>(before, before) += form.template topLeftCorner<D, D>();
+  dense.block<D, D>(before, behind) += form.template topRightCorner<D, D>();
+  dense.block<D, D>(behind, before) += form.template bottomLeftCorner<D, D>();
+  dense.block<D, D>(behind, behind) += form.template bottomRightCorner<D, D>();
+}
+
+template <int D>
+void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
+  const auto& leader = dynamic_cast<const ImplicitBeam&>(other);
+  leader.refresh();
+  refresh();
+  omitted_axis_ = leader.omitted_axis_;
+  slope_conditions_ = leader.slope_conditions_;
 }
 
 template <int D>

@@ -37,6 +37,12 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
+               double by_a, Eigen::MatrixXd& dense) override;
+  Eigen::Index curved_constraints() const override { return slope_conditions_.count(); }
+  void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
+  double multiplier_unit() const override { return reference_mass_; }
+  void follow(const SecondOrderSystem& other) override;
   double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                              const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override {
     system_.count_evaluation();
@@ -88,7 +94,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
-  void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double by_a);
+  /// Rows and columns of the constraints, times `scale`, and what their forces add to the tangent.
+  void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
   void add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                             double by_v, double by_a);
   void add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
