@@ -222,6 +222,7 @@ class Ida final : public SundialsStepper {
     IDASetSuppressAlg(h.memory, SUNTRUE);  // multipliers of a problem of index 2 would defeat the error test
     h.dense();
     IDASetLinearSolver(h.memory, h.linear, h.matrix);
+    IDASetJacFn(h.memory, jacobian);
     IDASetMaxNumSteps(h.memory, most_steps);
   }
 
@@ -252,6 +253,38 @@ class Ida final : public SundialsStepper {
     return out.allFinite() ? 0 : 1;
   }
 
+  /// Exact but for the row of E, of which nothing else depends.
+  static int jacobian(double t, double c_j, N_Vector state, N_Vector rate, N_Vector, SUNMatrix matrix, void* self,
+                      N_Vector, N_Vector, N_Vector) {
+    auto& me = *static_cast<Ida*>(self);
+    me.unpack(state, rate);
+    const Eigen::Index own = me.own_, m = me.multipliers_, size = N_VGetLength(state), mu = 2 * own + m;
+    me.system_.tangent(me.q_, me.v_, me.a_, t, 0, 0, me.by_q_);
+    me.system_.tangent(me.q_, me.v_, me.a_, t, 1, c_j, me.by_v_);
+    const auto columns = me.by_q_.topRightCorner(own, m), rows = me.by_q_.bottomLeftCorner(m, own);
+    Eigen::Map<Eigen::MatrixXd> j(SM_DATA_D(matrix), size, size);
+    j.setZero();
+    j.block(0, 0, own, own).diagonal().setConstant(c_j);
+    j.block(0, own, own, own).diagonal().setConstant(-1);
+    j.block(0, mu, own, m) = columns;
+    j.block(own, 0, own, own) = me.by_q_.topLeftCorner(own, own);
+    j.block(own, own, own, own) = me.by_v_.topLeftCorner(own, own) - me.by_q_.topLeftCorner(own, own);
+    j.block(own, 2 * own, own, m) = columns;
+    j.block(2 * own, own, m, own) = rows;
+    j.block(mu, 0, m, own) = rows;
+    const Eigen::Index curved = me.system_.curved_constraints();
+    for (Eigen::Index i = 0; i < curved; ++i) {  // the last multipliers
+      const Eigen::Index at = m - curved + i;
+      me.by_v_.setZero();
+      me.system_.add_curvature(i, 1, me.by_v_);
+      const auto second = me.by_v_.topLeftCorner(own, own);
+      j.block(0, 0, own, own) += me.system_.multiplier_unit() * values(state)[mu + at] * second;
+      j.block(2 * own + at, 0, 1, own) = (second * me.v_.head(own)).transpose();
+    }
+    if (me.damped_ > 0) j(size - 1, size - 1) = c_j;
+    return j.allFinite() ? 0 : 1;
+  }
+
   bool advance(double to) override {
     double reached = 0;
     IDASetStopTime(handles_->memory, to);
@@ -280,6 +313,7 @@ class Ida final : public SundialsStepper {
   NewtonCounters* counters_;
   Eigen::Index n_ = 0, own_ = 0, multipliers_ = 0, damped_ = 0;
   State q_, v_, a_, r_;
+  Eigen::MatrixXd by_q_, by_v_;
 };
 
 }  // namespace
