@@ -36,12 +36,33 @@ class SecondOrderSystem {
   /// r = M(q) a - Q(q, v, t); returns the power lost to damping [W].
   virtual double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                           Eigen::VectorXd& r) = 0;
-  virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const {
+  virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                                 double /*t*/) const {
     return {};
   }
-  /// Writes C_q v where the multipliers stand, at the end of `rates`.
-  virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+  /// Writes dC/dt = C_q v + C_t where the multipliers stand, at the end of `rates`.
+  virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, double /*t*/,
                                 Eigen::VectorXd& /*rates*/) const {}
+  /// Whether supports move as given functions of time: the state then ends with the work they have done [J].
+  virtual bool driven() const { return false; }
+  /// Writes how far eliminated coordinates that are driven are from where they are at time t; false where none are.
+  virtual bool driven_offset(const Eigen::VectorXd& /*q*/, double /*t*/, Eigen::VectorXd& /*offset*/) const {
+    return false;
+  }
+  /// Power with which moving supports do work at (q, v, a, t) [W].
+  virtual double supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                const Eigen::VectorXd& /*a*/, double /*t*/) {
+    return 0;
+  }
+  /// How many energies a state of the size of `y` counts at its end: what is dissipated, if anything is, and what is
+  /// supplied, if supports move.
+  Eigen::Index tallies(const Eigen::VectorXd& y) const { return driven() ? 2 - y.size() % 2 : y.size() % 2; }
+  /// Adds energies to these.
+  void tally(double dissipated, double supplied, Eigen::VectorXd& y) const {
+    const Eigen::Index count = tallies(y);
+    if (driven()) y[y.size() - 1] += supplied;
+    if (count > (driven() ? 1 : 0)) y[y.size() - count] += dissipated;
+  }
   /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before. Returns false where
   /// it is singular.
   virtual bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,

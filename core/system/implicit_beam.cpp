@@ -1,6 +1,7 @@
 #include "core/system/implicit_beam.hpp"
 
 #include "core/element/moving_tangent.hpp"
+#include "core/error.hpp"
 
 namespace vlbeam {
 namespace {
@@ -24,10 +25,17 @@ MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint
 }  // namespace
 
 template <int D>
-double ImplicitBeam<D>::Constraint::operator()(const double* q, bool rate) const {
+double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const {
   const Eigen::Map<const NodeVector> here(q + Eigen::Index{B} * node), next(q + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
-  return rate ? direction.dot(here) : direction.dot(here - anchor);
+  return direction.dot(here - anchor) - direction.template head<D>().dot(driven[node == 0 ? 0 : 1].value);
+}
+
+template <int D>
+double ImplicitBeam<D>::Constraint::rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const {
+  const Eigen::Map<const NodeVector> here(v + Eigen::Index{B} * node), next(v + Eigen::Index{B} * (node + 1));
+  if (tied) return direction.dot(here - next);
+  return direction.dot(here) - direction.template head<D>().dot(driven[node == 0 ? 0 : 1].rate);
 }
 
 template <int D>
@@ -226,6 +234,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   const Eigen::Index first = coordinates() - multipliers();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
+  const auto driven = system_.driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
     const Eigen::Index at = first + static_cast<Eigen::Index>(i);
@@ -234,7 +243,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
         next(r.data() + Eigen::Index{B} * (constraint.node + 1));
     here += multiplier * constraint.direction;
     if (constraint.tied) next -= multiplier * constraint.direction;
-    r[at] = constraint(q.data(), false);
+    r[at] = constraint.value(q.data(), driven);
   }
   if (slope_conditions_.count() > 0) {
     const auto& conditions = slope_conditions(q.data());
@@ -251,12 +260,14 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 }
 
 template <int D>
-ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const {
+ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                        double t) const {
   refresh();
+  const auto driven = system_.driven_points(t);
   ConstraintResidual largest;
   for (const auto& constraint : constraints_) {
-    largest.position = std::max(largest.position, std::abs(constraint(q.data(), false)));
-    largest.velocity = std::max(largest.velocity, std::abs(constraint(v.data(), true)));
+    largest.position = std::max(largest.position, std::abs(constraint.value(q.data(), driven)));
+    largest.velocity = std::max(largest.velocity, std::abs(constraint.rate(v.data(), driven)));
   }
   for (int i = 0; i < slope_conditions_.count(); ++i) {
     const Slopes slopes = joint_slopes(q.data());
@@ -267,13 +278,58 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 }
 
 template <int D>
-void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
+  const auto driven = system_.driven_points(t);
   Eigen::Index at = rates.size() - multipliers();
-  for (const auto& constraint : constraints_) rates[at++] = constraint(v.data(), true);
+  for (const auto& constraint : constraints_) rates[at++] = constraint.rate(v.data(), driven);
   for (int i = 0; i < slope_conditions_.count(); ++i) {
     rates[at++] = slope_conditions_.rate(i, joint_slopes(q.data()), joint_slopes(v.data()));
   }
+}
+
+template <int D>
+bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const {
+  if (!driven() || with_multipliers()) return false;
+  offset.setZero(q.size());
+  const auto points = system_.driven_points(t);
+  at_end_nodes([&](int node, const Support<D>& support) {
+    const std::size_t end = node == 0 ? 0 : 1;
+    const Vec<double, D> off =
+        position<D>(q.data(), node) - system_.anchors()[end].template head<D>() - points[end].value;
+    position<D>(offset.data(), node) =
+        support.out_of_frame((support.into_frame(off).array() * (1 - support.free_position)).matrix());
+  });
+  return true;
+}
+
+template <int D>
+double ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                       double t) {
+  if (!driven()) return 0;
+  system_.count_evaluation();
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  double power = 0;
+  at_end_nodes([&](int node, const Support<D>& support) {
+    if (!(node == 0 ? system_.model().start_motion : system_.model().end_motion)) return;
+    const Vec<double, D> force = support.into_frame(position<D>(free_.data(), node)),
+                         velocity = support.into_frame(position<D>(v.data(), node));
+    power += (force.array() * velocity.array() * (1 - support.free_position)).sum();
+  });
+  return power;
+}
+
+template <int D>
+double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
+                                            const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
+                                            Eigen::VectorXd& r) {
+  if (driven()) {
+    throw InvalidInput("/integrator/type", "\"energy-momentum\"",
+                       "it keeps an energy that moving supports change: take any other integrator");
+  }
+  system_.count_evaluation();
+  return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
 }
 
 template <int D>

@@ -136,8 +136,8 @@ TYPED_TEST(ImplicitBeamTest, DenseTangentIsTheDerivativeOfTheResidual) {
     for (Eigen::Index i = 0; i < implicit.curved_constraints(); ++i) {  // quadratic forms: C_q v changes by d.C_qq v
       Eigen::MatrixXd second = Eigen::MatrixXd::Zero(n, n);
       implicit.add_curvature(i, 1, second);
-      implicit.constraint_rates(c.q, c.v, rates);
-      implicit.constraint_rates(c.q + d, c.v, more);
+      implicit.constraint_rates(c.q, c.v, 0, rates);
+      implicit.constraint_rates(c.q + d, c.v, 0, more);
       const Eigen::Index at = n - implicit.curved_constraints() + i;
       EXPECT_NEAR(more[at] - rates[at], d.dot(second * c.v), 1e-12);
     }
