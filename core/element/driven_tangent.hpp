@@ -24,6 +24,19 @@ std::array<Vec<Real, D>, 4> nodal_residual(const MovingEquations<Real, D>& eq, c
   return r;
 }
 
+/// The same of x_A and x_B: the forces that guide the ends along the beam [N].
+template <class Real, int D>
+std::array<Real, 2> guiding_forces(const MovingEquations<Real, D>& eq, const MovingCoordinates<Real, D>& a) {
+  const std::array<Vec<Real, D>, 4> nodal{a.e.r_a, a.e.s_a, a.e.r_b, a.e.s_b};
+  std::array<Real, 2> force{eq.mass_aa * a.x_a + eq.mass_ab * a.x_b - eq.force_a,
+                            eq.mass_ab * a.x_a + eq.mass_bb * a.x_b - eq.force_b};
+  for (std::size_t j = 0; j < 4; ++j) {
+    force[0] += eq.mass_a[j].dot(nodal[j]);
+    force[1] += eq.mass_b[j].dot(nodal[j]);
+  }
+  return force;
+}
+
 /// Derivative of nodal_residual by (r_A, s_A, r_B, s_B), their rates and their accelerations, summed with `by`.
 /// The kinematics of unit vectors are the derivatives of the kinematics; what remains is that of the stresses.
 template <StrainLaw Law, bool Bending, int D>

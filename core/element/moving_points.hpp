@@ -58,30 +58,32 @@ template <class Real, int D, MovingEnds Ends, class Evaluate, class Visit>
     }
     return;
   }
-  const auto& q = kinematics.coordinates();
-  const Real inverse = Real(1) / kinematics.length();
-  const int start = shape->piece_at(q.x_a);
-  for (int piece = start; piece < shape->pieces(); ++piece) {
-    const bool first = piece == start;
-    const bool last = piece + 1 == shape->pieces() || !(Real(shape->end_of(piece)) < q.x_b);
-    const Real from = first ? q.x_a : Real(shape->end_of(piece - 1)), to = last ? q.x_b : Real(shape->end_of(piece));
-    const Real from_rate = first ? rate.x_a : Real(0), to_rate = last ? rate.x_b : Real(0);
-    const Real length = to - from, length_rate = to_rate - from_rate;
-    for (const auto& [u, w] : table.rule) {
-      const Real x = from + length * u;
-      const ReferencePoint<Real> point{length * w,
-                                       length_rate * w,
-                                       from_rate * (1 - u) + to_rate * u,
-                                       Real(first ? 1 - u : 0),
-                                       Real(last ? u : 0),
-                                       first ? w : 0,
-                                       last ? w : 0};
-      const Real at = (x - q.x_a) * inverse;
-      const RestStrain<Real> rest = shape->at(x, piece);
-      const auto motion = evaluate(at, rational_shape(kinematics.weights(), at));
-      visit(point, motion, static_cast<const RestStrain<Real>*>(&rest));
+  if constexpr (D > 1) {  // a single field has no rest shape
+    const auto& q = kinematics.coordinates();
+    const Real inverse = Real(1) / kinematics.length();
+    const int start = shape->piece_at(q.x_a);
+    for (int piece = start; piece < shape->pieces(); ++piece) {
+      const bool first = piece == start;
+      const bool last = piece + 1 == shape->pieces() || !(Real(shape->end_of(piece)) < q.x_b);
+      const Real from = first ? q.x_a : Real(shape->end_of(piece - 1)), to = last ? q.x_b : Real(shape->end_of(piece));
+      const Real from_rate = first ? rate.x_a : Real(0), to_rate = last ? rate.x_b : Real(0);
+      const Real length = to - from, length_rate = to_rate - from_rate;
+      for (const auto& [u, w] : table.rule) {
+        const Real x = from + length * u;
+        const ReferencePoint<Real> point{length * w,
+                                         length_rate * w,
+                                         from_rate * (1 - u) + to_rate * u,
+                                         Real(first ? 1 - u : 0),
+                                         Real(last ? u : 0),
+                                         first ? w : 0,
+                                         last ? w : 0};
+        const Real at = (x - q.x_a) * inverse;
+        const RestStrain<Real> rest = shape->at(x, piece);
+        const auto motion = evaluate(at, rational_shape(kinematics.weights(), at));
+        visit(point, motion, static_cast<const RestStrain<Real>*>(&rest));
+      }
+      if (last) break;
     }
-    if (last) break;
   }
 }
 

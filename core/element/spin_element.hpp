@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/element/transport.hpp"
+#include "core/element/moving_element.hpp"
 
 namespace vlbeam {
 
@@ -47,6 +47,23 @@ struct SpinEquations {
     const Real m_a = mass_diagonal() * at_a + mass_coupling() * at_b;
     const Real m_b = mass_coupling() * at_a + mass_diagonal() * at_b;
     return {m_a - force_theta_a, m_b - force_theta_b, -tau * m_a - force_a, -tau * m_b - force_b};
+  }
+
+  /// The same as the equations of a field of one component, the rows of its slopes empty.
+  MovingEquations<Real, 1> of_one_field() const {
+    const Real zero(0), m = mass_diagonal(), n = mass_coupling();
+    auto one = [](const Real& value) -> Vec<Real, 1> { return Vec<Real, 1>::Constant(value); };
+    MovingEquations<Real, 1> eq;
+    eq.mass = {{{m, zero, n, zero}, {zero, zero, zero, zero}, {n, zero, m, zero}, {zero, zero, zero, zero}}};
+    eq.mass_a = {one(-tau * m), one(zero), one(-tau * n), one(zero)};
+    eq.mass_b = {one(-tau * n), one(zero), one(-tau * m), one(zero)};
+    eq.mass_aa = eq.mass_bb = tau * tau * m;
+    eq.mass_ab = tau * tau * n;
+    eq.force = {one(force_theta_a), one(zero), one(force_theta_b), one(zero)};
+    eq.force_a = force_a;
+    eq.force_b = force_b;
+    eq.dissipation = dissipation;
+    return eq;
   }
 };
 

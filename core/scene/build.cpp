@@ -22,35 +22,6 @@ Vec<double, D> vector_of(const Point& point) {
   return Eigen::Map<const Vec<double, D>>(point.data());
 }
 
-BeamSection build_section(const BeamSpec& beam) {
-  BeamSection section;
-  if (beam.section.type == Section::Type::circle) {
-    const double r2 = beam.section.radius * beam.section.radius;
-    const double area = std::numbers::pi * r2;
-    section.rhoA = beam.material.density * area;
-    section.stiffness = {beam.material.youngs_modulus * area, beam.material.youngs_modulus * area * r2 / 4};
-  } else {
-    section.rhoA = beam.section.rhoA;
-    section.stiffness = {beam.section.EA, beam.section.EI};
-  }
-  section.damping = beam.material.damping;
-  section.curvature_regularization = beam.material.curvature_regularization;
-  return section;
-}
-
-template <int D>
-Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent) {
-  switch (spec.type) {
-    case SupportType::clamp:
-      return spec.clamp == ClampType::full ? Support<D>::clamp() : Support<D>::direction_clamp(tangent);
-    case SupportType::pin:
-      return Support<D>::pin();
-    case SupportType::free:
-      break;
-  }
-  return Support<D>::free_end();
-}
-
 /// The initial shape as the one strains are measured from.
 template <int D>
 std::shared_ptr<const RestCurve<D>> rest_curve_of(const ChainState<D>& chain, const BeamModel<D>& model) {
@@ -114,6 +85,37 @@ std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
 }
 
 }  // namespace
+
+BeamSection build_section(const BeamSpec& beam) {
+  BeamSection section;
+  if (beam.section.type == Section::Type::circle) {
+    const double r2 = beam.section.radius * beam.section.radius;
+    const double area = std::numbers::pi * r2;
+    section.rhoA = beam.material.density * area;
+    section.stiffness = {beam.material.youngs_modulus * area, beam.material.youngs_modulus * area * r2 / 4};
+  } else {
+    section.rhoA = beam.section.rhoA;
+    section.stiffness = {beam.section.EA, beam.section.EI};
+  }
+  section.damping = beam.material.damping;
+  section.curvature_regularization = beam.material.curvature_regularization;
+  return section;
+}
+
+template <int D>
+Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent) {
+  switch (spec.type) {
+    case SupportType::clamp:
+      return spec.clamp == ClampType::full ? Support<D>::clamp() : Support<D>::direction_clamp(tangent);
+    case SupportType::pin:
+      return Support<D>::pin();
+    case SupportType::slide:
+      return Support<D>::slide(tangent);
+    case SupportType::free:
+      break;
+  }
+  return Support<D>::free_end();
+}
 
 template <int D>
 Axis<D> build_axis(const Scene& scene) {
@@ -251,6 +253,8 @@ ChainState<D> build_chain(const Scene& scene) {
   return chain;
 }
 
+template Support<2> build_support(const SupportSpec&, const Vec<double, 2>&);
+template Support<3> build_support(const SupportSpec&, const Vec<double, 3>&);
 template Axis<2> build_axis(const Scene&);
 template Axis<3> build_axis(const Scene&);
 template BeamModel<2> build_model(const Scene&);

@@ -31,6 +31,12 @@ struct InitialNodes {
 };
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks);
 
+BeamSection build_section(const BeamSpec& beam);
+
+/// What holds a node at which the axis has the given tangent.
+template <int D>
+Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent);
+
 /// The model and the initial state of a scene that has been validated; `D` is its dimension.
 template <int D>
 BeamModel<D> build_model(const Scene& scene);

@@ -34,7 +34,18 @@ constexpr auto names(StrainLaw) {
 }
 constexpr auto names(SupportType) {
   using enum SupportType;
-  return std::to_array<Named<SupportType>>({{clamp, "clamp"}, {pin, "pin"}, {free, "free"}});
+  return std::to_array<Named<SupportType>>({{clamp, "clamp"}, {pin, "pin"}, {slide, "slide"}, {free, "free"}});
+}
+constexpr auto names(AngleField) {
+  return std::to_array<Named<AngleField>>({{AngleField::linear, "linear"}, {AngleField::hermite, "hermite"}});
+}
+constexpr auto names(LoadType) {
+  using enum LoadType;
+  return std::to_array<Named<LoadType>>({{force, "force"}, {follower, "follower"}, {torque, "torque"}});
+}
+constexpr auto names(LoadPlace) {
+  using enum LoadPlace;
+  return std::to_array<Named<LoadPlace>>({{node, "node"}, {point, "point"}, {beam, "beam"}});
 }
 constexpr auto names(ClampType) {
   return std::to_array<Named<ClampType>>({{ClampType::direction, "direction"}, {ClampType::full, "full"}});

@@ -120,7 +120,8 @@ constexpr auto names(SceneSchema) { return std::to_array<Named<SceneSchema>>({{S
 
 /// Calls the visitor for every option of a scene, each after the options it depends on:
 ///   visitor(option, member)           for an option; `member` is a reference into the scene;
-///   visitor.present(option, optional) for a part that may be absent; the part's options follow if it says true.
+///   visitor.present(option, optional) for a part that may be absent; the part's options follow if it says true;
+///   visitor.list(option, vector)      for a list of any length; the options of its entries follow, "/loads/0/type".
 template <class Visitor, class SceneT>
 requires std::same_as<std::remove_const_t<SceneT>, Scene>
 void visit_options(Visitor&& visitor, SceneT& scene) {
@@ -253,6 +254,18 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .when = stiffness,
                  .required = true},
           beam.section.rhoA);
+  visitor(Option{.pointer = "/beam/section/GIp",
+                 .unit = "N m^2",
+                 .description = "torsional stiffness, needed by spin",
+                 .range = Range::non_negative(),
+                 .when = stiffness},
+          beam.section.GIp);
+  visitor(Option{.pointer = "/beam/section/rhoIp",
+                 .unit = "kg m",
+                 .description = "moment of inertia per length about the axis, needed by spin",
+                 .range = Range::non_negative(),
+                 .when = stiffness},
+          beam.section.rhoIp);
 
   visitor(Option{.pointer = "/beam/material/density",
                  .unit = "kg/m^3",
@@ -268,6 +281,12 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .range = Range::positive(),
                  .when = circle},
           beam.material.youngs_modulus);
+  visitor(Option{.pointer = "/beam/material/poisson_ratio",
+                 .unit = "-",
+                 .description = "Poisson's ratio, of the torsional stiffness",
+                 .range = {.low = -1, .high = 0.5, .low_open = true, .high_open = true},
+                 .when = circle},
+          beam.material.poisson_ratio);
   visitor(Option{.pointer = "/beam/material/damping",
                  .unit = "s",
                  .description = "Kelvin-Voigt time c: stresses E (strain + c strain rate)",
@@ -373,6 +392,118 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                .description = "distance from a free end where the mass leaves; 1e-3 of the beam's length if not given",
                .range = Range::positive()},
         mass.separation_distance);
+  }
+
+  // a function of time: value, rate, ... below the pointer `at`
+  const auto time_function = [&](const std::string& at, const std::string& unit, const Condition& when, auto& f) {
+    const auto part = [&](const char* key, const std::string& part_unit, const char* description, const Range& range,
+                          auto& member) {
+      const std::string pointer = at + "/" + key;
+      visitor(Option{.pointer = pointer, .unit = part_unit, .description = description, .range = range, .when = when},
+              member);
+    };
+    part("value", unit, "of a function of time: its constant part", {}, f.value);
+    part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
+    part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
+    part("amplitude", unit, "of its part that oscillates", {}, f.amplitude);
+    part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
+    part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
+    part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
+  };
+
+  if (visitor.present(Option{.pointer = "/spin", .unit = "", .description = "the section's rotation about the axis"},
+                      scene.spin)) {
+    auto& spin = *scene.spin;
+    visitor(Option{.pointer = "/spin/angles",
+                   .unit = "",
+                   .description = "how the section's angle runs between the nodes",
+                   .source = "linear is the shaft element VLBSE, 2017"},
+            spin.angles);
+    visitor(Option{.pointer = "/spin/rate",
+                   .unit = "rad/s",
+                   .description = "of the whole beam at t = 0; if not given that of the first drive, or 0"},
+            spin.rate);
+    visitor.list(Option{.pointer = "/spin/drives", .unit = "", .description = "nodes whose angle is prescribed"},
+                 spin.drives);
+    for (std::size_t i = 0; i < spin.drives.size(); ++i) {
+      const std::string at = "/spin/drives/" + std::to_string(i), node = at + "/node";
+      visitor(Option{.pointer = node,
+                     .unit = "-",
+                     .description = "number of the node, from 0",
+                     .range = Range::non_negative(),
+                     .required = true},
+              spin.drives[i].node);
+      time_function(at + "/angle", "rad", {}, spin.drives[i].angle);
+    }
+  }
+
+  if (visitor.present(Option{.pointer = "/flow",
+                             .unit = "",
+                             .description = "nodes that move along the beam as prescribed; without it they rest"},
+                      scene.flow)) {
+    auto& flow = *scene.flow;
+    visitor(Option{.pointer = "/flow/tension", .unit = "N", .description = "initial axial force"}, flow.tension);
+    visitor(Option{.pointer = "/flow/velocity",
+                   .unit = "m/s",
+                   .description = "of the matter along the axis at t = 0; if not given, node 0 stands still"},
+            flow.velocity);
+    visitor(Option{.pointer = "/flow/steady",
+                   .unit = "",
+                   .description = "whether to start from the steady flow under the loads at t = 0"},
+            flow.steady);
+    visitor.list(Option{.pointer = "/flow/nodes",
+                        .unit = "",
+                        .description = "nodes whose material coordinates are given, the first and the last among them; "
+                                       "those between two of them are equally spaced"},
+                 flow.nodes);
+    for (std::size_t i = 0; i < flow.nodes.size(); ++i) {
+      auto& guide = flow.nodes[i];
+      const std::string at = "/flow/nodes/" + std::to_string(i), node = at + "/node", support_pointer = at + "/support";
+      visitor(Option{.pointer = node,
+                     .unit = "-",
+                     .description = "number of the node, from 0",
+                     .range = Range::non_negative(),
+                     .required = true},
+              guide.node);
+      time_function(at + "/x", "m", {}, guide.x);
+      visitor(Option{.pointer = support_pointer,
+                     .unit = "",
+                     .description = "of an inner node, through which the beam then flows; those of the ends are in "
+                                    "/supports"},
+              guide.support);
+    }
+  }
+
+  visitor.list(Option{.pointer = "/loads", .unit = "", .description = "forces and torques as functions of time"},
+               scene.loads);
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    auto& load = scene.loads[i];
+    const std::string at = "/loads/" + std::to_string(i), type = at + "/type", place = at + "/at", node = at + "/node",
+                      direction = at + "/direction";
+    visitor(Option{.pointer = type,
+                   .unit = "",
+                   .description = "force in a direction of its own, force along the tangent, or torque about the axis"},
+            load.type);
+    visitor(Option{.pointer = place, .unit = "", .description = "a node, a material point, or the whole beam"},
+            load.at);
+    visitor(Option{.pointer = node,
+                   .unit = "-",
+                   .description = "number of the node, from 0",
+                   .range = Range::non_negative(),
+                   .when = only_if(place, load.at, LoadPlace::node),
+                   .required = true},
+            load.node);
+    time_function(at + "/x", "m", only_if(place, load.at, LoadPlace::point), load.x);
+    time_function(at + "/magnitude", "N, N m, or these per m", {}, load.magnitude);
+    const Condition has_direction = only_if(type, load.type, LoadType::force);
+    visitor(Option{.pointer = direction,
+                   .unit = "-",
+                   .description = "of the force; it need not have unit length",
+                   .components = scene.dimension,
+                   .when = has_direction,
+                   .required = true},
+            load.direction);
+    time_function(at + "/turn", "rad", has_direction, load.turn);
   }
 
   visitor(Option{.pointer = "/formulation",

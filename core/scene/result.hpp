@@ -18,6 +18,23 @@ struct Reaction {
   Point slope{};
 };
 
+/// What else there is to see of a beam that spins, flows or bears loads.
+struct FlowSample {
+  /// What has crossed the boundary since the start; energy is kept if the total has changed by the last three.
+  struct Ledger {
+    double mass;   ///< [kg], in through the ends
+    double ends;   ///< [J], in through the ends with the matter, and from supports and drives
+    double loads;  ///< [J], work of the loads
+    double mesh;   ///< [J], work of moving inner nodes along the beam: discretisation error only
+  };
+
+  double mass = 0;                                  ///< between the end nodes [kg]
+  std::optional<std::array<double, 2>> end_angles;  ///< of the first and the last node [rad]; with spin
+  double spin_momentum = 0;                         ///< about the axis [N m s]
+  std::vector<Point> loads;                         ///< where the concentrated ones are [m]
+  std::optional<Ledger> ledger;                     ///< with methods of first-order equations
+};
+
 /// The observed quantities at one instant.
 struct Sample {
   double t = 0;
@@ -31,14 +48,16 @@ struct Sample {
   Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]
   std::array<Reaction, 2>
       reactions{};  ///< of the supports at start and end, by the accelerations that belong to the state
+  std::optional<FlowSample> flow;
 };
 
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
 struct Configuration {
   double t = 0;
-  std::vector<double> x;   ///< material coordinates [m]
-  std::vector<Point> r;    ///< positions [m]
-  std::vector<Point> r_x;  ///< slopes [-]
+  std::vector<double> x;       ///< material coordinates [m]
+  std::vector<Point> r;        ///< positions [m]
+  std::vector<Point> r_x;      ///< slopes [-]
+  std::vector<double> angles;  ///< of the section about the axis [rad]; with spin
   std::vector<std::array<double, 4>> weights;
   /// Where the beam may be kinked, at the mass: `r_x` has the slope before it, this is the one behind.
   struct Kink {

@@ -13,6 +13,7 @@
 #include "core/joint/slope_conditions.hpp"
 #include "core/length_control/merge_policy.hpp"
 #include "core/system/constraints.hpp"
+#include "core/system/spin_chain.hpp"
 
 namespace vlbeam {
 
@@ -21,7 +22,12 @@ using Point = std::array<double, 3>;
 
 enum class ElementKind { ale_rancf, ale_ancf, rancf, ancf };
 enum class RestShape { as_built, paper };
-enum class SupportType { clamp, pin, free };
+enum class SupportType {
+  clamp,
+  pin,
+  slide,  ///< position free along the initial tangent of the axis only
+  free,
+};
 enum class ClampType {
   direction,  ///< position fixed, slope free along the initial tangent
   full,       ///< position and slope vector fixed
@@ -48,13 +54,26 @@ struct Section {
   double EA = 0;         ///< stiffness [N]
   double EI = 0;         ///< stiffness [N m^2]; 0 is a cable
   double rhoA = 0;       ///< stiffness [kg/m]
+  double GIp = 0;        ///< stiffness [N m^2], used with spin
+  double rhoIp = 0;      ///< stiffness, moment of inertia per length about the axis [kg m], used with spin
 };
 
 struct Material {
   double density = 7200;                ///< [kg/m^3], used with a circle
   double youngs_modulus = 2e7;          ///< [Pa], used with a circle
+  double poisson_ratio = 0.3;           ///< used with a circle that spins
   double damping = 0;                   ///< Kelvin-Voigt time c [s]
   double curvature_regularization = 0;  ///< kappa_reg [1/m], needed by bending damping in 3D
+};
+
+/// A quantity as a function of time:
+/// S(t/ramp) (value + rate t + acceleration t^2/2 + amplitude sin(2 pi frequency t + phase)), S of gravity_ramp.
+struct TimeSpec {
+  double value = 0, rate = 0, acceleration = 0;
+  double amplitude = 0;
+  double frequency = 0;      ///< [Hz]
+  double phase_degrees = 0;  ///< [degrees]
+  double ramp = 0;           ///< [s]
 };
 
 struct BeamSpec {
@@ -83,6 +102,55 @@ struct SlidingMassSpec {
   std::optional<double> separation_distance;  ///< distance from a free end where the mass leaves [m]; default 1e-3 L
 };
 
+/// The section's rotation about the axis of the beam.
+struct SpinSpec {
+  /// A node whose angle is prescribed [rad].
+  struct Drive {
+    int node = 0;
+    TimeSpec angle;
+  };
+
+  AngleField angles = AngleField::linear;
+  std::optional<double> rate;  ///< of the whole beam at t = 0 [rad/s]; if not given, that of the first drive, or 0
+  std::vector<Drive> drives = {};
+};
+
+/// Nodes that move along the beam as prescribed: the beam flows through its supports, a load travels with a node.
+struct FlowSpec {
+  /// A node whose material coordinate is given; those between two of them are equally spaced.
+  struct Guide {
+    int node = 0;
+    TimeSpec x;                               ///< [m], 0 where the curve starts at t = 0
+    SupportType support = SupportType::free;  ///< of an inner node, through which the beam flows
+  };
+
+  std::vector<Guide> nodes = {};
+  double tension = 0;              ///< initial axial force [N]
+  std::optional<double> velocity;  ///< of the matter along the axis at t = 0 [m/s]; if not given, node 0 stands still
+  bool steady = false;             ///< start from the steady flow under the loads at t = 0
+};
+
+enum class LoadType {
+  force,     ///< in a direction of its own, which may turn about the initial axis
+  follower,  ///< along the tangent of the axis
+  torque,    ///< about the axis
+};
+enum class LoadPlace {
+  node,
+  point,  ///< a material point, which may travel
+  beam,   ///< all of it, per unstretched length
+};
+
+struct LoadSpec {
+  LoadType type = LoadType::force;
+  LoadPlace at = LoadPlace::node;
+  int node = 0;
+  TimeSpec x;                ///< at a point: its material coordinate [m]
+  TimeSpec magnitude;        ///< force [N] or torque [N m], per length [m] on the beam
+  Point direction{0, 1, 0};  ///< force; need not have unit length
+  TimeSpec turn;             ///< force: angle by which the direction has turned about the initial axis [rad]
+};
+
 struct LengthControlSpec {
   bool enabled = true;
   double upper = 1.5;        ///< trigger length over L_std
@@ -108,7 +176,8 @@ struct OutputSpec {
   std::vector<double> configurations;  ///< times [s] at which the whole shape is kept
 };
 
-/// One beam, its supports and at most one mass that slides on it. SI units.
+/// One beam, its supports, and at most one mass that slides on it; or a shaft that spins, flows through its supports or
+/// bears loads. SI units.
 struct Scene {
   std::string title;
   int dimension = 2;
@@ -118,6 +187,9 @@ struct Scene {
   SupportSpec start;
   SupportSpec end;
   std::optional<SlidingMassSpec> sliding_mass;
+  std::optional<SpinSpec> spin;
+  std::optional<FlowSpec> flow;
+  std::vector<LoadSpec> loads = {};
   Formulation formulation = Formulation::variational;
   WeightTransport weights = WeightTransport::frozen;
   LengthControlSpec length_control;

@@ -4,21 +4,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/scene/build.hpp"
+#include "core/scene/build_flow.hpp"
+#include "core/scene/run_support.hpp"
 #include "core/scene/validate.hpp"
 
 namespace vlbeam {
 namespace {
-
-constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
-
-template <int D>
-Point point_of(const Vec<double, D>& v) {
-  Point point{};
-  std::copy(v.data(), v.data() + D, point.begin());
-  return point;
-}
 
 template <int D>
 Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
@@ -39,67 +31,25 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
   return shape;
 }
 
-std::vector<double> sample_times(const Scene& scene) {
-  std::vector<double> times;
-  const double interval = scene.output.interval;
-  const auto count = static_cast<long>(std::floor(scene.duration / interval * (1 + 1e-12)));
-  for (long i = 0; i <= count; ++i) times.push_back(std::min(static_cast<double>(i) * interval, scene.duration));
-  if (times.back() < scene.duration * (1 - 1e-12)) times.push_back(scene.duration);
-  return times;
-}
-
 /// Runs one scene of a known dimension and fills in its result.
 template <int D>
 class Run {
  public:
   Run(const Scene& scene, const ProgressCallback& progress)
-      : scene_(scene), progress_(progress), system_(build_model<D>(scene), build_chain<D>(scene)) {
+      : scene_(scene), progress_(progress), stops_(scene), system_(build_model<D>(scene), build_chain<D>(scene)) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_.on_event = [this](const EventRecord<D>& record) { event(record); };
     system_.on_step = [this](double t) { return !progress_ || progress_(t); };
   }
 
   RunResult operator()() {
-    samples_ = sample_times(scene_);
-    configurations_ = scene_.output.configurations;
-    std::sort(configurations_.begin(), configurations_.end());
-    std::vector<double> stops;
-    std::set_union(samples_.begin(), samples_.end(), configurations_.begin(), configurations_.end(),
-                   std::back_inserter(stops));
-
-    const auto& beam = system_.model().section;
     const auto& x = build_chain<D>(scene_).mesh.x;
     double shortest = beam_length(scene_);
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
-    const double wave_time = shortest * std::sqrt(beam.rhoA / std::max(beam.stiffness.EA, beam.stiffness.EI));
-    const auto& integrator = scene_.integrator;
-    IntegrationOptions options;
-    options.type = integrator.type;
-    options.tolerances = {integrator.rtol, integrator.atol};
-    options.first_step = first_step_courant * wave_time;
-    options.locate_events = integrator.locate_events;
-    options.step = options.energy_momentum.step = integrator.step;
-    options.generalized_alpha = {.step = integrator.step,
-                                 .rho_inf = integrator.rho_inf,
-                                 .newton = integrator.newton,
-                                 .newton_tolerance = integrator.newton_tolerance,
-                                 .adaptive = integrator.adaptive,
-                                 .tolerances = {integrator.rtol, integrator.atol}};
-
-    Eigen::VectorXd y = system_.initial_state();
-    double t = 0;
-    const auto started = std::chrono::steady_clock::now();
-    try {
-      if (!integrate(system_, y, t, scene_.duration, stops, options, result_.solver)) {
-        result_.status = RunStatus::interrupted;
-      }
-    } catch (const ComputationFailed& failure) {
-      result_.status = RunStatus::failed;
-      result_.failure = failure.what();
-      result_.failure_time = failure.t;
-    }
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-    result_.timing.motion = elapsed.count() - result_.timing.length_control - observing_;
+    const auto options = integration_options(scene_, system_.model().section, shortest);
+    run_to_end(
+        scene_, system_, [this] { return system_.initial_state(); }, stops_.all(), options, result_);
+    result_.timing.motion -= result_.timing.length_control + observing_;
     result_.solver.rhs_evaluations = system_.rhs_evaluations();
     return std::move(result_);
   }
@@ -107,10 +57,10 @@ class Run {
  private:
   void sample(const Eigen::VectorXd& y, double t) {
     const auto started = std::chrono::steady_clock::now();
-    if (std::binary_search(configurations_.begin(), configurations_.end(), t)) {
+    if (stops_.keeps_shape_at(t)) {
       result_.configurations.push_back(configuration_of(system_.chain(y), t, scene_.weights));
     }
-    if (std::binary_search(samples_.begin(), samples_.end(), t)) {
+    if (stops_.samples_at(t)) {
       const auto seen = system_.observe(y, t, ledger_points);
       const auto own = system_.observe(y, t, system_.model().quadrature_points);
       Sample sample;
@@ -160,9 +110,9 @@ class Run {
 
   const Scene& scene_;
   ProgressCallback progress_;
+  Stops stops_;
   BeamSystem<D> system_;
   RunResult result_;
-  std::vector<double> samples_, configurations_;
   double first_total_ = 0, jumps_ = 0, observing_ = 0;
 };
 
@@ -170,6 +120,7 @@ class Run {
 
 RunResult simulate(const Scene& scene, const ProgressCallback& progress) {
   validate(scene);
+  if (flows(scene)) return scene.dimension == 2 ? simulate_flow<2>(scene, progress) : simulate_flow<3>(scene, progress);
   return scene.dimension == 2 ? Run<2>(scene, progress)() : Run<3>(scene, progress)();
 }
 

@@ -7,7 +7,9 @@
 #include "core/error.hpp"
 #include "core/geometry/nurbs.hpp"
 #include "core/scene/build.hpp"
+#include "core/scene/build_flow.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/validate_flow.hpp"
 
 namespace vlbeam {
 namespace {
@@ -28,6 +30,9 @@ class RangeCheck {
   bool present(const Option&, const std::optional<T>& part) const {
     return part.has_value();
   }
+
+  template <class T>
+  void list(const Option&, const std::vector<T>&) const {}
 
  private:
   /// `T` is the option's type, `part` the option or, of an array, an entry.
@@ -55,6 +60,9 @@ void check_plane(const Scene& scene) {
   in_plane("/beam/curve/center", curve.center);
   for (std::size_t i = 0; i < curve.control_points.size(); ++i) {
     in_plane("/beam/curve/control_points/" + std::to_string(i), curve.control_points[i]);
+  }
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    in_plane("/loads/" + std::to_string(i) + "/direction", scene.loads[i].direction);
   }
 }
 
@@ -262,6 +270,7 @@ void validate(const Scene& scene) {
   check_joint(scene);
   check_energy_momentum(scene);
   check_output(scene);
+  if (flows(scene)) validate_flow(scene);
 }
 
 }  // namespace vlbeam

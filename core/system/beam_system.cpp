@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/beam/mesh_motion.hpp"
 #include "core/error.hpp"
 #include "core/system/implicit_beam.hpp"
 
@@ -23,17 +24,9 @@ MovingEquations<double, D> equations(StrainLaw strain_law, const MovingCoordinat
 
 }  // namespace
 
-double gravity_share(double t, double ramp) {
-  if (t >= ramp) return 1;
-  const double s = t / ramp;
-  return s * s * s * s * (35 + s * (-84 + s * (70 - 20 * s)));
-}
+double gravity_share(double t, double ramp) { return smooth_ramp(t, ramp).value; }
 
-double gravity_share_rate(double t, double ramp) {
-  if (t >= ramp) return 0;
-  const double s = t / ramp, product = s * (1 - s);
-  return 140 * product * product * product / ramp;
-}
+double gravity_share_rate(double t, double ramp) { return smooth_ramp(t, ramp).rate; }
 
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {

@@ -51,9 +51,13 @@ FlowingBeam<D>::FlowingBeam(const FlowingModel<D>& model)
   model_.motion.at(0, nodes_);
   reference_length_ = (nodes_.back().value - nodes_.front().value) / elements();
   adopt_supports();
-  spin_inverse_.resize(static_cast<std::size_t>(nodes()));
+  if (model_.spin) {
+    std::vector<int> driven;
+    for (const DrivenAngle& angle : model_.angles) driven.push_back(angle.node);
+    spin_.emplace(*model_.spin, model_.angle_field, model_.formulation, elements(), model_.quadrature_points, driven);
+  }
   residual_.resize(coordinates());
-  still_.setZero(coordinates());
+  prescribed_.setZero(coordinates());
 }
 
 template <int D>
@@ -61,7 +65,7 @@ FlowingBeam<D>::~FlowingBeam() = default;
 
 template <int D>
 void FlowingBeam<D>::check_model() const {
-  if (elements() < 1) throw InvalidInput("/beam/nodes", "no motion", "the first and the last node need theirs");
+  if (elements() < 1) throw InvalidInput("/flow/nodes", "no motion", "the first and the last node need theirs");
   if (!model_.weights.empty() && static_cast<int>(model_.weights.size()) != elements()) {
     throw InvalidInput("/beam/weights", std::to_string(model_.weights.size()) + " of them", "one an element, or none");
   }
@@ -70,11 +74,11 @@ void FlowingBeam<D>::check_model() const {
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
     const double length = nodes[k + 1].value - nodes[k].value;
     if (length > 0) continue;
-    throw InvalidInput("/beam/nodes", "element " + std::to_string(k) + " of length " + text(length) + " at t = 0",
+    throw InvalidInput("/flow/nodes", "element " + std::to_string(k) + " of length " + text(length) + " at t = 0",
                        "material coordinates increase from node to node");
   }
 
-  auto check_nodes = [&](const char* field, const auto& list) {
+  auto check_nodes = [&](const char* field, const auto& list, bool once) {
     std::vector<bool> taken(nodes.size(), false);
     for (const auto& entry : list) {
       if (entry.node < 0 || entry.node > elements()) {
@@ -83,22 +87,24 @@ void FlowingBeam<D>::check_model() const {
             "a node of the beam, 0 to " + std::to_string(elements()) + ": beyond its ends there is none");
       }
       const auto k = static_cast<std::size_t>(entry.node);
-      if (taken[k]) throw InvalidInput(field, "node " + std::to_string(entry.node) + " twice", "once a node");
+      if (taken[k] && once) throw InvalidInput(field, "node " + std::to_string(entry.node) + " twice", "once a node");
       taken[k] = true;
     }
     return taken;
   };
-  check_nodes("/supports", model_.supports);
-  check_nodes("/loads", model_.loads);
-  const std::vector<bool> driven = check_nodes("/angles", model_.angles);
+  check_nodes("/supports", model_.supports, true);
+  const std::vector<bool> driven = check_nodes("/spin/drives", model_.angles, true);
+  std::vector<PointLoad<D>> at_nodes;
+  std::ranges::copy_if(model_.loads, std::back_inserter(at_nodes), [](const PointLoad<D>& load) { return !load.x; });
+  check_nodes("/loads", at_nodes, false);
 
   if (!model_.spin && (!model_.angles.empty() || model_.line_torque)) {
-    throw InvalidInput("/beam/spin", "none", "a section that spins: angles or torques are given");
+    throw InvalidInput("/spin", "none", "a section that spins: angles or torques are given");
   }
   for (const auto& load : model_.loads) {
     if (!load.torque) continue;
-    if (!model_.spin) throw InvalidInput("/beam/spin", "none", "a section that spins: a torque is given");
-    if (driven[static_cast<std::size_t>(load.node)]) {
+    if (!model_.spin) throw InvalidInput("/spin", "none", "a section that spins: a torque is given");
+    if (!load.x && driven[static_cast<std::size_t>(load.node)]) {
       throw InvalidInput("/loads", "a torque at node " + std::to_string(load.node),
                          "a torque where the angle is not prescribed already");
     }
@@ -106,7 +112,7 @@ void FlowingBeam<D>::check_model() const {
   for (const DrivenAngle& angle : model_.angles) {
     const double rate = angle.theta(0).rate, first = model_.angles.front().theta(0).rate;
     if (rate == first) continue;
-    throw InvalidInput("/angles", "spins of " + text(first) + " and " + text(rate) + " rad/s",
+    throw InvalidInput("/spin/drives", "spins of " + text(first) + " and " + text(rate) + " rad/s",
                        "one spin: a shaft driven at two places at different rates winds up without bound");
   }
 }
@@ -139,14 +145,14 @@ MovingCoordinates<double, D> FlowingBeam<D>::axis_of(const double* q, int k, dou
 }
 
 template <int D>
-SpinCoordinates<double> FlowingBeam<D>::spin_of(const double* q, int k, double Prescribed::*x) const {
-  const double* theta = q + nodal_;
-  return {theta[k], theta[k + 1], nodes_[static_cast<std::size_t>(k)].*x, nodes_[static_cast<std::size_t>(k) + 1].*x};
+SpinChain::Coordinates FlowingBeam<D>::spin_of(const double* q, int k, double Prescribed::*x) const {
+  return spin_->local(q + nodal_, nodes_, x, k);
 }
 
 template <int D>
 MovingLaw<D> FlowingBeam<D>::law(double t) const {
-  MovingLaw<D> result{model_.section, model_.formulation, model_.transport, model_.gravity};
+  MovingLaw<D> result{model_.section, model_.formulation, model_.transport,
+                      model_.gravity * smooth_ramp(t, model_.gravity_ramp).value};
   if (model_.line_force) result.gravity += model_.line_force(t) / model_.section.rhoA;
   return result;
 }
@@ -161,84 +167,115 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
   const MovingLaw<D> moving = law(t);
   for (int k = 0; k < elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    elements_[i].axis = axis_equations<D>(model_.strain_law, axis_of(q, k, &Prescribed::value),
-                                          axis_of(rate, k, &Prescribed::rate), weights(k), tables_[i], moving);
-    if (model_.spin) {
-      elements_[i].spin = spin_equations(spin_of(q, k, &Prescribed::value), spin_of(rate, k, &Prescribed::rate),
-                                         model_.formulation, *model_.spin);
-    }
+    elements_[i] = axis_equations<D>(model_.strain_law, axis_of(q, k, &Prescribed::value),
+                                     axis_of(rate, k, &Prescribed::rate), weights(k), tables_[i], moving);
   }
+  if (spin_) spin_->evaluate(q + nodal_, rate + nodal_, nodes_);
   return true;
 }
 
 template <int D>
 void FlowingBeam<D>::add_residual(const double* a, double* r) const {
   for (int k = 0; k < elements(); ++k) {
-    const Element& element = elements_[static_cast<std::size_t>(k)];
-    const auto axis = nodal_residual(element.axis, axis_of(a, k, &Prescribed::acceleration));
+    const auto axis = nodal_residual(elements_[static_cast<std::size_t>(k)], axis_of(a, k, &Prescribed::acceleration));
     position<D>(r, k) += axis[0];
     slope<D>(r, k) += axis[1];
     position<D>(r, k + 1) += axis[2];
     slope<D>(r, k + 1) += axis[3];
-    if (model_.spin) {
-      const auto spin = element.spin.residual(spin_of(a, k, &Prescribed::acceleration));
-      r[nodal_ + k] += spin[0];
-      r[nodal_ + k + 1] += spin[1];
-    }
   }
+  if (spin_) spin_->add_residual(a + nodal_, nodes_, r + nodal_);
 }
 
 template <int D>
 void FlowingBeam<D>::add_inflow(const double* q, const double* rate, double* f) const {
   if (model_.formulation == Formulation::virtual_work) return;  // its forces are those of the matter that is there
   for (const int k : {0, elements()}) {
-    const double in = k == 0 ? -nodes_.front().rate : nodes_.back().rate;  // length that comes in a second
-    const double x_rate = k == 0 ? nodes_.front().rate : nodes_.back().rate;
+    const bool start = k == 0;
+    const double x_rate = start ? nodes_.front().rate : nodes_.back().rate;
+    const double in = start ? -x_rate : x_rate;  // length that comes in a second
     position<D>(f, k) += (model_.section.rhoA * in) * (position<D>(rate, k) - x_rate * slope<D>(q, k));
-    if (model_.spin) {
-      const int element = k == 0 ? 0 : k - 1;
-      const SpinMotion<double> spin(spin_of(q, element, &Prescribed::value), spin_of(rate, element, &Prescribed::rate));
-      f[nodal_ + k] += model_.spin->rhoIp * in * (k == 0 ? spin.omega_a : spin.omega_b);
-    }
+    if (!spin_) continue;
+    const int element = start ? 0 : k - 1;
+    const SpinChain::Point end =
+        spin_->at(spin_of(q, element, &Prescribed::value), spin_of(rate, element, &Prescribed::rate), start ? 0 : 1);
+    f[angle(k)] += spin_->section().rhoIp * in * end.spin;
   }
 }
 
 template <int D>
-void FlowingBeam<D>::add_loads(const double* q, double t, double* f) const {
-  for (const NodeLoad<D>& load : model_.loads) {
-    position<D>(f, load.node) += force_of(load, q, t);
-    if (load.torque) f[nodal_ + load.node] += load.torque(t);
-  }
-  if (model_.line_torque) {
-    const double torque = model_.line_torque(t);
-    for (int k = 0; k < elements(); ++k) {
-      const double half = torque * elements_[static_cast<std::size_t>(k)].spin.l / 2;
-      f[nodal_ + k] += half;
-      f[nodal_ + k + 1] += half;
+typename FlowingBeam<D>::Loaded FlowingBeam<D>::loaded(const PointLoad<D>& load, const double* q, const double* rate,
+                                                       double t) const {
+  int k = std::clamp(load.node, 0, elements() - 1);
+  double u = load.node == elements() ? 1 : 0;
+  if (load.x) {
+    const double x = load.x(t), slack = 1e-9 * reference_length_;
+    if (!(x >= nodes_.front().value - slack && x <= nodes_.back().value + slack)) {
+      throw ComputationFailed("a load at the material coordinate " + text(x) + " m is beyond the ends of the beam, " +
+                                  text(nodes_.front().value) + " and " + text(nodes_.back().value) + " m",
+                              t);
     }
+    while (k + 1 < elements() && x > nodes_[static_cast<std::size_t>(k) + 1].value) ++k;
+    const auto i = static_cast<std::size_t>(k);
+    u = (x - nodes_[i].value) / (nodes_[i + 1].value - nodes_[i].value);
+  }
+  const MovingKinematics<double, D> axis(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
+                                         model_.transport, weights(k));
+  Loaded result{k, axis.at(u, rational_shape(axis.weights(), u)), {}};
+  if (!load.torque) return result;
+  auto angle_at = [&](int element, double at) {
+    return spin_->at(spin_of(q, element, &Prescribed::value), spin_of(rate, element, &Prescribed::rate), at);
+  };
+  result.angle = angle_at(k, u);
+  if (!load.x && load.node > 0 && load.node < elements()) {  // the twist may jump there: the mean of both sides
+    const SpinChain::Point before = angle_at(k - 1, 1);
+    result.angle.spin = (result.angle.spin + before.spin) / 2;
+    result.angle.by_a = (result.angle.by_a + before.by_b) / 2;
+  }
+  return result;
+}
+
+template <int D>
+void FlowingBeam<D>::add_loads(const double* q, const double* rate, double t, double* f) const {
+  for (const PointLoad<D>& load : model_.loads) {
+    const Loaded at = loaded(load, q, rate, t);
+    const Vector force = force_of(load, at.axis.r_x, t);
+    position<D>(f, at.element) += at.axis.s[0] * force;
+    slope<D>(f, at.element) += at.axis.s[1] * force;
+    position<D>(f, at.element + 1) += at.axis.s[2] * force;
+    slope<D>(f, at.element + 1) += at.axis.s[3] * force;
+    if (!load.torque) continue;
+    const double torque = load.torque(t);
+    const auto& s = at.angle.s;
+    spin_->scatter(at.element, {s[0] * torque, s[1] * torque, s[2] * torque, s[3] * torque}, f + nodal_);
+  }
+  if (!model_.line_torque) return;
+  const double torque = model_.line_torque(t);
+  for (int k = 0; k < elements(); ++k) {
+    // of the angles' shape functions, the twists' part is odd
+    const double l = nodes_[static_cast<std::size_t>(k) + 1].value - nodes_[static_cast<std::size_t>(k)].value;
+    spin_->scatter(k, {torque * l / 2, torque * l * l / 12, torque * l / 2, -torque * l * l / 12}, f + nodal_);
   }
 }
 
 template <int D>
-Vec<double, D> FlowingBeam<D>::force_of(const NodeLoad<D>& load, const double* q, double t) {
+Vec<double, D> FlowingBeam<D>::force_of(const PointLoad<D>& load, const Vector& tangent, double t) {
   Vector force = Vector::Zero();
   if (load.force) force += load.force(t);
-  if (load.follower) force += load.follower(t) * slope<D>(q, load.node).normalized();
+  if (load.follower) force += load.follower(t) * tangent.normalized();
   return force;
 }
 
 template <int D>
 double FlowingBeam<D>::dissipation() const {
   double power = 0;
-  for (const Element& element : elements_)
-    power += element.axis.dissipation + (model_.spin ? element.spin.dissipation : 0);
-  return power;
+  for (const auto& element : elements_) power += element.dissipation;
+  return power + (spin_ ? spin_->dissipation() : 0);
 }
 
 template <int D>
-bool FlowingBeam<D>::solve_mass(double t, double* f) {
+bool FlowingBeam<D>::solve_mass(double* f) {
   mass_.reset(nodes());
-  for (int k = 0; k < elements(); ++k) mass_.add(k, elements_[static_cast<std::size_t>(k)].axis.mass);
+  for (int k = 0; k < elements(); ++k) mass_.add(k, elements_[static_cast<std::size_t>(k)].mass);
   if (!mass_.factor(free_)) return false;
   auto turn = [&](const Eigen::Matrix<double, D, D>& into) {
     for (int k = 0; k < 2 * nodes(); ++k) {
@@ -249,32 +286,10 @@ bool FlowingBeam<D>::solve_mass(double t, double* f) {
   if (!aligned_) turn(frame_.transpose());
   mass_.solve(f);
   if (!aligned_) turn(frame_);
-  if (model_.spin) solve_spin(t, f + nodal_);
+  if (!spin_) return true;
+  if (!spin_->solve(f + nodal_)) return false;
+  for (const DrivenAngle& driven : model_.angles) f[angle(driven.node)] = prescribed_[angle(driven.node)];
   return true;
-}
-
-template <int D>
-void FlowingBeam<D>::solve_spin(double t, double* f) {
-  // a driven angle is a pivot of infinite inertia with its acceleration for the solution
-  spin_inverse_.assign(spin_inverse_.size(), 1);
-  for (const DrivenAngle& angle : model_.angles) {
-    spin_inverse_[static_cast<std::size_t>(angle.node)] = 0;
-    f[angle.node] = angle.theta(t).acceleration;
-  }
-  double pivot = 0;
-  for (int k = 0; k <= elements(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double before = k > 0 ? elements_[i - 1].spin.mass_coupling() : 0;
-    pivot = (k > 0 ? elements_[i - 1].spin.mass_diagonal() - before * before * spin_inverse_[i - 1] : 0) +
-            (k < elements() ? elements_[i].spin.mass_diagonal() : 0);
-    if (spin_inverse_[i] == 0) continue;
-    spin_inverse_[i] = 1 / pivot;
-    f[k] = (f[k] - (k > 0 ? before * f[k - 1] : 0)) * spin_inverse_[i];
-  }
-  for (int k = elements() - 1; k >= 0; --k) {
-    const auto i = static_cast<std::size_t>(k);
-    f[k] -= spin_inverse_[i] * elements_[i].spin.mass_coupling() * f[k + 1];
-  }
 }
 
 template <int D>
@@ -290,11 +305,12 @@ void FlowingBeam<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double
     return;
   }
   Eigen::Map<Eigen::VectorXd> force(a, n);
-  add_residual(still_.data(), a);
+  for (const DrivenAngle& driven : model_.angles) prescribed_[angle(driven.node)] = driven.theta(t).acceleration;
+  add_residual(prescribed_.data(), a);
   force = -force;
-  add_loads(q, t, a);
+  add_loads(q, rate, t, a);
   add_inflow(q, rate, a);
-  if (!solve_mass(t, a)) {
+  if (!solve_mass(a)) {
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
@@ -321,19 +337,11 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
   const double line_torque = model_.line_torque ? model_.line_torque(t) : 0;
   for (int k = 0; k < elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const auto& eq = elements_[i].axis;
-    const MovingCoordinates<double, D> at = axis_of(a, k, &Prescribed::acceleration);
-    const std::array<Vector, 4> nodal{at.e.r_a, at.e.s_a, at.e.r_b, at.e.s_b};
-    double force_a = eq.mass_aa * at.x_a + eq.mass_ab * at.x_b - eq.force_a;
-    double force_b = eq.mass_ab * at.x_a + eq.mass_bb * at.x_b - eq.force_b;
-    for (std::size_t j = 0; j < 4; ++j) {
-      force_a += eq.mass_a[j].dot(nodal[j]);
-      force_b += eq.mass_b[j].dot(nodal[j]);
-    }
-    if (model_.spin) {
-      const auto spin = elements_[i].spin.residual(spin_of(a, k, &Prescribed::acceleration));
-      force_a += spin[2];
-      force_b += spin[3];
+    auto [force_a, force_b] = guiding_forces(elements_[i], axis_of(a, k, &Prescribed::acceleration));
+    if (spin_) {
+      const auto spin = guiding_forces(spin_->element(k), spin_of(a, k, &Prescribed::acceleration));
+      force_a += spin[0];
+      force_b += spin[1];
     }
     if (model_.line_force) {
       // moving_equations took the line force for a potential, of which the moving ends carry a part; it is none
@@ -350,28 +358,33 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
       }
     }
     if (model_.line_torque) {
-      const SpinMotion<double> spin(spin_of(q, k, &Prescribed::value), spin_of(rate, k, &Prescribed::rate));
-      const double half = line_torque * spin.l / 2;
-      loads += half * (spin.omega_a + spin.omega_b);
-      force_a += half * spin.tau;
-      force_b += half * spin.tau;
-      power -= half * spin.tau * (nodes_[i].rate + nodes_[i + 1].rate);  // the residual holds it already
+      const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value);
+      const SpinChain::Coordinates rates = spin_of(rate, k, &Prescribed::rate);
+      for (const auto& [u, w] : spin_->rule()) {
+        const SpinChain::Point point = spin_->at(angles, rates, u);
+        const double torque = w * line_torque * (angles.x_b - angles.x_a);
+        loads += torque * point.spin;
+        force_a -= torque * point.by_a;
+        force_b -= torque * point.by_b;
+        power += torque * (point.by_a * rates.x_a + point.by_b * rates.x_b);
+      }
     }
     drive(k, force_a);
     drive(k + 1, force_b);
   }
-  for (const NodeLoad<D>& load : model_.loads) {
-    // on the material point: what is along the beam goes into the motion of the node, not into the matter
-    const double x_rate = nodes_[static_cast<std::size_t>(load.node)].rate;
-    double along = force_of(load, q, t).dot(slope<D>(q, load.node)) * x_rate;
-    double work = force_of(load, q, t).dot(position<D>(rate, load.node));
-    if (load.torque) {
-      const double torque = load.torque(t);
-      along += torque * twist_at(q, load.node) * x_rate;
-      work += torque * rate[nodal_ + load.node];
+  for (const PointLoad<D>& load : model_.loads) {
+    // on the material point: what is along the beam goes into the motion of the nodes, not into the matter
+    const Loaded at = loaded(load, q, rate, t);
+    const Vector force = force_of(load, at.axis.r_x, t);
+    const double torque = load.torque ? load.torque(t) : 0;
+    loads += force.dot(at.axis.v) + torque * at.angle.spin;
+    const std::array<double, 2> along{force.dot(at.axis.y_a) + torque * at.angle.by_a,
+                                      force.dot(at.axis.y_b) + torque * at.angle.by_b};
+    for (int end = 0; end < 2; ++end) {
+      const int k = at.element + end;
+      if (k > 0 && k < elements())
+        mesh -= along[static_cast<std::size_t>(end)] * nodes_[static_cast<std::size_t>(k)].rate;
     }
-    loads += work - along;
-    if (load.node > 0 && load.node < elements()) mesh += along;
   }
 
   entry[mass_entry] = model_.section.rhoA * (nodes_.back().rate - nodes_.front().rate);
@@ -381,18 +394,10 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
   Eigen::Map<Vector> impulse(entry + impulse_entry);
   impulse = law(t).gravity * (model_.section.rhoA * (nodes_.back().value - nodes_.front().value));
   for (int k = 0; k < nodes(); ++k) impulse += position<D>(residual_.data(), k);
-  entry[impulse_entry + D] = model_.spin ? residual_.tail(nodes()).sum() : 0;
+  double turning = 0;
+  for (int k = 0; spin_ && k < nodes(); ++k) turning += residual_[angle(k)];
+  entry[impulse_entry + D] = turning;
   entry[impulse_entry + D + 1] = dissipation();
-}
-
-template <int D>
-double FlowingBeam<D>::twist_at(const double* q, int node) const {
-  auto twist = [&](int k) {
-    const SpinCoordinates<double> at = spin_of(q, k, &Prescribed::value);
-    return (at.theta_b - at.theta_a) / (at.x_b - at.x_a);
-  };
-  if (node == 0) return twist(0);
-  return node == elements() ? twist(node - 1) : (twist(node - 1) + twist(node)) / 2;
 }
 
 template <int D>
@@ -434,7 +439,7 @@ Guards FlowingBeam<D>::guards(const Eigen::VectorXd& /*y*/, double t) const {
   if (model_.transport == WeightTransport::transported) {
     for (int k = 0; k < elements(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Weights<double> w = weights(k).on(nodes[i].value, nodes[i + 1].value);
+      const Weights<double> w = weights_at(i, nodes);
       const double ratio = *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
       value[1] = std::max(value[1], smallest_weight - ratio);
     }
@@ -463,12 +468,24 @@ std::vector<Prescribed> FlowingBeam<D>::nodes_at(double t) const {
 
 template <int D>
 void FlowingBeam<D>::check_motion(double until) const {
-  const auto tangle = model_.motion.tangle(0, until, shortest * reference_length_);
-  if (!tangle) return;
-  throw InvalidInput("/beam/nodes",
-                     "a motion by which element " + std::to_string(tangle->element) +
-                         " has no length left at t = " + text(tangle->t) + " s",
-                     "material coordinates increase from node to node until the end, t = " + text(until) + " s");
+  if (const auto tangle = model_.motion.tangle(0, until, shortest * reference_length_)) {
+    throw InvalidInput("/flow/nodes",
+                       "a motion by which element " + std::to_string(tangle->element) +
+                           " has no length left at t = " + text(tangle->t) + " s",
+                       "material coordinates increase from node to node until the end, t = " + text(until) + " s");
+  }
+  constexpr int instants = 2000;
+  std::vector<Prescribed> nodes;
+  for (const PointLoad<D>& load : model_.loads) {
+    for (int i = 0; load.x && i <= instants; ++i) {
+      const double t = until * i / instants, x = load.x(t), slack = 1e-9 * reference_length_;
+      model_.motion.at(t, nodes);
+      if (x >= nodes.front().value - slack && x <= nodes.back().value + slack) continue;
+      throw InvalidInput(
+          "/loads", "one at the material coordinate " + text(x) + " m at t = " + text(t) + " s",
+          "a point of the beam, " + text(nodes.front().value) + " to " + text(nodes.back().value) + " m at that time");
+    }
+  }
 }
 
 template <int D>
@@ -483,7 +500,7 @@ Eigen::VectorXd FlowingBeam<D>::straight_state(const Vector& start, const Vector
     slope<D>(y.data(), k) = stretch * along;
     position<D>(rate, k) = along * (velocity + stretch * x.rate);
   }
-  if (model_.spin) y.segment(coordinates() + nodal_, this->nodes()).setConstant(spin);
+  for (int k = 0; spin_ && k < this->nodes(); ++k) rate[angle(k)] = spin;
   return y;
 }
 
@@ -513,15 +530,23 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
       seen.energy.gravity -= mass * model_.gravity.dot(at.r);
       seen.mass += mass;
       seen.momentum += mass * at.v;
-      seen.beam_length += length * at.r_x.norm();
+      const double stretch = at.r_x.norm();
+      seen.beam_length += length * stretch;
+      seen.beam_length_rate += length * at.r_x.dot(at.v_x) / stretch;
     }
-    if (model_.spin) {
-      const SpinMotion<double> spin(spin_of(q, k, &Prescribed::value), spin_of(rate, k, &Prescribed::rate));
-      seen.energy.kinetic += spin.kinetic_energy(*model_.spin);
-      seen.energy.torsion += spin.torsion_energy(*model_.spin);
-      seen.spin_momentum += spin.momentum(*model_.spin);
+    if (!spin_) continue;
+    const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value),
+                                 rates = spin_of(rate, k, &Prescribed::rate);
+    for (const auto& [u, w] : spin_->rule()) {
+      const SpinChain::Point at = spin_->at(angles, rates, u);
+      const double length = w * (angles.x_b - angles.x_a);
+      seen.energy.kinetic += 0.5 * length * model_.spin->rhoIp * at.spin * at.spin;
+      seen.energy.torsion += 0.5 * length * model_.spin->GIp * at.twist * at.twist;
+      seen.spin_momentum += length * model_.spin->rhoIp * at.spin;
     }
   }
+  seen.beam_length_rate += nodes_.back().rate * slope<D>(q, elements()).norm();
+  seen.beam_length_rate -= nodes_.front().rate * slope<D>(q, 0).norm();
   if (y.size() > 2 * coordinates()) seen.energy.dissipated = y[y.size() - 1];
   return seen;
 }
@@ -539,9 +564,20 @@ Vec<double, D> FlowingBeam<D>::position_at(const Eigen::VectorXd& y, double t, d
   while (k + 1 < elements() && x > nodes_[static_cast<std::size_t>(k) + 1].value) ++k;
   const MovingCoordinates<double, D> at = axis_of(y.data(), k, &Prescribed::value);
   const double l = at.x_b - at.x_a;
-  const Weights<double> w =
-      model_.transport == WeightTransport::transported ? weights(k).on(at.x_a, at.x_b) : weights(k).w;
+  const Weights<double> w = weights_at(static_cast<std::size_t>(k), nodes_);
   return RationalCubic<double, D>::from_nodal(at.e, l, w).evaluate((x - at.x_a) / l)[0];
+}
+
+template <int D>
+Vec<double, D> FlowingBeam<D>::position_of(const PointLoad<D>& load, const Eigen::VectorXd& y, double t) const {
+  return load.x ? position_at(y, t, load.x(t)) : Vector(position<D>(y.data(), load.node));
+}
+
+template <int D>
+Weights<double> FlowingBeam<D>::weights_at(std::size_t element, const std::vector<Prescribed>& nodes) const {
+  const WeightFunction& of = model_.weights[element];
+  return model_.transport == WeightTransport::transported ? of.on(nodes[element].value, nodes[element + 1].value)
+                                                          : of.w;
 }
 
 template class FlowingBeam<2>;

@@ -10,8 +10,8 @@
 #include "core/beam/support.hpp"
 #include "core/dynamics/integrate.hpp"
 #include "core/element/driven_tangent.hpp"
-#include "core/element/spin_element.hpp"
 #include "core/system/energy.hpp"
+#include "core/system/spin_chain.hpp"
 
 namespace vlbeam {
 
@@ -28,13 +28,14 @@ struct DrivenAngle {
   TimeFunction theta;
 };
 
-/// Concentrated loads on the material point at a node, each a function of time; those that are empty are absent.
+/// Concentrated loads on one material point, each a function of time; those that are empty are absent.
 template <int D>
-struct NodeLoad {
-  int node;
-  std::function<Vec<double, D>(double t)> force;  ///< [N], of a direction of its own
-  std::function<double(double t)> follower;       ///< [N], along the tangent of the axis
-  std::function<double(double t)> torque;         ///< [N m], about the axis; needs spin
+struct PointLoad {
+  int node = -1;                                       ///< at which the point is; if negative, it is at
+  std::function<double(double t)> x = {};              ///< this material coordinate [m], which may travel over nodes
+  std::function<Vec<double, D>(double t)> force = {};  ///< [N], of a direction of its own
+  std::function<double(double t)> follower = {};       ///< [N], along the tangent of the axis
+  std::function<double(double t)> torque = {};         ///< [N m], about the axis; needs spin
 };
 
 /// What a flowing beam is made of and which choices its equations follow.
@@ -42,16 +43,18 @@ template <int D>
 struct FlowingModel {
   BeamSection section;
   std::optional<SpinSection> spin;  ///< without it there is no angle at all
+  AngleField angle_field = AngleField::linear;
   StrainLaw strain_law = StrainLaw::green;
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
+  double gravity_ramp = 0;                          ///< time over which it grows smoothly [s]
   MeshMotion motion;
   std::vector<WeightFunction> weights = {};  ///< one an element; none for unit weights
   std::vector<NodeSupport<D>> supports = {};
   std::vector<DrivenAngle> angles = {};
-  std::vector<NodeLoad<D>> loads = {};
+  std::vector<PointLoad<D>> loads = {};
   std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
   std::function<double(double t)> line_torque = {};         ///< on the whole beam [N m/m]; needs spin
   bool ledger = false;  ///< the state holds what crossed the boundary; for methods of first-order equations
@@ -78,6 +81,7 @@ struct FlowObservation {
   Energy energy;
   double mass = 0;                                   ///< between the end nodes [kg]
   double beam_length = 0;                            ///< of the deformed axis [m]
+  double beam_length_rate = 0;                       ///< [m/s], by stretching and by inflow
   double spin_momentum = 0;                          ///< about the axis [N m s]
   Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [N s]
 };
@@ -87,8 +91,9 @@ class ImplicitFlow;
 
 /// A beam whose nodes move along it as prescribed: a load that travels, a stem that is fed through its guides, a span
 /// that is only what lies between two supports at any time. Every element is a variable-length one.
-/// State y = (q, q', ledger): q holds the nodes, position and slope each, then with spin the angle of each node; the
-/// ledger is there where the model asks for it, and else the dissipated energy where there is damping.
+/// State y = (q, q', ledger): q holds the nodes, position and slope each, then with spin the angle of each node (and
+/// its twist, if it is cubic); the ledger is there where the model asks for it, and else the dissipated energy where
+/// there is damping.
 ///
 /// Matter comes in through the ends with the velocity it has there: where an end is free to move the momentum flux
 /// belongs to the forces on it.
@@ -122,12 +127,12 @@ class FlowingBeam final : public EventedOde {
   const FlowingModel<D>& model() const { return model_; }
   int elements() const { return model_.motion.last(); }
   int nodes() const { return elements() + 1; }
-  Eigen::Index coordinates() const { return nodal_ + (model_.spin ? nodes() : 0); }
-  /// Where the angles stand among the coordinates.
-  Eigen::Index first_angle() const { return nodal_; }
+  Eigen::Index coordinates() const { return nodal_ + (spin_ ? spin_->coordinates() : 0); }
+  /// Where the angle of a node stands among the coordinates.
+  Eigen::Index angle(int node) const { return nodal_ + Eigen::Index{spin_->per_node()} * node; }
 
-  /// Throws InvalidInput, with the time, where the prescribed nodes tangle in [0, until]. A run ends where they do at
-  /// the latest, with ComputationFailed.
+  /// Throws InvalidInput, with the time, where the prescribed nodes tangle in [0, until], or a load is beyond the ends.
+  /// A run ends where they do at the latest, with ComputationFailed.
   void check_motion(double until) const;
   /// The beam along a straight line at time t, from `start` in the unit direction `along`, stretched by `stretch`; its
   /// material moves at `velocity` along the line, and spins at `spin` [rad/s] from the angle zero.
@@ -141,40 +146,43 @@ class FlowingBeam final : public EventedOde {
   std::vector<Prescribed> nodes_at(double t) const;
   /// Position of the material point x at time t, which must lie between the end nodes.
   Vector position_at(const Eigen::VectorXd& y, double t, double x) const;
+  /// Where a concentrated load is.
+  Vector position_of(const PointLoad<D>& load, const Eigen::VectorXd& y, double t) const;
+  /// Weights of an element between `nodes`.
+  Weights<double> weights_at(std::size_t element, const std::vector<Prescribed>& nodes) const;
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
 
  private:
   friend class ImplicitFlow<D>;
 
-  struct Element {
-    MovingEquations<double, D> axis;
-    SpinEquations<double> spin;
+  /// Where a load is: its element, the motion of the axis there, of the angle if there is one.
+  struct Loaded {
+    int element;
+    PointMotion<double, D> axis;
+    SpinChain::Point angle;
   };
 
   void check_model() const;
   void adopt_supports();
   bool damped() const { return model_.section.damped() || (model_.spin && model_.spin->damping != 0); }
   MovingCoordinates<double, D> axis_of(const double* q, int k, double Prescribed::*x) const;
-  SpinCoordinates<double> spin_of(const double* q, int k, double Prescribed::*x) const;
+  SpinChain::Coordinates spin_of(const double* q, int k, double Prescribed::*x) const;
   MovingLaw<D> law(double t) const;
   const WeightFunction& weights(int k) const { return model_.weights[static_cast<std::size_t>(k)]; }
   /// Fills `nodes_` and `elements_`; false where the elements tangle.
   bool evaluate(const double* q, const double* rate, double t);
   /// Adds M a - Q of the elements, a the accelerations of the coordinates.
   void add_residual(const double* a, double* r) const;
-  void add_loads(const double* q, double t, double* f) const;
-  static Vector force_of(const NodeLoad<D>& load, const double* q, double t);
+  void add_loads(const double* q, const double* rate, double t, double* f) const;
+  Loaded loaded(const PointLoad<D>& load, const double* q, const double* rate, double t) const;
+  static Vector force_of(const PointLoad<D>& load, const Vector& tangent, double t);
   /// Adds the momentum that comes in with the matter at the end nodes.
   void add_inflow(const double* q, const double* rate, double* f) const;
   double dissipation() const;
   /// Solves M a = f in place; false where the mass matrix is singular.
-  bool solve_mass(double t, double* f);
-  void solve_spin(double t, double* f);
+  bool solve_mass(double* f);
   /// Rates of the ledger's entries.
   void book(const double* q, const double* rate, const double* a, double t, double* entry);
-  /// [rad/m], the mean of both sides.
-  double twist_at(const double* q, int node) const;
-
   FlowingModel<D> model_;
   Eigen::Index nodal_;
   double reference_length_;                      ///< [m], of an element at t = 0
@@ -183,11 +191,11 @@ class FlowingBeam final : public EventedOde {
   bool aligned_ = true;
   std::vector<ShapeTabulation> tables_;
   mutable std::vector<Prescribed> nodes_;
-  std::vector<Element> elements_;
+  std::vector<MovingEquations<double, D>> elements_;
+  std::optional<SpinChain> spin_;
   ChainMass<D> mass_;
-  std::vector<double> spin_inverse_;  ///< of the pivots of the angles' mass matrix
-  Eigen::VectorXd still_;             // accelerations of zero
-  Eigen::VectorXd residual_;          // of the ledger
+  Eigen::VectorXd prescribed_;  // accelerations: zero but for driven angles
+  Eigen::VectorXd residual_;    // of the ledger
   std::size_t rhs_evaluations_ = 0;
 };
 

@@ -21,20 +21,19 @@ Eigen::Matrix<double, 4 * D, 4 * D> axis_tangent(StrainLaw strain_law, const Mov
                                         : measured.template operator()<StrainLaw::engineering>();
 }
 
-/// The spin of one element is linear in its angles: the residual of unit angles, less that of none, is the tangent.
-Eigen::Matrix2d spin_tangent(const SpinCoordinates<double>& q, const SpinCoordinates<double>& rate,
-                             const SpinCoordinates<double>& a, const TangentWeights& by, Formulation formulation,
-                             const SpinSection& section) {
-  auto residual = [&](double angle_a, double angle_b) {
-    const SpinCoordinates<double> at{by.q * angle_a, by.q * angle_b, q.x_a, q.x_b};
-    const SpinCoordinates<double> moving{by.v * angle_a, by.v * angle_b, rate.x_a, rate.x_b};
-    const SpinCoordinates<double> speeding{by.a * angle_a, by.a * angle_b, a.x_a, a.x_b};
-    const auto r = spin_equations(at, moving, formulation, section).residual(speeding);
-    return Eigen::Vector2d(r[0], r[1]);
+/// The angles of one element enter linearly: the residual of unit ones is the tangent.
+Eigen::Matrix4d angle_tangent(const SpinChain& chain, const SpinChain::Coordinates& q,
+                              const SpinChain::Coordinates& rate, const SpinChain::Coordinates& a,
+                              const TangentWeights& by) {
+  auto unit = [](int i, double size, const SpinChain::Coordinates& like) -> SpinChain::Coordinates {
+    auto entry = [&](int j) -> Vec<double, 1> { return Vec<double, 1>::Constant(i == j ? size : 0); };
+    return {{entry(0), entry(1), entry(2), entry(3)}, like.x_a, like.x_b};
   };
-  Eigen::Matrix2d tangent;
-  tangent.col(0) = residual(1, 0);
-  tangent.col(1) = residual(0, 1);
+  Eigen::Matrix4d tangent;
+  for (int j = 0; j < 4; ++j) {
+    const auto r = nodal_residual(chain.equations(unit(j, by.q, q), unit(j, by.v, rate)), unit(j, by.a, a));
+    for (int i = 0; i < 4; ++i) tangent(i, j) = r[static_cast<std::size_t>(i)][0];
+  }
   return tangent;
 }
 
@@ -59,16 +58,16 @@ double ImplicitFlow<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   r.setZero();
   beam_.add_residual(a.data(), r.data());
   force_.setZero(coordinates());
-  beam_.add_loads(q.data(), t, force_.data());
+  beam_.add_loads(q.data(), v.data(), t, force_.data());
   beam_.add_inflow(q.data(), v.data(), force_.data());
   r -= force_;
   for (const auto& [node, support] : beam_.model_.supports) {
     auto part = r.segment<B>(Eigen::Index{B} * node);
     part = (kept(node) * part).eval();
   }
-  for (const DrivenAngle& angle : beam_.model_.angles) {
-    const Eigen::Index k = beam_.first_angle() + angle.node;
-    r[k] = a[k] - angle.theta(t).acceleration;
+  for (const DrivenAngle& driven : beam_.model_.angles) {
+    const Eigen::Index k = beam_.angle(driven.node);
+    r[k] = a[k] - driven.theta(t).acceleration;
   }
   return beam_.dissipation();
 }
@@ -88,7 +87,7 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   beam_.model_.motion.at(t, beam_.nodes_);
   axis_.reset(beam_.nodes());
   const MovingLaw<D> law = beam_.law(t);
-  const auto& spin = beam_.model_.spin;
+  const auto& spin = beam_.spin_;
   if (spin) angles_.reset(beam_.nodes());
   for (int k = 0; k < beam_.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -101,26 +100,36 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     axis_.lower[i + 1] += axis.template bottomLeftCorner<B, B>();
     axis_.diagonal[i + 1] += axis.template bottomRightCorner<B, B>();
     if (!spin) continue;
-    const auto angles =
-        spin_tangent(beam_.spin_of(q.data(), k, &Prescribed::value), beam_.spin_of(v.data(), k, &Prescribed::rate),
-                     beam_.spin_of(a.data(), k, &Prescribed::acceleration), by, beam_.model_.formulation, *spin);
-    angles_.diagonal[i](0) += angles(0, 0);
-    angles_.upper[i](0) += angles(0, 1);
-    angles_.lower[i + 1](0) += angles(1, 0);
-    angles_.diagonal[i + 1](0) += angles(1, 1);
+    const Eigen::Matrix4d angles = angle_tangent(*spin, beam_.spin_of(q.data(), k, &Prescribed::value),
+                                                 beam_.spin_of(v.data(), k, &Prescribed::rate),
+                                                 beam_.spin_of(a.data(), k, &Prescribed::acceleration), by);
+    angles_.diagonal[i] += angles.topLeftCorner<2, 2>();
+    angles_.upper[i] += angles.topRightCorner<2, 2>();
+    angles_.lower[i + 1] += angles.bottomLeftCorner<2, 2>();
+    angles_.diagonal[i + 1] += angles.bottomRightCorner<2, 2>();
   }
-  add_loads(q.data(), t, by);
+  add_loads(q.data(), v.data(), t, by);
   if (beam_.model_.formulation == Formulation::variational) add_inflow(by);
 }
 
 template <int D>
-void ImplicitFlow<D>::add_loads(const double* q, double t, const TangentWeights& by) {
-  for (const NodeLoad<D>& load : beam_.model_.loads) {
+void ImplicitFlow<D>::add_loads(const double* q, const double* rate, double t, const TangentWeights& by) {
+  for (const PointLoad<D>& load : beam_.model_.loads) {
     if (!load.follower) continue;
-    const Vec<double, D> tangent = slope<D>(q, load.node).normalized();
-    const double over = by.q * load.follower(t) / slope<D>(q, load.node).norm();
-    axis_.diagonal[static_cast<std::size_t>(load.node)].template topRightCorner<D, D>() -=
-        over * (Eigen::Matrix<double, D, D>::Identity() - tangent * tangent.transpose());
+    const auto at = beam_.loaded(load, q, rate, t);
+    const Vec<double, D> tangent = at.axis.r_x.normalized();
+    const Eigen::Matrix<double, D, D> turning =
+        by.q * load.follower(t) / at.axis.r_x.norm() *
+        (Eigen::Matrix<double, D, D>::Identity() - tangent * tangent.transpose());
+    const auto k = static_cast<std::size_t>(at.element);
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        Block& block =
+            i < 2 ? (j < 2 ? axis_.diagonal[k] : axis_.upper[k]) : (j < 2 ? axis_.lower[k + 1] : axis_.diagonal[k + 1]);
+        block.template block<D, D>(D * (i % 2), D * (j % 2)) -=
+            at.axis.s[static_cast<std::size_t>(i)] * at.axis.s_x[static_cast<std::size_t>(j)] * turning;
+      }
+    }
   }
 }
 
@@ -132,13 +141,18 @@ void ImplicitFlow<D>::add_inflow(const TangentWeights& by) {
     Block& block = axis_.diagonal[i];
     block.template topLeftCorner<D, D>().diagonal().array() -= beam_.model_.section.rhoA * in * by.v;
     block.template topRightCorner<D, D>().diagonal().array() += beam_.model_.section.rhoA * in * x_rate * by.q;
-    if (!beam_.model_.spin) continue;
-    const double inertia = beam_.model_.spin->rhoIp * in;
+    if (!beam_.spin_) continue;
+    // the spin of the matter at the end is the rate of its angle less x' times the twist there
+    const double inertia = beam_.spin_->section().rhoIp * in, twist = by.q * inertia * x_rate;
+    angles_.diagonal[i](0, 0) -= inertia * by.v;
+    if (beam_.spin_->per_node() == 2) {
+      angles_.diagonal[i](0, 1) += twist;
+      continue;
+    }
     const std::size_t other = k == 0 ? 1 : i - 1;
-    // by the twist (theta_i - theta_other)/distance, the distance negative at the start
-    const double twist = by.q * inertia * x_rate / (beam_.nodes_[i].value - beam_.nodes_[other].value);
-    angles_.diagonal[i](0) += twist - inertia * by.v;
-    (k == 0 ? angles_.upper[0] : angles_.lower[i])(0) -= twist;
+    const double share = twist / (beam_.nodes_[i].value - beam_.nodes_[other].value);  // negative at the start
+    angles_.diagonal[i](0, 0) += share;
+    (k == 0 ? angles_.upper[0] : angles_.lower[i])(0, 0) -= share;
   }
 }
 
@@ -167,11 +181,14 @@ bool ImplicitFlow<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   assemble(q, v, a, t, {1, by_v, by_a});
   constrain();
   if (!axis_.factor()) return false;
-  if (!beam_.model_.spin) return true;
-  for (const DrivenAngle& angle : beam_.model_.angles) {
-    const auto k = static_cast<std::size_t>(angle.node);
-    angles_.diagonal[k](0) = by_a == 0 ? 1 : by_a;
-    angles_.upper[k](0) = angles_.lower[k](0) = 0;
+  if (!beam_.spin_) return true;
+  for (const DrivenAngle& driven : beam_.model_.angles) {
+    const auto k = static_cast<std::size_t>(driven.node);
+    for (auto* block : {&angles_.diagonal[k], &angles_.upper[k], &angles_.lower[k]}) block->row(0).setZero();
+    angles_.diagonal[k](0, 0) = by_a == 0 ? 1 : by_a;
+  }
+  if (beam_.spin_->per_node() == 1) {
+    for (auto& block : angles_.diagonal) block(1, 1) = 1;  // no twist is a coordinate
   }
   return angles_.factor();
 }
@@ -179,7 +196,17 @@ bool ImplicitFlow<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
 template <int D>
 void ImplicitFlow<D>::solve(Eigen::VectorXd& r) const {
   axis_.solve(r.data());
-  if (beam_.model_.spin) angles_.solve(r.data() + beam_.first_angle());
+  if (!beam_.spin_) return;
+  if (beam_.spin_->per_node() == 2) {
+    angles_.solve(r.data() + beam_.angle(0));
+    return;
+  }
+  Eigen::Map<Eigen::VectorXd> angles(r.data() + beam_.angle(0), beam_.nodes());
+  Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<2>> padded(work_.data(), beam_.nodes());
+  work_.setZero();
+  padded = angles;
+  angles_.solve(work_.data());
+  angles = padded;
 }
 
 template <int D>
@@ -194,7 +221,8 @@ typename ImplicitFlow<D>::Tangent ImplicitFlow<D>::tangent(const Eigen::VectorXd
     return basis.transpose() * full * basis;
   };
   Tangent result;
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(beam_.first_angle(), beam_.first_angle());
+  const Eigen::Index size = Eigen::Index{B} * beam_.nodes();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(size, size);
   Eigen::Index columns = 0;
   for (int k = 0; k < beam_.nodes(); ++k) {
     for (std::size_t part = 0; part < 2; ++part) {
@@ -206,15 +234,16 @@ typename ImplicitFlow<D>::Tangent ImplicitFlow<D>::tangent(const Eigen::VectorXd
     }
   }
   result.axis = reduced(axis_, B, basis.leftCols(columns));
-  if (!beam_.model_.spin) return result;
+  if (!beam_.spin_) return result;
   std::vector<bool> driven(static_cast<std::size_t>(beam_.nodes()), false);
   for (const DrivenAngle& angle : beam_.model_.angles) driven[static_cast<std::size_t>(angle.node)] = true;
-  basis.setZero(beam_.nodes(), beam_.nodes());
+  basis.setZero(2 * beam_.nodes(), 2 * beam_.nodes());
   columns = 0;
   for (int k = 0; k < beam_.nodes(); ++k) {
-    if (!driven[static_cast<std::size_t>(k)]) basis(k, columns++) = 1;
+    if (!driven[static_cast<std::size_t>(k)]) basis(2 * k, columns++) = 1;
+    if (beam_.spin_->per_node() == 2) basis(2 * k + 1, columns++) = 1;
   }
-  result.angles = reduced(angles_, 1, basis.leftCols(columns));
+  result.angles = reduced(angles_, 2, basis.leftCols(columns));
   return result;
 }
 

@@ -12,7 +12,7 @@ template <int D>
 class ImplicitFlow final : public SecondOrderSystem {
  public:
   /// `beam` must outlive this object.
-  explicit ImplicitFlow(FlowingBeam<D>& beam) : beam_(beam) {}
+  explicit ImplicitFlow(FlowingBeam<D>& beam) : beam_(beam), work_(2 * beam.nodes()) {}
 
   Eigen::Index coordinates() const override { return beam_.coordinates(); }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
@@ -42,7 +42,7 @@ class ImplicitFlow final : public SecondOrderSystem {
   /// Both matrices before supports and driven angles.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                 const TangentWeights& by);
-  void add_loads(const double* q, double t, const TangentWeights& by);
+  void add_loads(const double* q, const double* rate, double t, const TangentWeights& by);
   /// Derivatives of the momentum that comes in with the matter at the ends.
   void add_inflow(const TangentWeights& by);
   /// Projector onto what the support at a node leaves free.
@@ -51,8 +51,9 @@ class ImplicitFlow final : public SecondOrderSystem {
 
   FlowingBeam<D>& beam_;
   BorderedBlockTridiagonal<B> axis_;
-  BorderedBlockTridiagonal<1> angles_;
+  BorderedBlockTridiagonal<2> angles_;  // angle and twist at each node
   Eigen::VectorXd force_, y_, dydt_;
+  mutable Eigen::VectorXd work_;  // of solve()
 };
 
 extern template class ImplicitFlow<2>;

@@ -63,7 +63,7 @@ FlowingModel<D> model_of(const Stem& stem, int elements, bool ledger) {
     const double s = std::min(1.0, t / stem.ramp);
     return -stem.torque * s * s * (3 - 2 * s);
   };
-  model.loads = {{.node = elements, .force = turning, .follower = {}, .torque = soil}};
+  model.loads = {{.node = elements, .force = turning, .torque = soil}};
   model.ledger = ledger;
   return model;
 }
@@ -87,7 +87,7 @@ std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples)
   for (int i = 0; i <= samples; ++i) times.push_back(stem.duration * i / samples);
   beam.on_sample = [&](const Eigen::VectorXd& y, double t) {
     const Vector bit = position<D>(y.data(), elements);
-    const double angle = y[beam.first_angle() + elements] - y[beam.first_angle()];
+    const double angle = y[beam.angle(elements)] - y[beam.angle(0)];
     FlowingBeam<D> frozen(model_of(stem, elements, false));
     const auto modes = frequencies(eigenvalues(linear_flows(frozen, at_rest(frozen, stem, t), t).axis));
     history.push_back({stem.overhang + stem.feed * t, std::hypot(bit[0], bit[1]), -angle, modes.front()});

@@ -1,5 +1,6 @@
 #include "studies/harness/run_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/scene/build.hpp"
+#include "core/scene/build_flow.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -27,17 +29,44 @@ Json column(const std::vector<T>& rows, const std::function<Json(const T&)>& cel
   return array;
 }
 
-/// The energies by name. No part of the core carries torsion yet.
+/// The energies by name.
 const std::vector<std::pair<const char*, double (*)(const Energy&)>>& energies() {
   static const std::vector<std::pair<const char*, double (*)(const Energy&)>> table = {
       {"kinetic", [](const Energy& e) { return e.kinetic; }},
       {"axial", [](const Energy& e) { return e.axial; }},
       {"bending", [](const Energy& e) { return e.bending; }},
-      {"torsion", [](const Energy&) { return 0.0; }},
+      {"torsion", [](const Energy& e) { return e.torsion; }},
       {"gravity", [](const Energy& e) { return e.gravity; }},
       {"dissipated", [](const Energy& e) { return e.dissipated; }},
       {"total", [](const Energy& e) { return e.total(); }}};
   return table;
+}
+
+/// What a beam that spins, flows or bears loads adds to its samples.
+Json flow_samples(const Scene& scene, const std::vector<Sample>& rows) {
+  const int d = scene.dimension;
+  const auto of = [&rows](const std::function<Json(const FlowSample&)>& cell) {
+    return column<Sample>(rows, [&cell](const Sample& s) { return cell(*s.flow); });
+  };
+  Json json = {{"mass", of([](const FlowSample& s) -> Json { return s.mass; })}};
+  if (scene.spin) {
+    json["end_angles"] = of([](const FlowSample& s) -> Json { return *s.end_angles; });
+    json["spin_momentum"] = of([](const FlowSample& s) -> Json { return s.spin_momentum; });
+  }
+  if (!scene.loads.empty()) {
+    json["loads"] = of(
+        [d](const FlowSample& s) { return column<Point>(s.loads, [d](const Point& p) { return components(p, d); }); });
+  }
+  if (keeps_ledger(scene)) {
+    const auto entry = [&of](double FlowSample::Ledger::*member) {
+      return of([member](const FlowSample& s) -> Json { return (*s.ledger).*member; });
+    };
+    json["ledger"] = {{"mass", entry(&FlowSample::Ledger::mass)},
+                      {"ends", entry(&FlowSample::Ledger::ends)},
+                      {"loads", entry(&FlowSample::Ledger::loads)},
+                      {"mesh", entry(&FlowSample::Ledger::mesh)}};
+  }
+  return json;
 }
 
 Json samples(const Scene& scene, const std::vector<Sample>& rows) {
@@ -51,21 +80,24 @@ Json samples(const Scene& scene, const std::vector<Sample>& rows) {
   Json reactions = Json::object();
   const std::array<std::pair<const char*, SupportType>, 2> ends{{{"start", scene.start.type}, {"end", scene.end.type}}};
   for (std::size_t i = 0; i < 2; ++i) {
-    if (ends[i].second == SupportType::free) continue;
+    if (flows(scene) || ends[i].second == SupportType::free) continue;
     reactions[ends[i].first] = {
         {"position", of([d, i](const Sample& s) { return components(s.reactions[i].position, d); })},
         {"slope", of([d, i](const Sample& s) { return components(s.reactions[i].slope, d); })}};
   }
-  return {{"t", of([](const Sample& s) -> Json { return s.t; })},
-          {"joint_position", of([](const Sample& s) { return s.joint_position ? Json(*s.joint_position) : Json(); })},
-          {"mass_position",
-           of([d](const Sample& s) { return s.mass_position ? components(*s.mass_position, d) : Json(); })},
-          {"end", of([d](const Sample& s) { return components(s.end, d); })},
-          {"beam_length", of([](const Sample& s) -> Json { return s.beam_length; })},
-          {"beam_length_rate", of([](const Sample& s) -> Json { return s.beam_length_rate; })},
-          {"energy", energy},
-          {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })},
-          {"reactions", reactions}};
+  Json json = {
+      {"t", of([](const Sample& s) -> Json { return s.t; })},
+      {"joint_position", of([](const Sample& s) { return s.joint_position ? Json(*s.joint_position) : Json(); })},
+      {"mass_position",
+       of([d](const Sample& s) { return s.mass_position ? components(*s.mass_position, d) : Json(); })},
+      {"end", of([d](const Sample& s) { return components(s.end, d); })},
+      {"beam_length", of([](const Sample& s) -> Json { return s.beam_length; })},
+      {"beam_length_rate", of([](const Sample& s) -> Json { return s.beam_length_rate; })},
+      {"energy", energy},
+      {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })},
+      {"reactions", reactions}};
+  if (flows(scene)) json["flow"] = flow_samples(scene, rows);
+  return json;
 }
 
 Json configuration(const Configuration& shape, int d) {
@@ -74,6 +106,7 @@ Json configuration(const Configuration& shape, int d) {
   };
   Json json = {
       {"t", shape.t}, {"x", shape.x}, {"r", points(shape.r)}, {"r_x", points(shape.r_x)}, {"weights", shape.weights}};
+  if (!shape.angles.empty()) json["angles"] = shape.angles;
   if (shape.kink) json["kink"] = {{"node", shape.kink->node}, {"r_x", components(shape.kink->r_x, d)}};
   return json;
 }
@@ -138,6 +171,12 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
   text += ",beam_length,beam_length_rate";
   for (const auto& [name, value] : energies()) text += std::string(",energy_") + name;
   for (std::size_t i = 0; i < d; ++i) text += std::string(",momentum_") + axes[i];
+  if (flows(scene)) text += ",mass";
+  if (scene.spin) text += ",angle_start,angle_end";
+  const std::size_t loads = flows(scene) && !result.samples.empty() ? result.samples.front().flow->loads.size() : 0;
+  for (std::size_t k = 0; k < loads; ++k) {
+    for (std::size_t i = 0; i < d; ++i) text += ",load" + std::to_string(k) + "_" + axes[i];
+  }
   text += '\n';
 
   for (const Sample& s : result.samples) {
@@ -150,6 +189,11 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
     cell(s.beam_length_rate);
     for (const auto& [name, value] : energies()) cell(value(s.energy));
     for (std::size_t i = 0; i < d; ++i) cell(s.momentum[i]);
+    if (s.flow) {
+      cell(s.flow->mass);
+      if (s.flow->end_angles) std::ranges::for_each(*s.flow->end_angles, cell);
+      for (const Point& load : s.flow->loads) std::for_each_n(load.begin(), d, cell);
+    }
     text += '\n';
   }
   return text;

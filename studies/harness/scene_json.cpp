@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
+#include "core/scene/build_flow.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/validate.hpp"
 
@@ -31,8 +32,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-/// The option table as a tree of keys; its leaves are null. A list is an object whose keys are
-/// "at=start", ...: one for each entry it may have.
+/// The option table as a tree of keys; its leaves are null. A list is an object whose keys are "at=start", ...: one for
+/// each entry it may have; or, if it may have any number of them, an array with one.
 class KeyTree {
  public:
   KeyTree() { visit_options(*this, scene_); }
@@ -45,6 +46,8 @@ class KeyTree {
   bool present(const Option&, const std::optional<T>&) {
     return true;
   }
+  template <class T>
+  void list(const Option&, const std::vector<T>&) {}
 
   const Json& tree() const { return tree_; }
 
@@ -124,7 +127,14 @@ class Canonical {
         throw InvalidInput(at_shown, "an unknown key", unknown_key_hint(key, node, discriminator));
       }
       const Json& child = node.at(key);
-      if (!list_key(child).empty()) {
+      if (child.is_array()) {
+        if (!item.value().is_array()) throw InvalidInput(at_shown, excerpt(item.value()), "it must be an array");
+        Json& entries = result[key] = Json::array();
+        for (std::size_t i = 0; i < item.value().size(); ++i) {
+          const std::string entry = "/" + std::to_string(i);
+          entries.push_back(object(item.value()[i], child[0], at + entry, at_shown + entry, ""));
+        }
+      } else if (!list_key(child).empty()) {
         result[key] = list(item.value(), child, at, at_shown);
       } else if (child.is_object()) {
         result[key] = object(item.value(), child, at, at_shown, "");
@@ -193,6 +203,12 @@ class Reader {
     return part.has_value();
   }
 
+  template <class T>
+  void list(const Option& option, std::vector<T>& entries) const {
+    const Json* const file = file_.find(option.pointer);
+    entries.assign(file != nullptr ? file->size() : 0, T{});
+  }
+
  private:
   template <class T>
   static bool read(const Json& value, const Option& option, T& member) {
@@ -252,6 +268,8 @@ class Writer {
   bool present(const Option&, const std::optional<T>& part) {
     return part.has_value();
   }
+  template <class T>
+  void list(const Option&, const std::vector<T>&) {}
 
   Json json() const { return with_lists(json_); }
 
@@ -276,6 +294,11 @@ class Writer {
   }
 
   static Json with_lists(const Json& node) {
+    if (node.is_array()) {
+      Json result = Json::array();
+      for (const Json& entry : node) result.push_back(with_lists(entry));
+      return result;
+    }
     if (!node.is_object()) return node;
     const std::string discriminator = list_key(node);
     Json result = discriminator.empty() ? Json::object() : Json::array();
@@ -299,6 +322,9 @@ class Writer {
 Scene scene_with_every_part() {
   Scene scene;
   scene.sliding_mass.emplace().friction.emplace();
+  scene.spin.emplace().drives.emplace_back();
+  scene.flow.emplace().nodes.emplace_back();
+  scene.loads.emplace_back();
   return scene;
 }
 
@@ -317,6 +343,8 @@ Json scene_to_json(const Scene& scene) {
   if (auto& mass = filled.sliding_mass; mass && !mass->separation_distance) {
     mass->separation_distance = separation_distance(scene);
   }
+  if (filled.spin) filled.spin->rate = initial_spin(scene);
+  if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;
   visit_options(writer, std::as_const(filled));
   return writer.json();

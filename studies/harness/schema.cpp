@@ -72,6 +72,14 @@ class SceneSchemaBuilder {
     return true;
   }
 
+  template <class T>
+  void list(const Option& option, const std::vector<T>&) {
+    const auto path = segments(option.pointer);
+    Json& parent = object(path, path.size() - 1);
+    parent["properties"][path.back()] = {
+        {"type", "array"}, {"items", empty_object()}, {"description", option.description}};
+  }
+
   Json schema() const { return root_; }
 
  private:
@@ -114,8 +122,13 @@ class SceneSchemaBuilder {
     }
   }
 
-  /// The object schema that the first `depth` segments of a path lead to. A segment "at=start" leads to the items of a
-  /// list; its entries are alike, so that one schema serves them all.
+  /// Whether a segment, "at=start" or "0", is an entry of a list.
+  static bool in_list(const std::string& segment) {
+    return segment.find('=') != std::string::npos || segment.find_first_not_of("0123456789") == std::string::npos;
+  }
+
+  /// The object schema that the first `depth` segments of a path lead to. A segment "at=start" or "0" leads to the
+  /// items of a list; its entries are alike, so that one schema serves them all.
   Json& object(const std::vector<std::string>& path, std::size_t depth) {
     Json* node = &root_;
     for (std::size_t i = 0; i < depth; ++i) {
@@ -123,7 +136,11 @@ class SceneSchemaBuilder {
         node = &entry_of_list(*node, path[i].substr(0, equals), path[i].substr(equals + 1));
         continue;
       }
-      const bool list = i + 1 < path.size() && path[i + 1].find('=') != std::string::npos;
+      if (in_list(path[i])) {
+        node = &(*node)["items"];
+        continue;
+      }
+      const bool list = i + 1 < path.size() && in_list(path[i + 1]);
       Json& child = (*node)["properties"][path[i]];
       if (child.is_null()) child = list ? Json{{"type", "array"}, {"items", empty_object()}} : empty_object();
       node = &child;
@@ -163,7 +180,7 @@ class SceneSchemaBuilder {
   /// Segments up to and including the entry of a list, 0 outside lists.
   static std::size_t list_depth(const std::vector<std::string>& path) {
     for (std::size_t i = 0; i < path.size(); ++i) {
-      if (path[i].find('=') != std::string::npos) return i + 1;
+      if (in_list(path[i])) return i + 1;
     }
     return 0;
   }
@@ -224,6 +241,13 @@ Json run_schema() {
                               {"total", numbers},
                               {"discrete_total", numbers}});
   const Json reaction = record({{"position", array_of(point)}, {"slope", array_of(point)}});
+  const Json flow =
+      record({{"mass", numbers},
+              {"end_angles", array_of(array_of(number))},
+              {"spin_momentum", numbers},
+              {"loads", array_of(array_of(point))},
+              {"ledger", record({{"mass", numbers}, {"ends", numbers}, {"loads", numbers}, {"mesh", numbers}})}},
+             {"end_angles", "spin_momentum", "loads", "ledger"});
   const Json samples = record({{"t", array_of(number)},
                                {"joint_position", numbers},
                                {"mass_position", array_of(point_or_null)},
@@ -232,14 +256,17 @@ Json run_schema() {
                                {"beam_length_rate", numbers},
                                {"energy", energy},
                                {"momentum", array_of(point)},
-                               {"reactions", record({{"start", reaction}, {"end", reaction}}, {"start", "end"})}});
+                               {"reactions", record({{"start", reaction}, {"end", reaction}}, {"start", "end"})},
+                               {"flow", flow}},
+                              {"flow"});
   const Json configuration = record({{"t", number},
                                      {"x", array_of(number)},
                                      {"r", array_of(point)},
                                      {"r_x", array_of(point)},
                                      {"weights", array_of(array_of(number))},
+                                     {"angles", array_of(number)},
                                      {"kink", record({{"node", whole}, {"r_x", point}})}},
-                                    {"kink"});
+                                    {"kink", "angles"});
   const Json event = record({{"t", number},
                              {"type", choice_of<EventType>()},
                              {"joint_position", number},

@@ -70,7 +70,7 @@ class Shaft {
       const double angle = omega * (t + margin * duration);
       return {force * std::cos(angle), force * std::sin(angle), 0};
     };
-    model.loads = {{.node = middle, .force = turning, .follower = {}, .torque = {}}};
+    model.loads = {{.node = middle, .force = turning}};
     FlowingBeam<D> beam(model);
     beam.check_motion((1 - 2 * margin) * duration);
 

@@ -76,15 +76,33 @@ expect(scene, changed(integrator={"type": "rosenbrock4", "step": 1e-4}), False, 
 expect(scene, changed(integrator={"step": 1e-4}), False, "the step of the default method")
 expect(scene, changed(beam__elements=2.5), False, "half an element")
 
+flow = {"nodes": [{"node": 0, "x": {"rate": -1}}, {"node": 4, "x": {"value": 1}, "support": "slide"}]}
+load = {"type": "force", "node": 1, "direction": [0, 1], "magnitude": {"value": 1}}
+expect(scene, changed(flow=flow), True, "a flow")
+expect(scene, changed(flow={"nodes": [{"x": {"rate": -1}}]}), False, "a guide without node")
+expect(scene, changed(loads=[load, {"type": "torque", "at": "point", "x": {"rate": 1}}]), True, "loads")
+expect(scene, changed(loads=[{**load, "at": "beam"}]), False, "the node of a distributed load")
+expect(scene, changed(loads=[{**load, "type": "torque"}]), False, "the direction of a torque")
+expect(scene, changed(spin={"drives": [{"node": 0, "angle": {"rat": 1}}]}), False, "an unknown key in a list")
+
 # What the program itself writes.
+shaft = {
+    "beam": {"elements": 4},
+    "spin": {"angles": "hermite", "drives": [{"node": 0}]},
+    "flow": {"nodes": [{"node": 0, "x": {"rate": -1}}, {"node": 4, "x": {"value": 1}}]},
+    "loads": [load],
+    "duration": 0.001,
+    "output": {"interval": 0.001, "configurations": [0]},
+}
 with tempfile.TemporaryDirectory() as folder:
     path = os.path.join(folder, "scene.json")
-    with open(path, "w") as file:
-        json.dump(example, file)
-    done = subprocess.run([program, "run", path, "--report", "-"], capture_output=True, text=True)
-    report = json.loads(done.stdout)
-    expect(run, report, True, "a run's report")
-    expect(scene, report["scene"], True, "the echoed scene")
+    for written in (example, shaft):
+        with open(path, "w") as file:
+            json.dump(written, file)
+        done = subprocess.run([program, "run", path, "--report", "-"], capture_output=True, text=True)
+        report = json.loads(done.stdout)
+        expect(run, report, True, "a run's report")
+        expect(scene, report["scene"], True, "the echoed scene")
 
 for path in glob.glob(os.path.join(source, "studies/*/gates.json")):
     with open(path) as file:

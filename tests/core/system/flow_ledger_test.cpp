@@ -31,12 +31,12 @@ FlowingModel<D> everything(WeightTransport transport) {
       {.node = 2,
        .force =
            [](double t) { return Vec<double, D>(Vec<double, D>::UnitX() * std::cos(9 * t) + Vec<double, D>::UnitY()); },
-       .follower = {},
        .torque = [](double t) { return 0.3 * std::sin(7 * t); }},
-      {.node = 5,
-       .force = {},
-       .follower = [](double t) { return 0.4 * std::cos(11 * t); },
-       .torque = [](double) { return -0.1; }}};
+      {.node = 5, .follower = [](double t) { return 0.4 * std::cos(11 * t); }, .torque = [](double) { return -0.1; }}};
+  model.loads.push_back({.x = [](double t) { return 0.3 + 1.4 * t; },  // over two nodes
+                         .force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * std::sin(8 * t)); },
+                         .follower = [](double) { return 0.5; },
+                         .torque = [](double t) { return 0.2 * std::cos(6 * t); }});
   model.line_force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * 3 * std::cos(4 * t)); };
   model.line_torque = [](double t) { return 0.2 * std::cos(3 * t); };
   model.ledger = true;
@@ -80,6 +80,7 @@ TYPED_TEST(FlowLedgerTest, ClosesWithInflowOutflowAndEveryLoad) {
   for (const auto transport : {WeightTransport::frozen, WeightTransport::transported}) {
     for (const bool damped : {false, true}) {
       FlowingModel<D> model = everything<D>(transport);
+      model.angle_field = damped ? AngleField::hermite : AngleField::linear;
       if (damped) {
         model.section.damping = D == 2 ? 0.01 : 0;
         model.spin->damping = 0.01;

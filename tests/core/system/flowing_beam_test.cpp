@@ -99,7 +99,7 @@ TYPED_TEST(FlowingBeamTest, DrivenAnglesFollowTheirFunctions) {
   FlowingBeam<D> beam(model);
   Eigen::VectorXd y = random_state(beam, this->random_), dydt(y.size());
   beam.rhs(y, dydt, 0);
-  EXPECT_EQ(dydt[beam.coordinates() + beam.first_angle()], 2);
+  EXPECT_EQ(dydt[beam.coordinates() + beam.angle(0)], 2);
 }
 
 TYPED_TEST(FlowingBeamTest, StaticTorqueIsExactWithOneElement) {
@@ -109,10 +109,10 @@ TYPED_TEST(FlowingBeamTest, StaticTorqueIsExactWithOneElement) {
   model.spin = shaft.spin();
   model.supports = {{0, Support<D>::clamp()}};
   model.angles = {{0, steadily(0, 0)}};
-  model.loads = {{.node = 1, .force = {}, .follower = {}, .torque = [=](double) { return torque; }}};
+  model.loads = {{.node = 1, .torque = [=](double) { return torque; }}};
   FlowingBeam<D> beam(model);
   Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
-  y[beam.first_angle() + 1] = torque * length / model.spin->GIp;
+  y[beam.angle(1)] = torque * length / model.spin->GIp;
   Eigen::VectorXd dydt(y.size());
   beam.rhs(y, dydt, 0);
   EXPECT_LE(dydt.norm(), 1e-9 * torque / (model.spin->rhoIp * length));
@@ -185,7 +185,7 @@ TEST(FlowingBeam, RefusesWhatMakesNoSense) {
   EXPECT_EQ(field_of([](auto& m) {
               m.motion = MeshMotion({{0, steadily(1, 0)}, {4, steadily(0, 0)}});
             }),
-            "/beam/nodes");
+            "/flow/nodes");
   EXPECT_EQ(field_of([](auto& m) { m.weights.resize(3); }), "/beam/weights");
   EXPECT_EQ(field_of([](auto& m) { m.supports = {{5, Support<3>::pin()}}; }), "/supports");
   EXPECT_EQ(field_of([](auto& m) { m.supports = {{1, Support<3>::pin()}, {1, Support<3>::clamp()}}; }), "/supports");
@@ -193,19 +193,19 @@ TEST(FlowingBeam, RefusesWhatMakesNoSense) {
               m.supports = {{0, Support<3>::slide({1, 0, 0})}, {4, Support<3>::slide({0, 1, 0})}};
             }),
             "/supports");
-  EXPECT_EQ(field_of([&](auto& m) { m.loads = {{.node = 5, .force = {}, .follower = unit, .torque = {}}}; }), "/loads");
-  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/angles");
-  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/angles");
+  EXPECT_EQ(field_of([&](auto& m) { m.loads = {{.node = 5, .follower = unit}}; }), "/loads");
+  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/spin/drives");
+  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/spin/drives");
   EXPECT_EQ(field_of([&](auto& m) {
               m.angles = {{4, steadily(0, 1)}};
-              m.loads = {{.node = 4, .force = {}, .follower = {}, .torque = unit}};
+              m.loads = {{.node = 4, .torque = unit}};
             }),
             "/loads");
   EXPECT_EQ(field_of([&](auto& m) {
               m.spin.reset();
-              m.loads = {{.node = 4, .force = {}, .follower = {}, .torque = unit}};
+              m.loads = {{.node = 4, .torque = unit}};
             }),
-            "/beam/spin");
+            "/spin");
 }
 
 TEST(CircularShaft, RefusesWhatIsNoShaft) {

@@ -29,10 +29,15 @@ FlowingModel<D> whirling() {
   along[1] = 0.3;
   model.supports = {{0, Support<D>::direction_clamp(along)}, {2, Support<D>::pin()}, {3, Support<D>::slide(along)}};
   model.angles = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
-  model.loads = {
-      {.node = 4, .force = {}, .follower = [](double) { return 0.7; }, .torque = [](double) { return 0.1; }}};
+  model.loads = {{.node = 4, .follower = [](double) { return 0.7; }, .torque = [](double) { return 0.1; }}};
+  model.loads.push_back({.x = [](double t) { return 0.8 - t; }, .follower = [](double) { return -0.4; }});
   return model;
 }
+
+constexpr std::pair<Formulation, AngleField> choices[] = {{Formulation::variational, AngleField::linear},
+                                                          {Formulation::variational, AngleField::hermite},
+                                                          {Formulation::virtual_work, AngleField::linear},
+                                                          {Formulation::virtual_work, AngleField::hermite}};
 
 template <class Dimension>
 class ImplicitFlowTest : public ::testing::Test {
@@ -43,9 +48,10 @@ TYPED_TEST_SUITE(ImplicitFlowTest, Dimensions, DimensionNames);
 
 TYPED_TEST(ImplicitFlowTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm) {
   constexpr int D = TypeParam::value;
-  for (const Formulation formulation : formulations) {
+  for (const auto& [formulation, field] : choices) {
     FlowingModel<D> model = whirling<D>();
     model.formulation = formulation;
+    model.angle_field = field;
     FlowingBeam<D> beam(model);
     ImplicitFlow<D> flow(beam);
     const Eigen::Index n = beam.coordinates();
@@ -61,9 +67,10 @@ TYPED_TEST(ImplicitFlowTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm
 
 TYPED_TEST(ImplicitFlowTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
-  for (const Formulation formulation : formulations) {
+  for (const auto& [formulation, field] : choices) {
     FlowingModel<D> model = whirling<D>();
     model.formulation = formulation;
+    model.angle_field = field;
     FlowingBeam<D> beam(model);
     ImplicitFlow<D> flow(beam);
     const Eigen::Index n = beam.coordinates();

@@ -1,0 +1,157 @@
+#include "core/scene/build_flow.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/dynamics/stepper.hpp"
+#include "core/element/circular_shaft.hpp"
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "core/scene/time_function.hpp"
+#include "core/system/steady_flow.hpp"
+
+namespace vlbeam {
+namespace {
+
+template <int D>
+Vec<double, D> direction_of(const Scene& scene) {
+  return build_axis<D>(scene).tangent(0).normalized();
+}
+
+SpinSection build_spin(const BeamSpec& beam) {
+  const Section& section = beam.section;
+  if (section.type == Section::Type::stiffness) return {section.rhoIp, section.GIp, beam.material.damping};
+  return CircularShaft{.radius = section.radius,
+                       .density = beam.material.density,
+                       .youngs_modulus = beam.material.youngs_modulus,
+                       .poisson_ratio = beam.material.poisson_ratio,
+                       .damping = beam.material.damping}
+      .spin();
+}
+
+std::vector<MeshMotion::Guide> build_guides(const Scene& scene) {
+  const int last = scene.beam.elements;
+  if (!scene.flow || scene.flow->nodes.empty()) return {{0, steadily(0, 0)}, {last, steadily(beam_length(scene), 0)}};
+  std::vector<MeshMotion::Guide> guides;
+  for (const auto& guide : scene.flow->nodes) guides.push_back({guide.node, time_function(guide.x)});
+  return guides;
+}
+
+template <int D>
+PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis) {
+  const TimeFunction magnitude = time_function(spec.magnitude), x = time_function(spec.x);
+  PointLoad<D> load;
+  if (spec.at == LoadPlace::node) load.node = spec.node;
+  if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
+  auto size = [magnitude](double t) { return magnitude(t).value; };
+  if (spec.type == LoadType::follower) load.follower = size;
+  if (spec.type == LoadType::torque) load.torque = size;
+  if (spec.type == LoadType::force) {
+    const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
+    const TimeFunction turn = time_function(spec.turn);
+    load.force = [=](double t) -> Vec<double, D> {
+      const double angle = turn(t).value, c = std::cos(angle), s = std::sin(angle);
+      if constexpr (D == 2) {
+        return size(t) * Vec<double, D>(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]);
+      } else {
+        return size(t) *
+               (c * direction + s * axis.cross(direction) + (1 - c) * axis.dot(direction) * axis);  // Rodrigues
+      }
+    };
+  }
+  return load;
+}
+
+double initial_stretch(const Scene& scene) {
+  if (!scene.flow) return 1;
+  return stretch_under(scene.flow->tension, build_section(scene.beam).stiffness.EA, scene.beam.strain_law);
+}
+
+}  // namespace
+
+bool keeps_ledger(const Scene& scene) { return scene.integrator.type != IntegratorType::generalized_alpha; }
+
+double initial_spin(const Scene& scene) {
+  if (!scene.spin) return 0;
+  const auto& drives = scene.spin->drives;
+  return scene.spin->rate.value_or(drives.empty() ? 0 : time_function(drives.front().angle)(0).rate);
+}
+
+double initial_velocity(const Scene& scene) {
+  if (!scene.flow) return 0;
+  const double rate = build_guides(scene).front().x(0).rate;
+  return scene.flow->velocity.value_or(rate == 0 ? 0 : -initial_stretch(scene) * rate);
+}
+
+template <int D>
+FlowingModel<D> build_flowing_model(const Scene& scene) {
+  const BeamModel<D> beam = build_model<D>(scene);
+  const Vec<double, D> along = direction_of<D>(scene);
+  FlowingModel<D> model;
+  model.section = beam.section;
+  if (scene.spin) {
+    model.spin = build_spin(scene.beam);
+    model.angle_field = scene.spin->angles;
+    for (const auto& drive : scene.spin->drives) model.angles.push_back({drive.node, time_function(drive.angle)});
+  }
+  model.strain_law = scene.beam.strain_law;
+  model.formulation = scene.formulation;
+  model.transport = scene.weights;
+  model.quadrature_points = quadrature_points(scene);
+  model.gravity = beam.gravity;
+  model.gravity_ramp = scene.gravity_ramp;
+  model.motion = MeshMotion(build_guides(scene));
+  std::vector<Prescribed> nodes;
+  model.motion.at(0, nodes);
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    model.weights.push_back({scene.beam.weights, nodes[k].value, nodes[k + 1].value});
+  }
+  const int last = model.motion.last();
+  if (scene.start.type != SupportType::free) model.supports.push_back({0, beam.start});
+  if (scene.end.type != SupportType::free) model.supports.push_back({last, beam.end});
+  if (scene.flow) {
+    for (const auto& guide : scene.flow->nodes) {
+      if (guide.support == SupportType::free) continue;
+      model.supports.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
+    }
+  }
+  for (const LoadSpec& spec : scene.loads) {
+    const PointLoad<D> load = build_load<D>(spec, along);
+    if (spec.at != LoadPlace::beam) {
+      model.loads.push_back(load);
+    } else if (load.torque) {
+      model.line_torque = [before = model.line_torque, torque = load.torque](double t) {
+        return torque(t) + (before ? before(t) : 0);
+      };
+    } else {
+      model.line_force = [before = model.line_force, force = load.force](double t) -> Vec<double, D> {
+        Vec<double, D> sum = force(t);
+        if (before) sum += before(t);
+        return sum;
+      };
+    }
+  }
+  model.ledger = keeps_ledger(scene);
+  return model;
+}
+
+template <int D>
+Eigen::VectorXd initial_flow(const Scene& scene, FlowingBeam<D>& beam) {
+  const Vec<double, D> start = build_axis<D>(scene).position(0), along = direction_of<D>(scene);
+  const double stretch = initial_stretch(scene);
+  const Vec<double, D> origin = start + along * (stretch * beam.nodes_at(0).front().value);
+  Eigen::VectorXd y = beam.straight_state(origin, along, stretch, initial_velocity(scene), initial_spin(scene));
+  for (const DrivenAngle& driven : beam.model().angles) {
+    const Prescribed angle = driven.theta(0);
+    y[beam.angle(driven.node)] = angle.value;
+    y[beam.coordinates() + beam.angle(driven.node)] = angle.rate;
+  }
+  return scene.flow && scene.flow->steady ? steady_state(beam, y) : y;
+}
+
+template FlowingModel<2> build_flowing_model(const Scene&);
+template FlowingModel<3> build_flowing_model(const Scene&);
+template Eigen::VectorXd initial_flow(const Scene&, FlowingBeam<2>&);
+template Eigen::VectorXd initial_flow(const Scene&, FlowingBeam<3>&);
+
+}  // namespace vlbeam

@@ -1,0 +1,70 @@
+#include "core/scene/run_support.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
+
+std::vector<double> sample_times(const Scene& scene) {
+  std::vector<double> times;
+  const double interval = scene.output.interval;
+  const auto count = static_cast<long>(std::floor(scene.duration / interval * (1 + 1e-12)));
+  for (long i = 0; i <= count; ++i) times.push_back(std::min(static_cast<double>(i) * interval, scene.duration));
+  if (times.back() < scene.duration * (1 - 1e-12)) times.push_back(scene.duration);
+  return times;
+}
+
+}  // namespace
+
+Stops::Stops(const Scene& scene) : samples(sample_times(scene)), configurations(scene.output.configurations) {
+  std::sort(configurations.begin(), configurations.end());
+}
+
+std::vector<double> Stops::all() const {
+  std::vector<double> stops;
+  std::set_union(samples.begin(), samples.end(), configurations.begin(), configurations.end(),
+                 std::back_inserter(stops));
+  return stops;
+}
+
+IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest) {
+  const double wave_time = shortest * std::sqrt(section.rhoA / std::max(section.stiffness.EA, section.stiffness.EI));
+  const auto& integrator = scene.integrator;
+  IntegrationOptions options;
+  options.type = integrator.type;
+  options.tolerances = {integrator.rtol, integrator.atol};
+  options.first_step = first_step_courant * wave_time;
+  options.locate_events = integrator.locate_events;
+  options.step = options.energy_momentum.step = integrator.step;
+  options.generalized_alpha = {.step = integrator.step,
+                               .rho_inf = integrator.rho_inf,
+                               .newton = integrator.newton,
+                               .newton_tolerance = integrator.newton_tolerance,
+                               .adaptive = integrator.adaptive,
+                               .tolerances = {integrator.rtol, integrator.atol}};
+  return options;
+}
+
+void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial,
+                const std::vector<double>& stops, const IntegrationOptions& options, RunResult& result) {
+  double t = 0;
+  const auto started = std::chrono::steady_clock::now();
+  try {
+    Eigen::VectorXd y = initial();
+    if (!integrate(ode, y, t, scene.duration, stops, options, result.solver)) result.status = RunStatus::interrupted;
+  } catch (const ComputationFailed& failure) {
+    result.status = RunStatus::failed;
+    result.failure = failure.what();
+    result.failure_time = failure.t;
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  result.timing.motion = elapsed.count();
+}
+
+}  // namespace vlbeam

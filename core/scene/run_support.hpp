@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/scene/result.hpp"
+#include "core/system/beam_system.hpp"
+
+namespace vlbeam {
+
+/// What the runs of all kinds of scenes share.
+
+template <int D>
+Point point_of(const Vec<double, D>& v) {
+  Point point{};
+  std::copy(v.data(), v.data() + D, point.begin());
+  return point;
+}
+
+/// Where a run stops to look: at the samples, and at the configurations, both in increasing order.
+struct Stops {
+  std::vector<double> samples, configurations;
+
+  explicit Stops(const Scene& scene);
+  std::vector<double> all() const;
+  bool samples_at(double t) const { return std::binary_search(samples.begin(), samples.end(), t); }
+  bool keeps_shape_at(double t) const { return std::binary_search(configurations.begin(), configurations.end(), t); }
+};
+
+/// `shortest` is the length of the shortest element at t = 0 [m].
+IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest);
+
+/// Runs to the end of the scene, from the state that `initial` makes, and notes how it went.
+void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial,
+                const std::vector<double>& stops, const IntegrationOptions& options, RunResult& result);
+
+/// Runs a scene whose beam is a FlowingBeam.
+template <int D>
+RunResult simulate_flow(const Scene& scene, const std::function<bool(double t)>& progress);
+
+}  // namespace vlbeam

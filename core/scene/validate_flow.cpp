@@ -1,0 +1,127 @@
+#include "core/scene/validate_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/sundials_stepper.hpp"
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "core/scene/build_flow.hpp"
+#include "core/scene/options.hpp"
+#include "core/system/steady_flow.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double length_tolerance = 0.01;  // of the nodes' initial distance against the curve's length
+
+[[noreturn]] void refuse(const std::string& field, const std::string& value, const std::string& allowed) {
+  throw InvalidInput(field, value, allowed);
+}
+
+template <NamedEnum E>
+std::string quoted(E value) {
+  return "\"" + std::string(to_string(value)) + "\"";
+}
+
+void check_parts(const Scene& scene) {
+  if (scene.sliding_mass) {
+    refuse("/sliding_mass", "this key", "it goes together with neither /spin, /flow nor /loads");
+  }
+  if (scene.beam.curve.type != CurveType::line) {
+    refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /spin, /flow or /loads it must be \"line\"");
+  }
+  const auto& section = scene.beam.section;
+  if (scene.spin && section.type == Section::Type::stiffness) {
+    if (!(section.GIp > 0)) refuse("/beam/section/GIp", number_text(section.GIp), "with /spin it must be > 0 [N m^2]");
+    if (!(section.rhoIp > 0)) {
+      refuse("/beam/section/rhoIp", number_text(section.rhoIp), "with /spin it must be > 0 [kg m]");
+    }
+  }
+  const IntegratorType type = scene.integrator.type;
+  if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum || of_sundials(type)) {
+    refuse("/integrator/type", quoted(type),
+           "with /spin, /flow or /loads take an explicit method of Odeint or \"generalized-alpha\"");
+  }
+  if (scene.constraints != Constraints::eliminated) {
+    refuse("/constraints", quoted(scene.constraints), "with /spin, /flow or /loads it must be \"eliminated\"");
+  }
+}
+
+void check_guides(const Scene& scene) {
+  if (!scene.flow) return;
+  const FlowSpec& flow = *scene.flow;
+  const int last = scene.beam.elements;
+  if (scene.beam.element == ElementKind::rancf || scene.beam.element == ElementKind::ancf) {
+    refuse("/beam/element", quoted(scene.beam.element),
+           "a flow needs an element of variable length: \"ALE-RANCF\" or \"ALE-ANCF\"");
+  }
+  if (flow.nodes.empty()) return;
+  int before = -1;
+  for (std::size_t i = 0; i < flow.nodes.size(); ++i) {
+    const std::string at = "/flow/nodes/" + std::to_string(i);
+    const int node = flow.nodes[i].node;
+    if (i == 0 && node != 0) refuse(at + "/node", std::to_string(node), "the first of them must be node 0");
+    if (node <= before || node > last) {
+      refuse(at + "/node", std::to_string(node),
+             "it must be more than " + std::to_string(before) + ", the one before, and at most " +
+                 std::to_string(last) + ", the last node");
+    }
+    if (flow.nodes[i].support != SupportType::free && (node == 0 || node == last)) {
+      refuse(at + "/support", quoted(flow.nodes[i].support), "supports of the ends stand in /supports");
+    }
+    before = node;
+  }
+  if (before != last) {
+    refuse("/flow/nodes", "a list that ends with node " + std::to_string(before),
+           "the last of them must be node " + std::to_string(last));
+  }
+}
+
+void check_loads(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadSpec& load = scene.loads[i];
+    const std::string at = "/loads/" + std::to_string(i);
+    if (load.at == LoadPlace::node && load.node > scene.beam.elements) {
+      refuse(at + "/node", std::to_string(load.node),
+             "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
+    }
+    if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
+      refuse(at + "/at", quoted(load.at), "a follower is at a \"node\" or a \"point\"");
+    }
+    if (load.type == LoadType::force && load.direction == Point{}) {
+      refuse(at + "/direction", "a vector of zeros", "it must have a direction");
+    }
+    const TimeSpec& size = load.magnitude;
+    if (size.value == 0 && size.rate == 0 && size.acceleration == 0 && size.amplitude == 0) {
+      refuse(at + "/magnitude", "zero at all times", "give its value, rate, acceleration or amplitude");
+    }
+  }
+}
+
+template <int D>
+void check_model(const Scene& scene) {
+  const FlowingBeam<D> beam(build_flowing_model<D>(scene));
+  if (scene.flow) {
+    const double stretch =
+        stretch_under(scene.flow->tension, beam.model().section.stiffness.EA, beam.model().strain_law);
+    const auto nodes = beam.nodes_at(0);
+    const double length = stretch * (nodes.back().value - nodes.front().value), curve = beam_length(scene);
+    if (!(std::abs(length - curve) <= length_tolerance * curve)) {
+      refuse("/flow/nodes", "a stretched length of " + number_text(length) + " m at t = 0",
+             "it must be that of /beam/curve, " + number_text(curve) + " m, within 1 %");
+    }
+  }
+  beam.check_motion(scene.duration);
+}
+
+}  // namespace
+
+void validate_flow(const Scene& scene) {
+  check_parts(scene);
+  check_guides(scene);
+  check_loads(scene);
+  scene.dimension == 2 ? check_model<2>(scene) : check_model<3>(scene);
+}
+
+}  // namespace vlbeam

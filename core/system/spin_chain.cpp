@@ -1,0 +1,101 @@
+#include "core/system/spin_chain.hpp"
+
+#include "core/element/driven_tangent.hpp"
+#include "core/element/twist_law.hpp"
+
+namespace vlbeam {
+namespace {
+
+SpinCoordinates<double> angles_of(const SpinChain::Coordinates& q) { return {q.e.r_a[0], q.e.r_b[0], q.x_a, q.x_b}; }
+
+Vec<double, 1> one(double value) { return Vec<double, 1>::Constant(value); }
+
+}  // namespace
+
+SpinChain::SpinChain(const SpinSection& section, AngleField field, Formulation formulation, int elements,
+                     int quadrature_points, const std::vector<int>& driven)
+    : section_(section),
+      field_(field),
+      table_(gauss_legendre(quadrature_points), unit_weights),
+      elements_(static_cast<std::size_t>(elements)),
+      work_(2 * (elements_.size() + 1)) {
+  law_.section = {.rhoA = section.rhoIp, .stiffness = {section.GIp, 0}, .damping = section.damping};
+  law_.formulation = formulation;
+  const auto twist = ChainMass<1>::Components::Constant(field == AngleField::linear ? 0 : 1);
+  free_.assign(elements_.size() + 1, {ChainMass<1>::Components::Ones(), twist});
+  for (const int node : driven) free_[static_cast<std::size_t>(node)][0].setZero();
+}
+
+SpinChain::Coordinates SpinChain::local(const double* values, const Nodes& nodes, double Prescribed::*x, int k) const {
+  const auto i = static_cast<std::size_t>(k);
+  const double x_a = nodes[i].*x, x_b = nodes[i + 1].*x;
+  if (field_ == AngleField::linear) return {{one(values[k]), one(0), one(values[k + 1]), one(0)}, x_a, x_b};
+  return {element_nodes<1>(values, k), x_a, x_b};
+}
+
+void SpinChain::scatter(int k, const std::array<double, 4>& entries, double* values) const {
+  if (field_ == AngleField::linear) {
+    values[k] += entries[0];
+    values[k + 1] += entries[2];
+  } else {
+    for (int i = 0; i < 4; ++i) values[2 * k + i] += entries[static_cast<std::size_t>(i)];
+  }
+}
+
+SpinChain::Equations SpinChain::equations(const Coordinates& q, const Coordinates& rate) const {
+  if (field_ == AngleField::hermite) {
+    return moving_equations<StrainLaw::green, false, double, 1>(q, rate, {}, table_, law_);
+  }
+  return spin_equations(angles_of(q), angles_of(rate), law_.formulation, section_).of_one_field();
+}
+
+void SpinChain::evaluate(const double* q, const double* rate, const Nodes& nodes) {
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const int i = static_cast<int>(k);
+    elements_[k] = equations(local(q, nodes, &Prescribed::value, i), local(rate, nodes, &Prescribed::rate, i));
+  }
+}
+
+void SpinChain::add_residual(const double* a, const Nodes& nodes, double* r) const {
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const int i = static_cast<int>(k);
+    const auto part = nodal_residual(elements_[k], local(a, nodes, &Prescribed::acceleration, i));
+    scatter(i, {part[0][0], part[1][0], part[2][0], part[3][0]}, r);
+  }
+}
+
+bool SpinChain::solve(double* f) {
+  mass_.reset(nodes());
+  for (std::size_t k = 0; k < elements_.size(); ++k) mass_.add(static_cast<int>(k), elements_[k].mass);
+  if (!mass_.factor(free_)) return false;
+  if (field_ == AngleField::hermite) {
+    mass_.solve(f);
+    return true;
+  }
+  for (int k = 0; k < nodes(); ++k) work_[2 * static_cast<std::size_t>(k)] = f[k];
+  mass_.solve(work_.data());
+  for (int k = 0; k < nodes(); ++k) f[k] = work_[2 * static_cast<std::size_t>(k)];
+  return true;
+}
+
+double SpinChain::dissipation() const {
+  double power = 0;
+  for (const Equations& element : elements_) power += element.dissipation;
+  return power;
+}
+
+SpinChain::Point SpinChain::at(const Coordinates& q, const Coordinates& rate, double u) const {
+  if (field_ == AngleField::linear) {
+    const SpinMotion<double> motion(angles_of(q), angles_of(rate));
+    return {{1 - u, 0, u, 0},
+            -motion.tau * (1 - u),
+            -motion.tau * u,
+            motion.tau,
+            motion.omega_a * (1 - u) + motion.omega_b * u};
+  }
+  const MovingKinematics<double, 1> kinematics(q, rate, WeightTransport::frozen, {});
+  const PointMotion<double, 1> point = kinematics.at(u, hermite_shape(u));
+  return {point.s, point.y_a[0], point.y_b[0], point.r_x[0], point.v[0]};
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/beam/chain_mass.hpp"
+#include "core/beam/mesh_motion.hpp"
+#include "core/element/moving_element.hpp"
+#include "core/element/spin_element.hpp"
+
+namespace vlbeam {
+
+/// How the section's angle runs between the nodes.
+enum class AngleField {
+  linear,   ///< one unknown a node; the twist jumps there
+  hermite,  ///< cubic, angle and twist at each node
+};
+
+/// The section's angle along a chain of variable-length elements: one field of one component, with the equations of the
+/// axis or, where it is linear, their closed form. Coordinates are those of node 0, of node 1, ...: angle [rad] and, if
+/// cubic, twist [rad/m].
+class SpinChain {
+ public:
+  using Equations = MovingEquations<double, 1>;
+  using Coordinates = MovingCoordinates<double, 1>;
+  using Nodes = std::vector<Prescribed>;
+
+  /// `driven` are the nodes whose angle is prescribed.
+  SpinChain(const SpinSection& section, AngleField field, Formulation formulation, int elements, int quadrature_points,
+            const std::vector<int>& driven);
+
+  int per_node() const { return field_ == AngleField::linear ? 1 : 2; }
+  int nodes() const { return static_cast<int>(free_.size()); }
+  Eigen::Index coordinates() const { return Eigen::Index{per_node()} * nodes(); }
+  const SpinSection& section() const { return section_; }
+  const QuadratureRule& rule() const { return table_.rule; }
+
+  /// Of element k, from those of the chain and the nodes' material coordinates or one of their rates.
+  Coordinates local(const double* values, const Nodes& nodes, double Prescribed::*x, int k) const;
+  /// Adds four entries (angle and twist at either end of element k), the twists only where they are coordinates.
+  void scatter(int k, const std::array<double, 4>& entries, double* values) const;
+
+  Equations equations(const Coordinates& q, const Coordinates& rate) const;
+  /// Fills the equations of all elements.
+  void evaluate(const double* q, const double* rate, const Nodes& nodes);
+  const Equations& element(int k) const { return elements_[static_cast<std::size_t>(k)]; }
+  /// Adds M a - Q.
+  void add_residual(const double* a, const Nodes& nodes, double* r) const;
+  /// Solves M a = f in place; of driven angles f becomes zero.
+  bool solve(double* f);
+  double dissipation() const;
+
+  /// What is at a point of element k: its shape functions, how its angle changes with x_A and x_B at a fixed material
+  /// point, its twist [rad/m] and the spin of the matter there [rad/s].
+  struct Point {
+    std::array<double, 4> s;
+    double by_a, by_b, twist, spin;
+  };
+  Point at(const Coordinates& q, const Coordinates& rate, double u) const;
+
+ private:
+  SpinSection section_;
+  AngleField field_;
+  MovingLaw<1> law_;
+  ShapeTabulation table_;
+  std::vector<Equations> elements_;
+  std::vector<std::array<ChainMass<1>::Components, 2>> free_;
+  ChainMass<1> mass_;
+  std::vector<double> work_;  // angle and twist at each node
+};
+
+}  // namespace vlbeam
