@@ -13,11 +13,11 @@ struct DrivenPoint {
   Vec<double, D> acceleration = Vec<double, D>::Zero();  ///< [m/s^2]
 };
 
-/// Displacement of a support's point along `direction` as a function of time, counted from where it is at t = 0.
-/// Without a function the support stands still.
+/// Displacement of a support's point, `direction` times a function of time, counted from where it is at t = 0. Without
+/// a function the support stands still.
 template <int D>
 struct SupportMotion {
-  Vec<double, D> direction = Vec<double, D>::Zero();  ///< [-], need not have unit length
+  Vec<double, D> direction = Vec<double, D>::Zero();  ///< [-]
   TimeFunction displacement;                          ///< [m]
 
   explicit operator bool() const { return static_cast<bool>(displacement); }
