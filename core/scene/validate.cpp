@@ -252,9 +252,13 @@ void check_support_motion(const Scene& scene) {
     if (support.motion->direction == Point{}) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
-    if (const double rate = time_function(support.motion->displacement)(0).rate; std::abs(rate) > 0) {
-      refuse(at, "a velocity of " + number_text(rate) + " m/s at t = 0",
-             "a support starts from rest: give the displacement a ramp > 0 [s]");
+    const TimeSpec& displacement = support.motion->displacement;
+    // a cosine, of phase 90 degrees, has a rate of rounding
+    const double most = std::abs(displacement.rate) + std::abs(displacement.amplitude * displacement.frequency);
+    if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
+      refuse(
+          at, "a velocity of " + number_text(rate) + " m/s at t = 0",
+          "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 degrees");
     }
     if (scene.integrator.type == IntegratorType::energy_momentum) {
       refuse("/integrator/type", quoted(to_string(scene.integrator.type)),

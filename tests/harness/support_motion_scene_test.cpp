@@ -62,6 +62,16 @@ TEST(SupportMotionScene, ShakesTheConfiguredPoint) {
   }
 }
 
+TEST(SupportMotionScene, AcceptsWhatStartsFromRest) {
+  Json json = shaken();
+  auto& motion = json["supports"][1]["motion"];
+  motion["ramp"] = 0;
+  motion["phase_degrees"] = 90;
+  EXPECT_NO_THROW(scene_from_json(json));
+  motion = {{"direction", {0, 1}}, {"acceleration", 2}};
+  EXPECT_NO_THROW(scene_from_json(json));
+}
+
 struct Bad {
   const char* pointer;
   const char* value;  ///< JSON

@@ -266,6 +266,22 @@ TEST(SupportMotion, IsTheSameForEveryIntegrator) {
   }
 }
 
+/// Supports that start with an acceleration send a wave front into the beam.
+TEST(SupportMotion, MayStartAbruptlyWithMultipliersOfIda) {
+  if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
+  DrivenRun run = shaken_bridge();
+  run.start_motion.displacement = accelerating(3.6);
+  run.end_motion.displacement = [](double t) {
+    return Prescribed{0.02 * (1 - std::cos(17 * t)), 0.34 * std::sin(17 * t), 5.78 * std::cos(17 * t)};
+  };
+  run.scene.duration = 0.1;
+  const auto exact = run(IntegratorType::fehlberg78, 1e-12);
+  run.scene.constraints = Constraints::multipliers;
+  const auto seen = run(IntegratorType::ida, 1e-8);
+  EXPECT_LE((seen.position - exact.position).lpNorm<Eigen::Infinity>(), 1e-6);
+  EXPECT_LE(seen.counters.steps, 10000U);
+}
+
 TEST(SupportMotion, IsTheSameEliminatedAndWithMultipliers) {
   for (DrivenRun run : {shaken_beam(1e-3), shaken_bridge()}) {
     const auto eliminated = run(IntegratorType::generalized_alpha, 0);
