@@ -25,7 +25,7 @@ class EnergyMomentum final : public Stepper {
     v1_ = v0_ + h * acceleration_;
 
     double previous = 0, dissipation = 0;
-    if (h != tangent_step_ || system_.factorizations() != factorization_) tangent_step_ = 0;
+    if (h != tangent_step_) tangent_step_ = 0;
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       q1_ = q0_ + (h / 2) * (v0_ + v1_);
       dissipation = system_.conserving_residual(q0_, v0_, q1_, v1_, t, h, r_);
@@ -62,7 +62,6 @@ class EnergyMomentum final : public Stepper {
     acceleration_ = (v1_ - v0_) / h;
     if (!system_.linearize(middle_q_, middle_v_, acceleration_, t + h / 2, 2 / h, 4 / (h * h))) return false;
     tangent_step_ = h;
-    factorization_ = system_.factorizations();
     return true;
   }
 
@@ -76,8 +75,7 @@ class EnergyMomentum final : public Stepper {
 
   SecondOrderSystem& system_;
   EnergyMomentumOptions options_;
-  double tangent_step_ = 0;  ///< the step that the factored tangent was made for; 0 for none
-  std::size_t factorization_ = 0;
+  double tangent_step_ = 0;       ///< the step that the factored tangent was made for; 0 for none
   Eigen::VectorXd acceleration_;  ///< mean of the last step, which predicts the next one
   Eigen::VectorXd q0_, v0_, q1_, v1_, r_, middle_q_, middle_v_;
 };

@@ -22,6 +22,7 @@ struct EnergyMomentumOptions {
 /// on velocities, for the rounding of q_1 - q_0 is no error of energy then. Its matrix is the tangent of the equations
 /// of motion in the middle of the step, which differs from the residual's derivative by terms of first order in the
 /// step's change of shape; it is kept from step to step while the iteration contracts.
+/// `system` is the stepper's own: it keeps a factored matrix in it.
 std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const EnergyMomentumOptions& options);
 
 }  // namespace vlbeam

@@ -50,6 +50,8 @@ class GeneralizedAlpha final : public Stepper {
     acceleration_ =
         ((1 - alpha_m_) * next_a_ + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
 
+    if (system_.driven_offset(q_, t + h, r_)) correct(h);  // what is driven has no equation that Newton would solve
+
     double dissipation = 0;
     if (!solve(t + h, h, dissipation)) {
       dt = h / 2;
@@ -80,6 +82,7 @@ class GeneralizedAlpha final : public Stepper {
 
   void resume(const Stepper& other) override {
     const auto& main = dynamic_cast<const GeneralizedAlpha&>(other);
+    if (&main != this) system_.follow(main.system_);
     end_ = main.start_;
     started_ = true;
     stalled_ = false;
@@ -92,6 +95,7 @@ class GeneralizedAlpha final : public Stepper {
     Eigen::VectorXd a;                  ///< the method's own acceleration
     double h = 0;                       ///< [s], length of the step that `a` belongs to
     double dissipation = 0;             ///< [W]
+    double supply = 0;                  ///< [W], by moving supports
   };
 
   void start(double t, Eigen::Index n) {
@@ -100,14 +104,25 @@ class GeneralizedAlpha final : public Stepper {
     end_.a = end_.true_acceleration;
     end_.h = 0;
     end_.dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
+    end_.supply = system_.supplied_power(base_q_, base_v_, end_.true_acceleration, t);
     started_ = true;
     tangent_by_a_ = 0;
   }
 
+  double by_a(double h) const { return (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)); }
+  double by_v(double h) const { return gamma_ / (h * beta_); }
+
+  /// Takes the correction r_ of the positions, and what it means for their derivatives, off the end of the step.
+  void correct(double h) {
+    q_ -= r_;
+    v_ -= by_v(h) * r_;
+    acceleration_ -= by_a(h) * r_;
+    next_a_ -= by_a(h) * (1 - alpha_f_) / (1 - alpha_m_) * r_;
+  }
+
   /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls.
   bool solve(double t, double h, double& dissipation) {
-    const double by_a = (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)), by_v = gamma_ / (h * beta_);
-    if (by_a != tangent_by_a_ || system_.factorizations() != factorization_) tangent_by_a_ = 0;
+    if (by_a(h) != tangent_by_a_) tangent_by_a_ = 0;
     double previous = 0;
     bool fresh = false;         // the tangent is of this step
     int with_this_tangent = 0;  // iterations of this step
@@ -116,18 +131,14 @@ class GeneralizedAlpha final : public Stepper {
       dissipation = system_.residual(q_, v_, acceleration_, t, r_);
       if (!r_.allFinite()) return false;
       if (tangent_by_a_ == 0 || options_.newton == NewtonKind::full) {
-        if (!system_.linearize(q_, v_, acceleration_, t, by_v, by_a)) return false;
+        if (!system_.linearize(q_, v_, acceleration_, t, by_v(h), by_a(h))) return false;
         if (counters_) ++counters_->tangents;
-        tangent_by_a_ = by_a;
-        factorization_ = system_.factorizations();
+        tangent_by_a_ = by_a(h);
         fresh = true;
         with_this_tangent = 0;
       }
       system_.solve(r_);
-      q_ -= r_;
-      v_ -= by_v * r_;
-      acceleration_ -= by_a * r_;
-      next_a_ -= by_a * (1 - alpha_f_) / (1 - alpha_m_) * r_;
+      correct(h);
       const double correction = r_.lpNorm<Eigen::Infinity>() / std::max(1.0, q_.lpNorm<Eigen::Infinity>());
       if (!std::isfinite(correction)) return false;
       count(correction);
@@ -168,19 +179,20 @@ class GeneralizedAlpha final : public Stepper {
     q_ = base_q_ + h * base_v_;
     v_ = base_v_ + h * start_.true_acceleration;
     system_.contract(q_, v_, y);
-    if (y.size() % 2 != 0) y[y.size() - 1] += h * start_.dissipation;
+    system_.tally(h * start_.dissipation, h * start_.supply, y);
     t += h;
   }
 
   void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
     system_.contract(q_, v_, y);
-    if (y.size() % 2 != 0) y[y.size() - 1] += 0.5 * h * (start_.dissipation + dissipation);
+    end_.supply = system_.supplied_power(q_, v_, acceleration_, t + h);
+    system_.tally(0.5 * h * (start_.dissipation + dissipation), 0.5 * h * (start_.supply + end_.supply), y);
     end_.true_acceleration = acceleration_;
     end_.a = next_a_;
     end_.h = h;
     end_.dissipation = dissipation;
     if (counters_) {
-      const ConstraintResidual residual = system_.constraint_residual(q_, v_);
+      const ConstraintResidual residual = system_.constraint_residual(q_, v_, t + h);
       auto& largest = counters_->constraints;
       largest.position = std::max(largest.position, residual.position);
       largest.velocity = std::max(largest.velocity, residual.velocity);
@@ -196,7 +208,6 @@ class GeneralizedAlpha final : public Stepper {
   bool started_ = false;
   bool stalled_ = false;             ///< Newton's iteration has asked for the shorter step
   double tangent_by_a_ = 0;          ///< what the factored tangent was made for; 0 for none
-  std::size_t factorization_ = 0;    ///< which one the factored tangent is, if it is still this stepper's
   Memory start_, end_;               ///< at the start and at the end of the last step
   Eigen::VectorXd base_q_, base_v_;  ///< at the start of the step
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;

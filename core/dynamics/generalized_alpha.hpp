@@ -38,7 +38,8 @@ struct NewtonCounters {
 /// changes: the method's own acceleration, that of the instant t + (alpha_m - alpha_f) h, is carried over to the new h.
 /// A Newton iteration that stalls halves the step. An adaptive step estimates the error of the positions,
 /// h^2 (beta + (alpha_m - alpha_f)/2 - 1/6) (a_1 - a_0), after Hulbert & Jang (1995).
-/// `counters` may be null, and must outlive the stepper otherwise.
+/// `system` is the stepper's own: it keeps a factored matrix in it. `counters` may be null, and must outlive the
+/// stepper otherwise.
 std::unique_ptr<Stepper> make_generalized_alpha(SecondOrderSystem& system, const GeneralizedAlphaOptions& options,
                                                 NewtonCounters* counters = nullptr);
 

@@ -19,18 +19,26 @@ constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the en
 constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int longest_cascade = 8;         // events at one instant
 
-std::unique_ptr<Stepper> make_stepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters) {
-  if (options.type == IntegratorType::generalized_alpha) {
-    return make_generalized_alpha(*ode.second_order(), options.generalized_alpha, &counters.newton);
+/// A stepper with the view of the equations that is its own.
+struct Method {
+  Method(EventedOde& ode, const IntegrationOptions& options, NewtonCounters& counters) {
+    if (options.type == IntegratorType::generalized_alpha) {
+      system = ode.new_second_order();
+      stepper = make_generalized_alpha(*system, options.generalized_alpha, &counters);
+    } else if (options.type == IntegratorType::energy_momentum) {
+      system = ode.new_second_order();
+      stepper = make_energy_momentum(*system, options.energy_momentum);
+    } else if (of_sundials(options.type)) {
+      if (options.type == IntegratorType::ida) system = ode.new_second_order();
+      stepper = make_sundials_stepper(options.type, options.tolerances, system.get(), &counters);
+    } else {
+      stepper = make_odeint_stepper(options.type, options.tolerances, options.step);
+    }
   }
-  if (options.type == IntegratorType::energy_momentum) {
-    return make_energy_momentum(*ode.second_order(), options.energy_momentum);
-  }
-  if (of_sundials(options.type)) {
-    return make_sundials_stepper(options.type, options.tolerances, ode.second_order(), &counters.newton);
-  }
-  return make_odeint_stepper(options.type, options.tolerances, options.step);
-}
+
+  std::unique_ptr<SecondOrderSystem> system;  ///< null where the method takes the first-order form
+  std::unique_ptr<Stepper> stepper;
+};
 
 double first_step(const IntegrationOptions& options) {
   if (!has_fixed_step(options.type)) return options.first_step;
@@ -60,8 +68,15 @@ struct SideStepUnderflow {
 /// Steps that start from the beginning of the current step and leave the main stepper alone.
 class SideStepper {
  public:
-  SideStepper(EventedOde& ode, const IntegrationOptions& options, SolverCounters& counters)
-      : ode_(ode), stepper_(make_stepper(ode, options, counters)) {}
+  SideStepper(EventedOde& ode, const IntegrationOptions& options, NewtonCounters& total)
+      : ode_(ode), total_(total), method_(ode, options, own_), stepper_(method_.stepper.get()) {}
+  /// Its work counts; what it met on its way, which depends on the output, does not.
+  ~SideStepper() {
+    total_.iterations += own_.iterations;
+    total_.tangents += own_.tangents;
+  }
+  SideStepper(const SideStepper&) = delete;
+  SideStepper& operator=(const SideStepper&) = delete;
 
   /// The solution at `to`, from (from, start), where the last step of `main` started. Throws SideStepUnderflow.
   const Eigen::VectorXd& at(const Stepper& main, const Eigen::VectorXd& start, double from, double to) {
@@ -92,7 +107,10 @@ class SideStepper {
 
  private:
   EventedOde& ode_;
-  std::unique_ptr<Stepper> stepper_;
+  NewtonCounters& total_;
+  NewtonCounters own_;
+  Method method_;
+  Stepper* stepper_;
   Eigen::VectorXd y_, before_;
 };
 
@@ -110,22 +128,21 @@ struct Step {
   const Eigen::VectorXd& y1;
 };
 
-/// A guard along the cubic Hermite interpolant of a step's states.
-class InterpolatedGuard {
+/// The cubic Hermite interpolant of a step's states.
+class Interpolant {
  public:
-  InterpolatedGuard(EventedOde& ode, const Step& step) : ode_(ode), step_(step), f0_(step.y0.size()), f1_(f0_.size()) {
+  Interpolant(EventedOde& ode, const Step& step) : step_(step), f0_(step.y0.size()), f1_(f0_.size()) {
     ode.rhs(step.y0, f0_, step.t0);
     ode.rhs(step.y1, f1_, step.t1);
   }
 
-  double operator()(std::size_t k, double tau) {
+  const Eigen::VectorXd& operator()(double tau) {
     const double h = step_.t1 - step_.t0, u = tau / h, v = 1 - u;
     y_ = v * v * (1 + 2 * u) * step_.y0 + u * u * (3 - 2 * u) * step_.y1 + (h * u * v) * (v * f0_ - u * f1_);
-    return ode_.guards(y_, step_.t0 + tau)[k];
+    return y_;
   }
 
  private:
-  EventedOde& ode_;
   const Step& step_;
   Eigen::VectorXd f0_, f1_, y_;
 };
@@ -133,9 +150,9 @@ class InterpolatedGuard {
 /// Root of guard `k` by steps of the main stepper's own method. The interpolant gives the first guess and slope, so
 /// that two or three steps do; the secant is kept in a bracket, and bisects where it leaves it.
 Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, std::size_t k) {
-  InterpolatedGuard interpolant(ode, step);
+  Interpolant interpolant(ode, step);
   const double h = step.t1 - step.t0;
-  auto interpolated = [&](double tau) { return interpolant(k, tau); };
+  auto interpolated = [&](double tau) { return ode.guards(interpolant(tau), step.t0 + tau)[k]; };
   std::uintmax_t evaluations = 40;
   const auto bracket = boost::math::tools::toms748_solve(interpolated, 0.0, h, ode.guards(step.y0, step.t0)[k],
                                                          ode.guards(step.y1, step.t1)[k],
@@ -160,6 +177,17 @@ Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const St
   }
 }
 
+/// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, the interpolant
+/// has to do: a sample must not change the way of the run.
+Eigen::VectorXd state_at(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, double t) {
+  if (t == step.t1) return step.y1;
+  try {
+    return side.at(main, step.y0, step.t0, t);
+  } catch (const SideStepUnderflow&) {
+    return Interpolant(ode, step)(t - step.t0);
+  }
+}
+
 /// The first event in the step, or index -1. Without `exactly` its time is the end of the step.
 Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, bool exactly) {
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
@@ -177,8 +205,9 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
 
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters) {
-  auto stepper = make_stepper(ode, options, counters);
-  SideStepper side(ode, options, counters);
+  const Method method(ode, options, counters.newton);
+  Stepper* const stepper = method.stepper.get();
+  SideStepper side(ode, options, counters.newton);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
   double dt = std::min(first_step(options), t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
@@ -213,17 +242,6 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     Located event;
     try {
       event = first_event(ode, side, *stepper, {t_before, before, t, y}, options.locate_events);
-      const bool cut = event.index >= 0 && event.t < t;
-      if (cut) {
-        t = event.t;
-        y = event.y;
-      }
-      for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
-        ode.sample(*next_sample == t ? y : side.at(*stepper, before, t_before, *next_sample), *next_sample);
-      }
-      if (!cut && !last) {
-        counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
-      }
     } catch (const SideStepUnderflow& stuck) {  // a step too long to be looked into
       y = before;
       t = t_before;
@@ -232,6 +250,17 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       stepper->resume(*stepper);
       if (dt < smallest) underflow(stuck.t, stuck.dt);
       continue;
+    }
+    const bool cut = event.index >= 0 && event.t < t;
+    if (cut) {
+      t = event.t;
+      y = event.y;
+    }
+    for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
+      ode.sample(state_at(ode, side, *stepper, {t_before, before, t, y}, *next_sample), *next_sample);
+    }
+    if (!cut && !last) {
+      counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
     }
     ++counters.steps;
     if (event.index >= 0) {

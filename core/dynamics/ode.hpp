@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 
 #include "core/dynamics/second_order.hpp"
 
@@ -16,8 +17,9 @@ class Ode {
   virtual void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) = 0;
   /// Writes df/dy and df/dt, both already of the right size.
   virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
-  /// The same equations as an implicit method needs them, y = (q, q', ...); null where there are none.
-  virtual SecondOrderSystem* second_order() { return nullptr; }
+  /// The same equations as an implicit method needs them, y = (q, q', ...); null where there are none. Each view has a
+  /// factored matrix of its own: a method that keeps one from step to step needs a view that nobody else uses.
+  virtual std::unique_ptr<SecondOrderSystem> new_second_order() { return nullptr; }
 };
 
 inline constexpr int max_guards = 5;

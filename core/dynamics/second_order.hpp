@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 
 namespace vlbeam {
 
@@ -37,18 +36,52 @@ class SecondOrderSystem {
   /// r = M(q) a - Q(q, v, t); returns the power lost to damping [W].
   virtual double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                           Eigen::VectorXd& r) = 0;
-  virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const {
+  virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                                 double /*t*/) const {
     return {};
   }
-  /// Writes C_q v where the multipliers stand, at the end of `rates`.
-  virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+  /// Writes dC/dt = C_q v + C_t where the multipliers stand, at the end of `rates`.
+  virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, double /*t*/,
                                 Eigen::VectorXd& /*rates*/) const {}
-  /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before, for whichever
-  /// stepper. Returns false where it is singular.
+  /// Whether supports move as given functions of time: the state then ends with the work they have done [J].
+  virtual bool driven() const { return false; }
+  /// Writes how far eliminated coordinates that are driven are from where they are at time t; false where none are.
+  virtual bool driven_offset(const Eigen::VectorXd& /*q*/, double /*t*/, Eigen::VectorXd& /*offset*/) const {
+    return false;
+  }
+  /// Power with which moving supports do work at (q, v, a, t) [W].
+  virtual double supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                const Eigen::VectorXd& /*a*/, double /*t*/) {
+    return 0;
+  }
+  /// How many energies a state of the size of `y` counts at its end: what is dissipated, if anything is, and what is
+  /// supplied, if supports move.
+  Eigen::Index tallies(const Eigen::VectorXd& y) const { return driven() ? 2 - y.size() % 2 : y.size() % 2; }
+  /// Adds energies to these.
+  void tally(double dissipated, double supplied, Eigen::VectorXd& y) const {
+    const Eigen::Index count = tallies(y);
+    if (driven()) y[y.size() - 1] += supplied;
+    if (count > (driven() ? 1 : 0)) y[y.size() - count] += dissipated;
+  }
+  /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before. Returns false where
+  /// it is singular.
   virtual bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                          double by_v, double by_a) = 0;
   /// Solves with the last factored matrix, in place.
   virtual void solve(Eigen::VectorXd& r) const = 0;
+  /// The same matrix, dense and not factored, for a method with a linear solver of its own. Rows of constraints are
+  /// C_q; columns of multipliers are by the multipliers, C_q^T multiplier_unit(), whatever `by_a`. Only with
+  /// multipliers.
+  virtual void tangent(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
+                       double /*t*/, double /*by_v*/, double /*by_a*/, Eigen::MatrixXd& /*dense*/) {}
+  /// How many of the constraints, the last ones, are not linear in q: quadratic forms.
+  virtual Eigen::Index curved_constraints() const { return 0; }
+  /// Adds `factor` times the second derivative of the `i`-th of these.
+  virtual void add_curvature(Eigen::Index /*i*/, double /*factor*/, Eigen::MatrixXd& /*dense*/) const {}
+  /// What makes an acceleration of a multiplier.
+  virtual double multiplier_unit() const { return 1; }
+  /// Takes over what another view of the same equations has chosen on its way, so that both go on with equal digits.
+  virtual void follow(const SecondOrderSystem& /*other*/) {}
   /// Jacobian of the same equations in first order, y = (q, q', ...): Ode::jacobian().
   virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
   /// Residual of a step of length h from (q0, v0) at time t to (q1, v1), q1 = q0 + h (v0 + v1)/2, that keeps energy:
@@ -56,11 +89,6 @@ class SecondOrderSystem {
   /// lost to damping [W]. Constraints must be eliminated.
   virtual double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                                      const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) = 0;
-  /// Counts the calls of linearize(): tells who keeps a factored matrix whether it still is his.
-  std::size_t factorizations() const { return factorizations_; }
-
- protected:
-  std::size_t factorizations_ = 0;
 };
 
 }  // namespace vlbeam

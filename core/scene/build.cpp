@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/time_function.hpp"
 
 namespace vlbeam {
 namespace {
@@ -195,6 +196,12 @@ BeamModel<D> build_model(const Scene& scene) {
   const Axis<D> axis = build_axis<D>(scene);
   model.start = build_support<D>(scene.start, axis.tangent(0));
   model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
+  const auto motion_of = [](const SupportSpec& spec) -> SupportMotion<D> {
+    if (!spec.motion) return {};
+    return {vector_of<D>(spec.motion->direction).normalized(), time_function(spec.motion->displacement)};
+  };
+  model.start_motion = motion_of(scene.start);
+  model.end_motion = motion_of(scene.end);
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
   if (scene.sliding_mass) {

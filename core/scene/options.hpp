@@ -337,17 +337,49 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .range = Range::positive()},
           beam.weights);
 
-  const auto support = [&](std::string_view type_pointer, std::string_view clamp_pointer, auto& at) {
-    visitor(Option{.pointer = type_pointer, .unit = "", .description = "how the end is held", .required = true},
-            at.type);
-    visitor(Option{.pointer = clamp_pointer,
+  // a function of time: value, rate, ... below the pointer `at`
+  const auto time_function = [&](const std::string& at, const std::string& unit, const Condition& when, auto& f) {
+    const auto part = [&](const char* key, const std::string& part_unit, const char* description, const Range& range,
+                          auto& member) {
+      const std::string pointer = at + "/" + key;
+      visitor(Option{.pointer = pointer, .unit = part_unit, .description = description, .range = range, .when = when},
+              member);
+    };
+    part("value", unit, "of a function of time: its constant part", {}, f.value);
+    part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
+    part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
+    part("amplitude", unit, "of its part that oscillates", {}, f.amplitude);
+    part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
+    part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
+    part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
+  };
+
+  const auto support = [&](const std::string& entry, auto& at) {
+    const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
+                      direction = motion + "/direction";
+    visitor(Option{.pointer = type, .unit = "", .description = "how the end is held", .required = true}, at.type);
+    visitor(Option{.pointer = clamp,
                    .unit = "",
                    .description = "what a clamp holds: the slope's direction, or the whole slope vector",
-                   .when = only_if(type_pointer, at.type, SupportType::clamp)},
+                   .when = only_if(type, at.type, SupportType::clamp)},
             at.clamp);
+    if (visitor.present(
+            Option{.pointer = motion,
+                   .unit = "",
+                   .description = "displacement of a clamp or a pin as a function of time, from where it is "
+                                  "at t = 0 and from rest"},
+            at.motion)) {
+      visitor(Option{.pointer = direction,
+                     .unit = "-",
+                     .description = "of the displacement; it need not have unit length",
+                     .components = scene.dimension,
+                     .required = true},
+              at.motion->direction);
+      time_function(motion, "m", {}, at.motion->displacement);
+    }
   };
-  support("/supports/at=start/type", "/supports/at=start/clamp", scene.start);
-  support("/supports/at=end/type", "/supports/at=end/clamp", scene.end);
+  support("/supports/at=start", scene.start);
+  support("/supports/at=end", scene.end);
 
   if (visitor.present(
           Option{.pointer = "/sliding_mass", .unit = "", .description = "a lumped mass that slides along the beam"},
@@ -400,23 +432,6 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                .range = Range::positive()},
         mass.separation_distance);
   }
-
-  // a function of time: value, rate, ... below the pointer `at`
-  const auto time_function = [&](const std::string& at, const std::string& unit, const Condition& when, auto& f) {
-    const auto part = [&](const char* key, const std::string& part_unit, const char* description, const Range& range,
-                          auto& member) {
-      const std::string pointer = at + "/" + key;
-      visitor(Option{.pointer = pointer, .unit = part_unit, .description = description, .range = range, .when = when},
-              member);
-    };
-    part("value", unit, "of a function of time: its constant part", {}, f.value);
-    part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
-    part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
-    part("amplitude", unit, "of its part that oscillates", {}, f.amplitude);
-    part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
-    part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
-    part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
-  };
 
   if (visitor.present(Option{.pointer = "/spin", .unit = "", .description = "the section's rotation about the axis"},
                       scene.spin)) {

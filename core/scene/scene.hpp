@@ -95,9 +95,16 @@ struct BeamSpec {
   std::array<double, 4> weights{1, 1, 1, 1};  ///< initial weights of every element
 };
 
+/// Displacement of a clamp or a pin as a function of time, counted from where it is at t = 0.
+struct SupportMotionSpec {
+  Point direction{};      ///< need not have unit length
+  TimeSpec displacement;  ///< [m]
+};
+
 struct SupportSpec {
   SupportType type = SupportType::free;
   ClampType clamp = ClampType::direction;  ///< used with a clamp
+  std::optional<SupportMotionSpec> motion = {};
 };
 
 struct SlidingMassSpec {

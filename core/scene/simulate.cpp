@@ -83,8 +83,8 @@ class Run {
       result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
-      result_.max_energy_drift =
-          std::max(result_.max_energy_drift, std::abs(sample.discrete_total - first_total_ - jumps_));
+      result_.max_energy_drift = std::max(
+          result_.max_energy_drift, std::abs(sample.discrete_total - sample.energy.supplied - first_total_ - jumps_));
       result_.samples.push_back(sample);
     }
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -9,6 +9,7 @@
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/time_function.hpp"
 #include "core/scene/validate_flow.hpp"
 
 namespace vlbeam {
@@ -61,6 +62,8 @@ void check_plane(const Scene& scene) {
   for (std::size_t i = 0; i < curve.control_points.size(); ++i) {
     in_plane("/beam/curve/control_points/" + std::to_string(i), curve.control_points[i]);
   }
+  if (scene.start.motion) in_plane("/supports/at=start/motion/direction", scene.start.motion->direction);
+  if (scene.end.motion) in_plane("/supports/at=end/motion/direction", scene.end.motion->direction);
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     in_plane("/loads/" + std::to_string(i) + "/direction", scene.loads[i].direction);
   }
@@ -240,6 +243,37 @@ void check_integrator(const Scene& scene) {
   }
 }
 
+void check_support_motion(const Scene& scene) {
+  const auto check = [&](const std::string& at, const SupportSpec& support) {
+    if (!support.motion) return;
+    if (support.type != SupportType::clamp && support.type != SupportType::pin) {
+      refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(to_string(support.type)));
+    }
+    if (support.motion->direction == Point{}) {
+      refuse(at + "/direction", "a vector of zeros", "it must have a direction");
+    }
+    const TimeSpec& displacement = support.motion->displacement;
+    // a cosine, of phase 90 degrees, has a rate of rounding
+    const double most = std::abs(displacement.rate) + std::abs(displacement.amplitude * displacement.frequency);
+    if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
+      refuse(
+          at, "a velocity of " + number_text(rate) + " m/s at t = 0",
+          "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 degrees");
+    }
+    if (scene.integrator.type == IntegratorType::energy_momentum) {
+      refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+             "it keeps an energy that moving supports change: take any other integrator");
+    }
+    if (scene.sliding_mass && scene.length_control.velocities == VelocityTransfer::conservative) {
+      refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
+             "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
+    }
+    if (flows(scene)) refuse(at, "this key", "it goes together with neither /spin, /flow nor /loads");
+  };
+  check("/supports/at=start/motion", scene.start);
+  check("/supports/at=end/motion", scene.end);
+}
+
 void check_output(const Scene& scene) {
   constexpr double most_samples = 1e7;
   if (scene.duration / scene.output.interval > most_samples) {
@@ -269,6 +303,7 @@ void validate(const Scene& scene) {
   check_integrator(scene);
   check_joint(scene);
   check_energy_momentum(scene);
+  check_support_motion(scene);
   check_output(scene);
   if (flows(scene)) {
     validate_flow(scene);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/beam/mesh_motion.hpp"
+#include "core/error.hpp"
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
@@ -29,9 +30,14 @@ double gravity_share_rate(double t, double ramp) { return smooth_ramp(t, ramp).r
 
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
+  if (model.driven() && model.joint && model.length_control.velocities == VelocityTransfer::conservative) {
+    throw InvalidInput("/length_control/velocities", "\"conservative\"",
+                       "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
+  }
   adopt(chain);
   initial_ = state_of(chain, {});
   anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
+  impose(initial_, 0);
 }
 
 template <int D>
@@ -52,6 +58,12 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   const RestCurve<D>* rest = model_.rest.get();
   left_.emplace(mesh_, 0, left_open, model_.start, model_.section, model_.strain_law, rule, rest);
   right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, model_.strain_law, rule, rest);
+  if (model_.driven()) {
+    for (const std::size_t end : {0, 1}) {
+      const std::size_t k = end == 0 ? 0 : static_cast<std::size_t>(mesh_.elements()) - 1;
+      end_inertia_[end] = fixed_inertia(mesh_.x[k + 1] - mesh_.x[k], mesh_.weights[k].w, rule);
+    }
+  }
   if (has_joint()) {
     const auto j = static_cast<std::size_t>(joint_);
     left_table_ = ShapeTabulation(rule, mesh_.weights[j - 1].w);
@@ -72,7 +84,8 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y.segment<D>(behind_) = chain.kink->slope;
     y.segment<D>(coordinates_ + behind_) = chain.kink->rate;
   }
-  if (model_.dissipates() && old.size() > 0) y[y.size() - 1] = old[old.size() - 1];
+  const Eigen::Index tallies = y.size() - 2 * coordinates_;
+  if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
   return y;
 }
 
@@ -137,15 +150,126 @@ typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double
 }
 
 template <int D>
+void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
+  if (!model_.driven()) return;
+  const auto points = driven_points(t);
+  for (const std::size_t end : {0, 1}) {
+    if (!(end == 0 ? model_.start_motion : model_.end_motion)) continue;
+    const Support<D>& support = end == 0 ? model_.start : model_.end;
+    const int node = end == 0 ? 0 : mesh_.last();
+    auto set = [&](auto part, const Vector& value) {
+      const auto& free = support.free_position;
+      part = support.out_of_frame(
+          (support.into_frame(part).array() * free + support.into_frame(value).array() * (1 - free)).matrix());
+    };
+    set(position<D>(y.data(), node), anchors_[end].template head<D>() + points[end].value);
+    set(position<D>(y.data() + coordinates_, node), points[end].rate);
+  }
+}
+
+template <int D>
+void BeamSystem<D>::sample(const Eigen::VectorXd& y, double t) {
+  if (!on_sample) return;
+  if (!model_.driven()) return on_sample(y, t);
+  Eigen::VectorXd exact = y;
+  impose(exact, t);
+  on_sample(exact, t);
+}
+
+template <int D>
+std::array<double*, 4> BeamSystem<D>::vectors_of(double* q, int k) const {
+  double* first = q + Eigen::Index{node_size<D>} * k;
+  return {first, k == joint_ ? q + behind_ : first + D, first + 2 * D, first + 3 * D};
+}
+
+/// M a = F with some accelerations a_s given: the others follow from M a = F - M a_s, and what holds a_s is M a - F.
+/// Only the element at a support couples a_s to anything.
+template <int D>
+class BeamSystem<D>::Pull {
+ public:
+  /// Takes the inertia of the given accelerations from the forces. `at_joint` is null without a joint.
+  Pull(const BeamSystem& system, const JointElements* at_joint, double* force, double t)
+      : system_(system), points_(system.driven_points(t)) {
+    for (const int end : {0, 1}) ends_[static_cast<std::size_t>(end)] = end_element(end, at_joint);
+    for (End& end : ends_) end.force = Eigen::Map<const Vector>(system_.vectors_of(force, end.element)[end.held]);
+    for (std::size_t e = 0; e < 2; ++e) {
+      const End& end = ends_[e];
+      const auto parts = system_.vectors_of(force, end.element);
+      for (std::size_t i = 0; i < 4; ++i) {
+        Eigen::Map<Vector>(parts[i]) -= end.mass[i][end.held] * points_[e].acceleration;
+      }
+      if (at_joint != nullptr) force[system_.nodal_] -= end.by_joint[end.held].dot(points_[e].acceleration);
+    }
+  }
+
+  /// Completes the accelerations `a`; returns the power of the supports [W].
+  double power(double* a) const {
+    for (std::size_t e = 0; e < 2; ++e) {
+      Eigen::Map<Vector>(system_.vectors_of(a, ends_[e].element)[ends_[e].held]) += points_[e].acceleration;
+    }
+    double sum = 0;
+    for (std::size_t e = 0; e < 2; ++e) {
+      const End& end = ends_[e];
+      const auto parts = system_.vectors_of(a, end.element);
+      Vector reaction = -end.force;
+      if (system_.has_joint()) reaction += end.by_joint[end.held] * a[system_.nodal_];
+      for (std::size_t i = 0; i < 4; ++i) reaction += end.mass[end.held][i] * Eigen::Map<const Vector>(parts[i]);
+      sum += reaction.dot(points_[e].rate);
+    }
+    return sum;
+  }
+
+ private:
+  /// The element at a support, by its mass matrix (order r_A, s_A, r_B, s_B) and its coupling to x_i.
+  struct End {
+    int element = 0;
+    std::size_t held = 0;                         ///< row of the support's point
+    std::array<std::array<double, 4>, 4> mass{};  ///< [kg m^k]
+    std::array<Vector, 4> by_joint;               ///< zero away from the joint
+    Vector force;                                 ///< on the support's point
+  };
+
+  End end_element(int end, const JointElements* at_joint) const {
+    End result;
+    result.element = end == 0 ? 0 : system_.mesh_.elements() - 1;
+    result.held = end == 0 ? 0 : 2;
+    result.by_joint.fill(Vector::Zero());
+    if (system_.has_joint() && result.element + 1 == system_.joint_) {
+      result.mass = at_joint->left.mass;
+      result.by_joint = at_joint->left.mass_b;
+    } else if (system_.has_joint() && result.element == system_.joint_) {
+      result.mass = at_joint->right.mass;
+      result.by_joint = at_joint->right.mass_a;
+    } else {
+      result.mass = system_.end_inertia_[static_cast<std::size_t>(end)].mass;
+      for (auto& row : result.mass) {
+        for (double& entry : row) entry *= system_.model_.section.rhoA;
+      }
+    }
+    return result;
+  }
+
+  const BeamSystem& system_;
+  std::array<DrivenPoint<D>, 2> points_;
+  std::array<End, 2> ends_;
+};
+
+template <int D>
 void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
   ++rhs_evaluations_;
-  const double* q = y.data();
+  const bool driven = model_.driven();
+  if (driven) {
+    imposed_ = y;
+    impose(imposed_, t);
+  }
+  const double* q = driven ? imposed_.data() : y.data();
   const double* rate = q + coordinates_;
-  dydt.head(coordinates_) = y.segment(coordinates_, coordinates_);
+  dydt.head(coordinates_) = Eigen::Map<const Eigen::VectorXd>(rate, coordinates_);
   dydt.tail(dydt.size() - coordinates_).setZero();
   double* force = dydt.data() + coordinates_;
   const Vector g = gravity(t);
   double dissipation = left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
+  std::optional<Pull> pull;  // of moving supports
 
   if (has_joint()) {
     const JointElements at_joint = joint_elements(q, rate, t);
@@ -163,6 +287,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     slope<D>(force, joint_ + 1) += behind.force[3];
     force[nodal_] = before.force_b + behind.force_a;
     dissipation += before.dissipation + behind.dissipation;
+    if (driven) pull.emplace(*this, &at_joint, force, t);
     const auto friction = solve_with_joint(*left_, *right_, before, behind, *model_.joint, joint_motion(q, rate, t),
                                            force, force + nodal_);
     if (!friction) {
@@ -171,16 +296,23 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     }
     dissipation += *friction;
   } else {
+    if (driven) pull.emplace(*this, nullptr, force, t);
     solve_without_joint(*left_, *right_, force);
     if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = gravity(t);
   }
-  if (model_.dissipates()) dydt[dydt.size() - 1] = dissipation;
+  if (model_.dissipates()) dydt[2 * coordinates_] = dissipation;
+  if (driven) dydt[dydt.size() - 1] = pull->power(force);
 }
 
 template <int D>
 SecondOrderSystem* BeamSystem<D>::second_order() {
   if (!implicit_) implicit_ = std::make_unique<ImplicitBeam<D>>(*this);
   return implicit_.get();
+}
+
+template <int D>
+std::unique_ptr<SecondOrderSystem> BeamSystem<D>::new_second_order() {
+  return std::make_unique<ImplicitBeam<D>>(*this);
 }
 
 template <int D>
@@ -251,7 +383,8 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     seen.energy.gravity -= m * gravity(t).dot(y.segment<D>(at));
     seen.momentum += m * v;
   }
-  if (model_.dissipates()) seen.energy.dissipated = y[y.size() - 1];
+  if (model_.dissipates()) seen.energy.dissipated = y[2 * coordinates_];
+  if (model_.driven()) seen.energy.supplied = y[y.size() - 1];
   return seen;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/beam/support_motion.hpp"
 #include "core/dynamics/integrate.hpp"
 #include "core/joint/sliding_joint.hpp"
 #include "core/length_control/event_type.hpp"
@@ -24,6 +25,7 @@ struct BeamModel {
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
   double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
   Support<D> start, end;
+  SupportMotion<D> start_motion, end_motion;
   bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
   std::optional<SlidingJoint> joint;
   double separation_distance = 0;  ///< [m]
@@ -33,6 +35,8 @@ struct BeamModel {
 
   /// Whether energy is lost, which the state then counts.
   bool dissipates() const { return section.damped() || (joint && joint->friction); }
+  /// Whether supports move, and so do work, which the state then counts.
+  bool driven() const { return start_motion || end_motion; }
 };
 
 /// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
@@ -72,25 +76,27 @@ template <int D>
 class ImplicitBeam;
 
 /// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
-/// State y = (q, q', dissipated): q holds the nodes (position and slope each) and then x_i of the joint and, where the
-/// joint is kinked, the slope behind it, or the free mass's position once it has left; the dissipated energy is there
-/// only where the model dissipates.
+/// State y = (q, q', dissipated, supplied): q holds the nodes (position and slope each) and then x_i of the joint and,
+/// where the joint is kinked, the slope behind it, or the free mass's position once it has left; the dissipated energy
+/// is there only where the model dissipates, the work of supports only where they move. What a support drives stands in
+/// the state too, but is read from its motion, wherever it counts.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
   using Vector = Vec<double, D>;
 
-  /// `chain` is the initial state; its joint must be an interior node where the model has a sliding mass.
+  /// `chain` is the initial state, but for the velocity of driven supports; its joint must be an interior node where
+  /// the model has a sliding mass. Throws InvalidInput for moving supports with conservative velocities at events.
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
   ~BeamSystem() override;
 
-  Eigen::Index size() const override { return 2 * coordinates_ + (model_.dissipates() ? 1 : 0); }
+  Eigen::Index size() const override {
+    return 2 * coordinates_ + (model_.dissipates() ? 1 : 0) + (model_.driven() ? 1 : 0);
+  }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
-  void sample(const Eigen::VectorXd& y, double t) override {
-    if (on_sample) on_sample(y, t);
-  }
+  void sample(const Eigen::VectorXd& y, double t) override;
   bool proceed(double t) override { return !on_step || on_step(t); }
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
@@ -104,7 +110,9 @@ class BeamSystem final : public EventedOde {
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
     second_order()->jacobian(y, t, dfdy, dfdt);
   }
-  SecondOrderSystem* second_order() override;
+  /// A view of the equations for whoever needs one for a moment: another call may factor another matrix in it.
+  SecondOrderSystem* second_order();
+  std::unique_ptr<SecondOrderSystem> new_second_order() override;
   /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]).
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
   /// Evaluations of the equations, as accelerations or as a residual.
@@ -140,6 +148,12 @@ class BeamSystem final : public EventedOde {
   const Span<D>& right() const { return *right_; }
   /// What the supports hold: position and slope of the first and of the last node at the start.
   const std::array<Eigen::Matrix<double, node_size<D>, 1>, 2>& anchors() const { return anchors_; }
+  /// What the supports at start and end prescribe at time t.
+  std::array<DrivenPoint<D>, 2> driven_points(double t) const {
+    return {model_.start_motion.at(model_.start, t), model_.end_motion.at(model_.end, t)};
+  }
+  /// Puts what the supports drive where it is at time t.
+  void impose(Eigen::VectorXd& y, double t) const;
   /// Position of the sliding mass, on the beam or off it; empty without one.
   std::optional<Vector> mass_position(const Eigen::VectorXd& y) const;
   /// Energies, momentum and length, summed with `points` Gauss points an element.
@@ -149,6 +163,11 @@ class BeamSystem final : public EventedOde {
   struct JointElements {
     MovingEquations<double, D> left, right;
   };
+
+  /// What moving supports do to the equations of motion.
+  class Pull;
+  /// Where the four nodal vectors of element k are in an array like q.
+  std::array<double*, 4> vectors_of(double* q, int k) const;
 
   void adopt(const ChainState<D>& chain);
   /// Gives elements at the joint whose transported weights are about to be lost new ones, by the least change.
@@ -184,7 +203,8 @@ class BeamSystem final : public EventedOde {
   Eigen::Index behind_ = 0;  ///< where q holds the slope behind the joint: the node's own, unless the joint is kinked
   std::optional<Span<D>> left_, right_;
   ShapeTabulation left_table_, right_table_;
-  Eigen::VectorXd initial_;
+  std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
+  Eigen::VectorXd initial_, imposed_;
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;
   std::unique_ptr<ImplicitBeam<D>> implicit_;

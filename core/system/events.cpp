@@ -61,6 +61,7 @@ MergedWeights BeamSystem<D>::renew_weights(ChainState<D>& chain, double t) const
 template <int D>
 void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
+  impose(y, t);
   const Direction direction = index == 0 || index == 2 ? Direction::forward : Direction::backward;
   const EventType type = index == 4   ? EventType::reweighting
                          : index >= 2 ? EventType::separation

@@ -480,12 +480,11 @@ void FlowingBeam<D>::jacobian(const Eigen::VectorXd& /*y*/, double /*t*/, Eigen:
 }
 
 template <int D>
-SecondOrderSystem* FlowingBeam<D>::second_order() {
+std::unique_ptr<SecondOrderSystem> FlowingBeam<D>::new_second_order() {
   if (model_.ledger) {
     throw InvalidInput("/ledger", "true", "false with an implicit method: it integrates the motion alone");
   }
-  if (!implicit_) implicit_ = std::make_unique<ImplicitFlow<D>>(*this);
-  return implicit_.get();
+  return std::make_unique<ImplicitFlow<D>>(*this);
 }
 
 template <int D>

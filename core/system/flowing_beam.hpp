@@ -115,7 +115,7 @@ class FlowingBeam final : public EventedOde {
   /// Not there: throws InvalidInput.
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
   /// Throws InvalidInput where the state holds a ledger.
-  SecondOrderSystem* second_order() override;
+  std::unique_ptr<SecondOrderSystem> new_second_order() override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
   void sample(const Eigen::VectorXd& y, double t) override {
@@ -202,7 +202,6 @@ class FlowingBeam final : public EventedOde {
   Eigen::VectorXd prescribed_;  // accelerations: zero but for driven angles
   Eigen::VectorXd residual_;    // of the ledger
   std::size_t rhs_evaluations_ = 0;
-  std::unique_ptr<ImplicitFlow<D>> implicit_;
 };
 
 extern template class FlowingBeam<2>;

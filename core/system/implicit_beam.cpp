@@ -1,6 +1,7 @@
 #include "core/system/implicit_beam.hpp"
 
 #include "core/element/moving_tangent.hpp"
+#include "core/error.hpp"
 
 namespace vlbeam {
 namespace {
@@ -24,10 +25,17 @@ MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint
 }  // namespace
 
 template <int D>
-double ImplicitBeam<D>::Constraint::operator()(const double* q, bool rate) const {
+double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const {
   const Eigen::Map<const NodeVector> here(q + Eigen::Index{B} * node), next(q + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
-  return rate ? direction.dot(here) : direction.dot(here - anchor);
+  return direction.dot(here - anchor) - direction.template head<D>().dot(driven[node == 0 ? 0 : 1].value);
+}
+
+template <int D>
+double ImplicitBeam<D>::Constraint::rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const {
+  const Eigen::Map<const NodeVector> here(v + Eigen::Index{B} * node), next(v + Eigen::Index{B} * (node + 1));
+  if (tied) return direction.dot(here - next);
+  return direction.dot(here) - direction.template head<D>().dot(driven[node == 0 ? 0 : 1].rate);
 }
 
 template <int D>
@@ -226,6 +234,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   const Eigen::Index first = coordinates() - multipliers();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
+  const auto driven = system_.driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
     const Eigen::Index at = first + static_cast<Eigen::Index>(i);
@@ -234,7 +243,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
         next(r.data() + Eigen::Index{B} * (constraint.node + 1));
     here += multiplier * constraint.direction;
     if (constraint.tied) next -= multiplier * constraint.direction;
-    r[at] = constraint(q.data(), false);
+    r[at] = constraint.value(q.data(), driven);
   }
   if (slope_conditions_.count() > 0) {
     const auto& conditions = slope_conditions(q.data());
@@ -251,12 +260,14 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 }
 
 template <int D>
-ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const {
+ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                        double t) const {
   refresh();
+  const auto driven = system_.driven_points(t);
   ConstraintResidual largest;
   for (const auto& constraint : constraints_) {
-    largest.position = std::max(largest.position, std::abs(constraint(q.data(), false)));
-    largest.velocity = std::max(largest.velocity, std::abs(constraint(v.data(), true)));
+    largest.position = std::max(largest.position, std::abs(constraint.value(q.data(), driven)));
+    largest.velocity = std::max(largest.velocity, std::abs(constraint.rate(v.data(), driven)));
   }
   for (int i = 0; i < slope_conditions_.count(); ++i) {
     const Slopes slopes = joint_slopes(q.data());
@@ -267,13 +278,58 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 }
 
 template <int D>
-void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
+  const auto driven = system_.driven_points(t);
   Eigen::Index at = rates.size() - multipliers();
-  for (const auto& constraint : constraints_) rates[at++] = constraint(v.data(), true);
+  for (const auto& constraint : constraints_) rates[at++] = constraint.rate(v.data(), driven);
   for (int i = 0; i < slope_conditions_.count(); ++i) {
     rates[at++] = slope_conditions_.rate(i, joint_slopes(q.data()), joint_slopes(v.data()));
   }
+}
+
+template <int D>
+bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const {
+  if (!driven() || with_multipliers()) return false;
+  offset.setZero(q.size());
+  const auto points = system_.driven_points(t);
+  at_end_nodes([&](int node, const Support<D>& support) {
+    const std::size_t end = node == 0 ? 0 : 1;
+    const Vec<double, D> off =
+        position<D>(q.data(), node) - system_.anchors()[end].template head<D>() - points[end].value;
+    position<D>(offset.data(), node) =
+        support.out_of_frame((support.into_frame(off).array() * (1 - support.free_position)).matrix());
+  });
+  return true;
+}
+
+template <int D>
+double ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                       double t) {
+  if (!driven()) return 0;
+  system_.count_evaluation();
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  double power = 0;
+  at_end_nodes([&](int node, const Support<D>& support) {
+    if (!(node == 0 ? system_.model().start_motion : system_.model().end_motion)) return;
+    const Vec<double, D> force = support.into_frame(position<D>(free_.data(), node)),
+                         velocity = support.into_frame(position<D>(v.data(), node));
+    power += (force.array() * velocity.array() * (1 - support.free_position)).sum();
+  });
+  return power;
+}
+
+template <int D>
+double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
+                                            const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
+                                            Eigen::VectorXd& r) {
+  if (driven()) {
+    throw InvalidInput("/integrator/type", "\"energy-momentum\"",
+                       "it keeps an energy that moving supports change: take any other integrator");
+  }
+  system_.count_evaluation();
+  return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
 }
 
 template <int D>
@@ -326,10 +382,10 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
-  ++factorizations_;
   assemble(q, v, a, t, by_v, by_a);
   if (with_multipliers()) {
-    add_constraints(q, a, by_a);
+    constraint_scale_ = reference_mass_ * by_a;  // as the rest of the tangent: by a mass and by_a
+    add_constraints(q, a, constraint_scale_);
   } else {
     constrain_tangent();
   }
@@ -394,21 +450,19 @@ void ImplicitBeam<D>::constrain_tangent() {
   });
 }
 
-/// Rows and columns of the constraints, scaled as the rest of the tangent is: by a mass and by_a.
 template <int D>
-void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double by_a) {
-  constraint_scale_ = reference_mass_ * by_a;
+void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale) {
   for (const auto& constraint : constraints_) {
     auto& border = tangent_.add_border(constraint.node);
-    border.column[0] = border.row[0] = constraint_scale_ * constraint.direction;
-    if (constraint.tied) border.column[1] = border.row[1] = -constraint_scale_ * constraint.direction;
+    border.column[0] = border.row[0] = scale * constraint.direction;
+    if (constraint.tied) border.column[1] = border.row[1] = -scale * constraint.direction;
   }
   if (slope_conditions_.count() == 0) return;
   const auto& conditions = slope_conditions(q.data());
   const Slopes slopes = joint_slopes(q.data());
   const auto j = static_cast<std::size_t>(system_.joint());
   for (int i = 0; i < conditions.count(); ++i) {
-    const Slopes gradient = constraint_scale_ * conditions.gradient(i, slopes);
+    const Slopes gradient = scale * conditions.gradient(i, slopes);
     auto& border = tangent_.add_border(system_.joint());
     border.column[0].template tail<D>() = border.row[0].template tail<D>() = gradient.template head<D>();
     border.column[1].template tail<D>() = border.row[1].template tail<D>() = gradient.template tail<D>();
@@ -419,6 +473,35 @@ void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::Vec
     tangent_.lower[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomLeftCorner<D, D>();
     tangent_.diagonal[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomRightCorner<D, D>();
   }
+}
+
+template <int D>
+void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                              double by_v, double by_a, Eigen::MatrixXd& dense) {
+  assemble(q, v, a, t, by_v, by_a);
+  add_constraints(q, a, reference_mass_);
+  dense.setZero(coordinates(), coordinates());
+  tangent_.expand(dense);
+  dense.bottomRows(multipliers()) /= reference_mass_;
+}
+
+template <int D>
+void ImplicitBeam<D>::add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const {
+  const Eigen::Index before = Eigen::Index{B} * system_.joint() + D, behind = before + B;
+  const typename JointSlopeConditions::Form form = factor * slope_conditions_.form(static_cast<int>(i));
+  dense.block<D, D>(before, before) += form.template topLeftCorner<D, D>();
+  dense.block<D, D>(before, behind) += form.template topRightCorner<D, D>();
+  dense.block<D, D>(behind, before) += form.template bottomLeftCorner<D, D>();
+  dense.block<D, D>(behind, behind) += form.template bottomRightCorner<D, D>();
+}
+
+template <int D>
+void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
+  const auto& leader = dynamic_cast<const ImplicitBeam&>(other);
+  leader.refresh();
+  refresh();
+  omitted_axis_ = leader.omitted_axis_;
+  slope_conditions_ = leader.slope_conditions_;
 }
 
 template <int D>

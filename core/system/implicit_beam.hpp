@@ -32,16 +32,24 @@ class ImplicitBeam final : public SecondOrderSystem {
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
-  ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override;
-  void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& rates) const override;
+  ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
+  void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                        Eigen::VectorXd& rates) const override;
+  bool driven() const override { return system_.model().driven(); }
+  bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
+  double supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                        double t) override;
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
+               double by_a, Eigen::MatrixXd& dense) override;
+  Eigen::Index curved_constraints() const override { return slope_conditions_.count(); }
+  void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
+  double multiplier_unit() const override { return reference_mass_; }
+  void follow(const SecondOrderSystem& other) override;
   double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
-                             const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override {
-    system_.count_evaluation();
-    return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
-  }
+                             const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override;
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
 
   /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]), at a
@@ -53,14 +61,16 @@ class ImplicitBeam final : public SecondOrderSystem {
   using Block = Eigen::Matrix<double, B, B>;
   using NodeVector = Eigen::Matrix<double, B, 1>;
 
-  /// direction . (q of `node` - anchor) = 0, or, tied, direction . (q of `node` - q of the next node) = 0.
+  /// direction . (q of `node` - anchor - what its support prescribes) = 0, or, tied, direction . (q of `node` - q of
+  /// the next node) = 0.
   struct Constraint {
     int node;
     NodeVector direction;
     NodeVector anchor;
     bool tied;
 
-    double operator()(const double* q, bool rate) const;
+    double value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const;
+    double rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const;
   };
 
   using JointSlopeConditions = SlopeConditions<D>;
@@ -88,10 +98,13 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
-  void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double by_a);
+  /// Rows and columns of the constraints, times `scale`, and what their forces add to the tangent.
+  void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
   void add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                             double by_v, double by_a);
   void add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
+  /// What moving supports change of the Jacobian.
+  void add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
   template <class Function>
   void at_end_nodes(const Function& function) const;
 

@@ -201,7 +201,6 @@ void ImplicitFlow<D>::constrain() {
 template <int D>
 bool ImplicitFlow<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
-  ++factorizations_;
   assemble(q, v, a, t, {1, by_v, by_a});
   constrain();
   if (!axis_.factor()) return false;

@@ -19,7 +19,9 @@ template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
   refresh();
   const Eigen::Index n = coordinates();
-  const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
+  Eigen::VectorXd exact = y;
+  system_.impose(exact, t);
+  const Eigen::VectorXd q = exact.head(n), v = exact.segment(n, n);
   a_.resize(n);
   acceleration(q, v, t, a_);
 
@@ -47,9 +49,13 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
     solve(column_);
     dfdy.block(n, n + k, n, 1) = -column_;
   }
-  if (y.size() > 2 * n) add_dissipation_row(y, t, dfdy);
+  if (system_.model().dissipates()) add_dissipation_row(exact, t, dfdy);
 
   dfdt.setZero();
+  if (driven()) {
+    add_drive(exact, t, dfdy, dfdt);
+    return;
+  }
   const double ramp = system_.model().gravity_ramp;
   if (t < ramp) {  // time is in the share of gravity alone, and f is affine in that
     weightless_.resize(y.size());
@@ -62,7 +68,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
 /// By differences: nothing depends on the dissipated energy, so that this row only serves its own accuracy.
 template <int D>
 void ImplicitBeam<D>::add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy) {
-  const Eigen::Index n = coordinates(), last = y.size() - 1;
+  const Eigen::Index n = coordinates(), last = 2 * n;
   Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
   column_.resize(n);
   auto power = [&] { return residual(q, v, a_, t, column_); };
@@ -77,6 +83,41 @@ void ImplicitBeam<D>::add_dissipation_row(const Eigen::VectorXd& y, double t, Ei
   }
 }
 
+/// Nothing depends on driven entries of the state, everything on time. The work of the supports and the derivative by
+/// time are differenced: a function of time comes with two derivatives only, and accelerations take them both.
+template <int D>
+void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
+  const Eigen::Index n = coordinates(), last = y.size() - 1;
+  const double share = std::cbrt(std::numeric_limits<double>::epsilon());
+  Eigen::VectorXd at = y, more(y.size()), less(y.size());
+  for (Eigen::Index k = 0; k < 2 * n; ++k) {
+    const double step = share * std::max(1.0, std::abs(y[k]));
+    at[k] = y[k] + step;
+    system_.rhs(at, more, t);
+    at[k] = y[k] - step;
+    system_.rhs(at, less, t);
+    at[k] = y[k];
+    dfdy(last, k) = (more[last] - less[last]) / (2 * step);
+  }
+  const auto& model = system_.model();
+  for (const bool start : {true, false}) {
+    if (!(start ? model.start_motion : model.end_motion)) continue;
+    const Support<D>& support = start ? model.start : model.end;
+    const Eigen::Matrix<double, D, D> keep =
+        support.frame * support.free_position.matrix().asDiagonal() * support.frame.transpose();
+    const Eigen::Index position = start ? 0 : Eigen::Index{B} * (nodes() - 1);
+    for (const Eigen::Index first : {position, n + position}) {
+      dfdy.middleCols<D>(first) = (dfdy.middleCols<D>(first) * keep).eval();
+    }
+  }
+  constexpr double instant = 1e-6;  // [s], far below the period of anything a beam is shaken with
+  system_.rhs(y, more, t + instant);
+  system_.rhs(y, less, t - instant);
+  dfdt = (more - less) / (2 * instant);
+}
+
+template void ImplicitBeam<2>::add_drive(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
+template void ImplicitBeam<3>::add_drive(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
 template void ImplicitBeam<2>::add_dissipation_row(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
 template void ImplicitBeam<2>::jacobian(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
 template void ImplicitBeam<3>::add_dissipation_row(const Eigen::VectorXd&, double, Eigen::MatrixXd&);

@@ -42,6 +42,8 @@ const std::vector<std::pair<const char*, double (*)(const Energy&)>>& energies()
   return table;
 }
 
+bool moves_supports(const Scene& scene) { return scene.start.motion || scene.end.motion; }
+
 /// What a beam that spins, flows or bears loads adds to its samples.
 Json flow_samples(const Scene& scene, const std::vector<Sample>& rows) {
   const int d = scene.dimension;
@@ -76,6 +78,7 @@ Json samples(const Scene& scene, const std::vector<Sample>& rows) {
   for (const auto& [name, value] : energies()) {
     energy[name] = of([value = value](const Sample& s) -> Json { return value(s.energy); });
   }
+  if (moves_supports(scene)) energy["supplied"] = of([](const Sample& s) -> Json { return s.energy.supplied; });
   energy["discrete_total"] = of([](const Sample& s) -> Json { return s.discrete_total; });
   Json reactions = Json::object();
   const std::array<std::pair<const char*, SupportType>, 2> ends{{{"start", scene.start.type}, {"end", scene.end.type}}};
@@ -171,6 +174,7 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
   text += ",beam_length,beam_length_rate";
   for (const auto& [name, value] : energies()) text += std::string(",energy_") + name;
   for (std::size_t i = 0; i < d; ++i) text += std::string(",momentum_") + axes[i];
+  if (moves_supports(scene)) text += ",energy_supplied";
   if (flows(scene)) text += ",mass";
   if (scene.spin) text += ",angle_start,angle_end";
   const std::size_t loads = flows(scene) && !result.samples.empty() ? result.samples.front().flow->loads.size() : 0;
@@ -189,6 +193,7 @@ std::string samples_csv(const Scene& scene, const RunResult& result) {
     cell(s.beam_length_rate);
     for (const auto& [name, value] : energies()) cell(value(s.energy));
     for (std::size_t i = 0; i < d; ++i) cell(s.momentum[i]);
+    if (moves_supports(scene)) cell(s.energy.supplied);
     if (s.flow) {
       cell(s.flow->mass);
       if (s.flow->end_angles) std::ranges::for_each(*s.flow->end_angles, cell);

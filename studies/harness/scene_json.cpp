@@ -181,6 +181,8 @@ class Reader {
  public:
   explicit Reader(const Json& file) : file_(file) {}
 
+  std::string in_file(std::string_view at) const { return file_.in_file(at); }
+
   template <class T>
   void operator()(const Option& option, T& member) const {
     const Json* const value = file_.find(option.pointer);
@@ -322,6 +324,8 @@ class Writer {
 Scene scene_with_every_part() {
   Scene scene;
   scene.sliding_mass.emplace().friction.emplace();
+  scene.start.motion.emplace();
+  scene.end.motion.emplace();
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();
@@ -330,8 +334,13 @@ Scene scene_with_every_part() {
 
 Scene scene_from_json(const Json& json) {
   Scene scene;
-  visit_options(Reader(json), scene);
-  validate(scene);
+  const Reader reader(json);
+  visit_options(reader, scene);
+  try {
+    validate(scene);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(reader.in_file(error.field), error.value, error.allowed);
+  }
   return scene;
 }
 

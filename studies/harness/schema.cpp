@@ -238,8 +238,10 @@ Json run_schema() {
                               {"torsion", numbers},
                               {"gravity", numbers},
                               {"dissipated", numbers},
+                              {"supplied", numbers},
                               {"total", numbers},
-                              {"discrete_total", numbers}});
+                              {"discrete_total", numbers}},
+                             {"supplied"});
   const Json reaction = record({{"position", array_of(point)}, {"slope", array_of(point)}});
   const Json flow =
       record({{"mass", numbers},

@@ -87,7 +87,7 @@ TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
   for (int k = 0; k < beam.nodes(); ++k) {
     position<D>(acceleration.data(), k) = along * nodes[static_cast<std::size_t>(k)].acceleration;
   }
-  beam.second_order()->residual(y.head(n), y.segment(n, n), acceleration, t, residual);
+  beam.new_second_order()->residual(y.head(n), y.segment(n, n), acceleration, t, residual);
   EXPECT_LE(residual.template lpNorm<Eigen::Infinity>(), 1e-13);
 }
 

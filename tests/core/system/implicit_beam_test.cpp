@@ -106,6 +106,44 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   }
 }
 
+/// A linear combination of its columns is the residual's change along (d, by_v d, by_a d), multipliers by one each.
+TYPED_TEST(ImplicitBeamTest, DenseTangentIsTheDerivativeOfTheResidual) {
+  constexpr int D = TypeParam::value;
+  unsigned seed = 51;
+  for (const auto& [shape, constraints, friction] : cases()) {
+    if (constraints != Constraints::multipliers) continue;
+    Case<D> c(shape, seed++, constraints, friction);
+    auto& implicit = *c.system->second_order();
+    const Eigen::Index n = c.q.size(), m = implicit.multipliers();
+    const double by_v = 7, by_a = 300;
+    Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(n, [&] { return c.random.uniform(-1, 1); });
+    d *= 0.1 / d.norm();
+    Eigen::VectorXd of_a = by_a * d;
+    of_a.tail(m) = d.tail(m);
+    Eigen::MatrixXd dense;
+    implicit.tangent(c.q, c.v, c.a, 0, by_v, by_a, dense);
+    auto change = [&](double s) {
+      Eigen::VectorXd plus(n), minus(n);
+      implicit.residual(c.q + s * d, c.v + s * by_v * d, c.a + s * of_a, 0, plus);
+      implicit.residual(c.q - s * d, c.v - s * by_v * d, c.a - s * of_a, 0, minus);
+      return Eigen::VectorXd((plus - minus) / (2 * s));
+    };
+    const Eigen::VectorXd expected = (4 * change(5e-4) - change(1e-3)) / 3;
+    EXPECT_LE((dense * d - expected).norm(), 1e-7 * expected.norm()) << "joint " << shape.joint;
+    EXPECT_EQ(dense.topRightCorner(n - m, m),
+              (implicit.multiplier_unit() * dense.bottomLeftCorner(m, n - m).transpose()).eval());
+    Eigen::VectorXd rates(n), more(n);
+    for (Eigen::Index i = 0; i < implicit.curved_constraints(); ++i) {  // quadratic forms: C_q v changes by d.C_qq v
+      Eigen::MatrixXd second = Eigen::MatrixXd::Zero(n, n);
+      implicit.add_curvature(i, 1, second);
+      implicit.constraint_rates(c.q, c.v, 0, rates);
+      implicit.constraint_rates(c.q + d, c.v, 0, more);
+      const Eigen::Index at = n - implicit.curved_constraints() + i;
+      EXPECT_NEAR(more[at] - rates[at], d.dot(second * c.v), 1e-12);
+    }
+  }
+}
+
 TYPED_TEST(ImplicitBeamTest, ReactionsOfAKinkedBeamDoNotDependOnHowItsConstraintsAreTreated) {
   constexpr int D = TypeParam::value;
   for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {

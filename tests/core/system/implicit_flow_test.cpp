@@ -145,7 +145,7 @@ TEST(ImplicitFlow, KeepsNoLedger) {
   FlowingModel<2> model = whirling<2>();
   model.ledger = true;
   FlowingBeam<2> beam(model);
-  EXPECT_THROW(beam.second_order(), InvalidInput);
+  EXPECT_THROW(beam.new_second_order(), InvalidInput);
 }
 
 }  // namespace
