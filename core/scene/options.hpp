@@ -611,7 +611,8 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           scene.integrator.newton);
   visitor(Option{.pointer = "/integrator/newton_tolerance",
                  .unit = "-",
-                 .description = "where Newton's iteration ends: its correction over the largest coordinate or 1",
+                 .description = "where Newton's iteration ends: its correction over the largest coordinate or 1; what "
+                                "it leaves adds up over the steps",
                  .range = {.low = 1e-15, .high = 1e-2},
                  .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
           scene.integrator.newton_tolerance);
