@@ -233,9 +233,9 @@ void ImplicitFlow<D>::solve(Eigen::VectorXd& r) const {
 }
 
 template <int D>
-typename ImplicitFlow<D>::Tangent ImplicitFlow<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                           const Eigen::VectorXd& a, double t,
-                                                           const TangentWeights& by) {
+typename ImplicitFlow<D>::Tangent ImplicitFlow<D>::free_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                                const Eigen::VectorXd& a, double t,
+                                                                const TangentWeights& by) {
   assemble(q, v, a, t, by);
   auto reduced = [](const auto& band, int block, const Eigen::MatrixXd& basis) -> Eigen::MatrixXd {
     Eigen::MatrixXd full =

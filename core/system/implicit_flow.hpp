@@ -32,8 +32,8 @@ class ImplicitFlow final : public SecondOrderSystem {
   struct Tangent {
     Eigen::MatrixXd axis, angles;
   };
-  Tangent tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                  const TangentWeights& by);
+  Tangent free_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                       const TangentWeights& by);
 
  private:
   static constexpr int B = node_size<D>;

@@ -58,7 +58,7 @@ Eigen::VectorXd steady_state(FlowingBeam<D>& beam, const Eigen::VectorXd& guess,
     last = correction;
   }
   if (!unstable) {
-    const auto K = flow.tangent(q, v, a, t, {1, 0, 0});
+    const auto K = flow.free_tangent(q, v, a, t, {1, 0, 0});
     auto positive = [](const Eigen::MatrixXd& k) {
       return k.size() == 0 || Eigen::LLT<Eigen::MatrixXd>((k + k.transpose()) / 2).info() == Eigen::Success;
     };
@@ -77,9 +77,9 @@ LinearFlows linear_flows(FlowingBeam<D>& beam, const Eigen::VectorXd& y, double 
   ImplicitFlow<D> flow(beam);
   const Eigen::Index n = beam.coordinates();
   const Eigen::VectorXd q = y.head(n), v = y.segment(n, n), a = Eigen::VectorXd::Zero(n);
-  const auto K = flow.tangent(q, v, a, t, {1, 0, 0});
-  const auto C = flow.tangent(q, v, a, t, {0, 1, 0});
-  const auto M = flow.tangent(q, v, a, t, {0, 0, 1});
+  const auto K = flow.free_tangent(q, v, a, t, {1, 0, 0});
+  const auto C = flow.free_tangent(q, v, a, t, {0, 1, 0});
+  const auto M = flow.free_tangent(q, v, a, t, {0, 0, 1});
   return {{M.axis, C.axis, K.axis}, {M.angles, C.angles, K.angles}};
 }
 
