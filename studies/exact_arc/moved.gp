@@ -7,7 +7,7 @@ set logscale y
 set format y "10^{%T}"
 set yrange [1e-17:1]
 set xlabel "joint position / element length"
-set key at graph 0.97,0.55 right
+set key outside bottom center horizontal
 do for [i=1:3] {
   set title sprintf("(%s) elements of %s°", word("a b c", i), word(angles, i))
   if (i == 1) { set ylabel "max ||{/:Bold r}| - R| / R" } else { unset ylabel }

@@ -1,7 +1,7 @@
 # Figure 16: configurations, beam length, trajectory of the sliding node, energies.
 width = 1200; height = 980
 load folder . "/style.gp"
-set multiplot layout 2,2 title "Mass sliding on a suspended semicircular beam (strains measured from the initial shape)" margins 0.07,0.97,0.07,0.9 spacing 0.09,0.11
+set multiplot layout 2,2 title "Mass sliding on a suspended semicircular beam (strains measured from the initial shape)" margins 0.07,0.97,0.07,0.9 spacing 0.09,0.14
 
 set title "(a) configurations, N = " . finest
 set size ratio -1

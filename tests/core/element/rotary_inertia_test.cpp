@@ -9,8 +9,6 @@
 namespace vlbeam::test {
 namespace {
 
-using First = Dual<double>;
-using Second = Dual<First>;
 template <class Real>
 using Column = Eigen::Matrix<Real, 14, 1>;  // r_A, s_A, r_B, s_B, x_A, x_B
 
@@ -67,34 +65,36 @@ TEST(RotaryInertia, FollowsLagrangesEquationsOfTheMovingElement) {
     Column<double> q = random.vector<14>(), rate = random.vector<14>(), a = random.vector<14>();
     q[12] = 0.2;
     q[13] = random.uniform(0.9, 1.4);
-    auto second = [&](const Column<double>& v1, const Column<double>& q2, const Column<double>& v2) {
-      Column<Second> at, moving;
-      for (int i = 0; i < 14; ++i) {
-        at[i] = {First(q[i], 0), First(q2[i])};
-        moving[i] = {First(rate[i], v1[i]), First(v2[i])};
-      }
-      return lagrangian<Second>(at, moving).rate.rate;
-    };
-    const Column<double> still = Column<double>::Zero();
-    const Column<double> by_position =
-        gradient([&](const Column<First>& at) { return lagrangian<First>(at, Column<First>(rate.cast<First>())); }, q);
+    const Column<double> expected = lagrange_residual(
+        []<class Real>(const Column<Real>& at, const Column<Real>& moving) { return lagrangian<Real>(at, moving); }, q,
+        rate, a);
     const Prescribed x_a{q[12], rate[12], a[12]}, x_b{q[13], rate[13], a[13]};
     const ShapeTabulation table(gauss_legendre(4), unit_weights);
     const RotaryElement element(x_a, x_b, table);
     const auto residual = element.residual(rotary, nodal(q), nodal(rate));
-    double power = rotary_power(rotary, x_a, x_b, table, nodal(q), nodal(rate), nodal(a)), size = 0, error = 0;
-    for (int i = 0; i < 14; ++i) {
-      const Column<double> unit = Column<double>::Unit(i);
-      const double expected = second(unit, rate, still) + second(unit, still, a) - by_position[i];
-      power -= expected * rate[i];  // all forces, guiding ones among them, supply the energy
-      if (i >= 12) continue;
-      double found = residual[static_cast<std::size_t>(i / 3)][i % 3];
-      found += element.inertia(rotary, nodal(a))[static_cast<std::size_t>(i / 3)][i % 3];
-      size = std::max(size, std::abs(expected));
-      error = std::max(error, std::abs(found - expected));
+    const auto inertia = element.inertia(rotary, nodal(a));
+    const double size = expected.lpNorm<Eigen::Infinity>();
+    double error = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector3d row = expected.segment<3>(3 * static_cast<int>(i));
+      error = std::max(error, (residual[i] + inertia[i] - row).lpNorm<Eigen::Infinity>());
     }
     EXPECT_LE(error, 1e-13 * size);
-    EXPECT_LE(std::abs(power), 1e-12 * size);
+    // all forces, guiding ones among them, supply the energy
+    const double power = rotary_power(rotary, x_a, x_b, table, nodal(q), nodal(rate), nodal(a));
+    EXPECT_LE(std::abs(power - expected.dot(rate)), 1e-12 * size);
+
+    // everything is linear in the nodal coordinates: the tangent maps them to the residual
+    const TangentWeights by{0.7, 1.9, 2.3};
+    const Eigen::Matrix<double, 12, 1> d = random.vector<12>();
+    Column<double> along = Column<double>::Zero();
+    along.head<12>() = d;
+    const Eigen::Matrix<double, 12, 1> mapped = element.tangent(rotary, by) * d;
+    const auto moved = element.residual(rotary, nodal(by.q * along), nodal(by.v * along));
+    const auto pushed = element.inertia(rotary, nodal(by.a * along));
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_LE((mapped.segment<3>(3 * static_cast<int>(i)) - moved[i] - pushed[i]).norm(), 1e-13 * mapped.norm());
+    }
   }
 }
 

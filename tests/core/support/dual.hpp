@@ -68,6 +68,30 @@ Eigen::Matrix<double, N, 1> gradient(const Function& f, const Eigen::Matrix<doub
   return result;
 }
 
+/// Lagrange's equations d/dt dL/dq' - dL/dq at (q, q', q''), by automatic differentiation of
+/// `lagrangian.operator()<Real>(q, q')`.
+template <int N, class Lagrangian>
+Eigen::Matrix<double, N, 1> lagrange_residual(const Lagrangian& lagrangian, const Eigen::Matrix<double, N, 1>& q,
+                                              const Eigen::Matrix<double, N, 1>& rate,
+                                              const Eigen::Matrix<double, N, 1>& a) {
+  using First = Dual<double>;
+  using Second = Dual<First>;
+  using Column = Eigen::Matrix<double, N, 1>;
+  auto second = [&](const Column& v1, const Column& q2, const Column& v2) {
+    Eigen::Matrix<Second, N, 1> at, moving;
+    for (int i = 0; i < N; ++i) {
+      at[i] = {First(q[i], 0), First(q2[i])};
+      moving[i] = {First(rate[i], v1[i]), First(v2[i])};
+    }
+    return lagrangian.template operator()<Second>(at, moving).rate.rate;
+  };
+  const Eigen::Matrix<First, N, 1> still = rate.template cast<First>();
+  Column result = -gradient(
+      [&](const Eigen::Matrix<First, N, 1>& at) { return lagrangian.template operator()<First>(at, still); }, q);
+  for (int i = 0; i < N; ++i) result[i] += second(Column::Unit(i), rate, a);
+  return result;
+}
+
 }  // namespace vlbeam::test
 
 template <class Real>

@@ -33,6 +33,21 @@ Eigen::VectorXd moving_span_state(const FlowingBeam<D>& beam, double speed) {
   return beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), stretch, speed, 0);
 }
 
+/// First torsional frequency of a rod fixed at both ends that flows at half the speed of its waves; l = c = 1.
+inline double flowing_rod(int elements, Formulation formulation, AngleField field = AngleField::linear) {
+  FlowingModel<2> model;
+  model.section = {.rhoA = 1, .stiffness = {1, 1}};
+  model.spin = SpinSection{.rhoIp = 1, .GIp = 1};
+  model.angle_field = field;
+  model.formulation = formulation;
+  model.motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
+  model.supports = {{0, Support<2>::pin()}, {elements, Support<2>::pin()}};
+  model.angles = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
+  FlowingBeam<2> beam(model);
+  const Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
+  return frequencies(eigenvalues(linear_flows(beam, y).angles)).front();
+}
+
 /// A state in which everything moves: a curved, stretched, twisted beam with random rates.
 template <int D>
 Eigen::VectorXd random_state(const FlowingBeam<D>& beam, Random& random, double size = 0.05) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/support/chain_models.hpp"
+#include "tests/core/support/differences.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -39,10 +40,6 @@ TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
       Eigen::MatrixXd dfdy(size, size);
       Eigen::VectorXd dfdt(size);
       system.jacobian(y, t, dfdy, dfdt);
-      auto slope = [&](const auto& along) {
-        auto central = [&](double s) -> Eigen::VectorXd { return (along(s) - along(-s)) / (2 * s); };
-        return Eigen::VectorXd((4 * central(5e-5) - central(1e-4)) / 3);
-      };
       for (int i = 0; i < 3; ++i) {
         auto allowed = [&]() -> Eigen::VectorXd {  // as accelerations are
           Eigen::VectorXd other = y;
@@ -52,10 +49,10 @@ TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
         Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
         d.head(n) = allowed();
         d.segment(n, n) = allowed();
-        const Eigen::VectorXd expected = slope([&](double s) { return f(y + s * d, t); });
+        const Eigen::VectorXd expected = slope_of([&](double s) { return f(y + s * d, t); });
         EXPECT_LE((dfdy * d - expected).norm(), 1e-6 * expected.norm()) << "joint " << shape.joint;
       }
-      const Eigen::VectorXd in_time = slope([&](double s) { return f(y, t + s); });
+      const Eigen::VectorXd in_time = slope_of([&](double s) { return f(y, t + s); });
       EXPECT_GT(in_time.norm(), 0);
       EXPECT_LE((dfdt - in_time).norm(), 1e-7 * in_time.norm());
     }

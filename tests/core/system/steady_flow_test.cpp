@@ -82,20 +82,6 @@ TEST(SteadyFlow, RotaryInertiaSplitsTheWhirlOfASpinningShaft) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4, 0.2);
 }
 
-/// First torsional frequency of a rod fixed at both ends that flows at half the speed of its waves; l = c = 1.
-double flowing_rod(int elements, Formulation formulation) {
-  FlowingModel<2> model;
-  model.section = {.rhoA = 1, .stiffness = {1, 1}};
-  model.spin = SpinSection{.rhoIp = 1, .GIp = 1};
-  model.formulation = formulation;
-  model.motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
-  model.supports = {{0, Support<2>::pin()}, {elements, Support<2>::pin()}};
-  model.angles = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
-  FlowingBeam<2> beam(model);
-  const Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
-  return frequencies(eigenvalues(linear_flows(beam, y).angles)).front();
-}
-
 TEST(SteadyFlow, TorsionOfAFlowingRodNeedsTheMomentumFluxAtTheNodes) {
   const std::pair<int, double> expected[] = {{4, 0.40024}, {8, 0.38121}, {16, 0.37655}, {32, 0.37539}, {64, 0.37510}};
   for (const auto& [elements, frequency] : expected) {

@@ -12,6 +12,7 @@
 #include "core/scene/build.hpp"
 #include "core/system/implicit_beam.hpp"
 #include "tests/core/support/chain_models.hpp"
+#include "tests/core/support/differences.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {
@@ -110,16 +111,12 @@ TYPED_TEST(DrivenEquations, JacobianIsTheDerivativeOfTheRightHandSide) {
     Eigen::MatrixXd dfdy(size, size);
     Eigen::VectorXd dfdt(size);
     system.jacobian(y, t, dfdy, dfdt);
-    auto slope = [&](const auto& along) {
-      auto central = [&](double s) -> Eigen::VectorXd { return (along(s) - along(-s)) / (2 * s); };
-      return Eigen::VectorXd((4 * central(5e-5) - central(1e-4)) / 3);
-    };
     Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(size, [&] { return random.uniform(-0.3, 0.3); });
     d.segment<D>(D).setZero();  // the clamped slope has a fixed direction
     d.segment<D>(n + D).setZero();
-    const Eigen::VectorXd expected = slope([&](double s) { return f(y + s * d, t); });
+    const Eigen::VectorXd expected = slope_of([&](double s) { return f(y + s * d, t); });
     EXPECT_LE((dfdy * d - expected).norm(), 1e-6 * expected.norm()) << "joint " << shape.joint;
-    const Eigen::VectorXd in_time = slope([&](double s) { return f(y, t + s); });
+    const Eigen::VectorXd in_time = slope_of([&](double s) { return f(y, t + s); });
     EXPECT_LE((dfdt - in_time).norm(), 1e-6 * in_time.norm());
   }
 }
