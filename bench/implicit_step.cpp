@@ -19,8 +19,8 @@ void implicit_step(benchmark::State& state, NewtonKind newton, Constraints const
   scene.constraints = constraints;
   BeamSystem<2> system(build_model<2>(scene), build_chain<2>(scene));
   NewtonCounters counters;
-  const auto stepper = make_generalized_alpha(
-      *system.second_order(), {.step = 1e-3, .newton = newton, .newton_tolerance = 1e-10, .tolerances = {}}, &counters);
+  const auto stepper =
+      make_generalized_alpha(*system.second_order(), {.step = 1e-3, .newton = newton, .tolerances = {}}, &counters);
   const Eigen::VectorXd start = system.initial_state();
   Eigen::VectorXd y = start;
   double t = 0, dt = 1e-3;

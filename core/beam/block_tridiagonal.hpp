@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -62,7 +63,7 @@ class BorderedBlockTridiagonal {
         lower[k] = lower[k] * inverse_[k - 1];  // the elimination factor takes the place of the block it eliminates
         pivot.noalias() -= lower[k] * upper[k - 1];
       }
-      inverse_[k] = pivot.inverse();
+      inverse_[k] = inverse_of(pivot);
       if (!inverse_[k].allFinite()) return false;
     }
     if (border.empty()) return true;
@@ -76,7 +77,8 @@ class BorderedBlockTridiagonal {
       substitute(column, static_cast<std::size_t>(from.first));
       for (int i = 0; i < borders(); ++i) rest(i, j) -= row_times(border[static_cast<std::size_t>(i)], column);
     }
-    corner_lu_.compute(rest);
+    corner_scale_ = scales_of(rest);
+    corner_lu_.compute(corner_scale_.asDiagonal() * rest * corner_scale_.asDiagonal());
     return rest.allFinite() && corner_lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0;
   }
 
@@ -87,8 +89,8 @@ class BorderedBlockTridiagonal {
     const std::size_t stride = B * diagonal.size();
     Eigen::Map<Eigen::VectorXd> extra(x + stride, borders());
     for (int i = 0; i < borders(); ++i) extra[i] -= row_times(border[static_cast<std::size_t>(i)], x);
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_borders, 1> solved = corner_lu_.solve(extra);
-    extra = solved;
+    const CornerVector solved = corner_lu_.solve(corner_scale_.cwiseProduct(extra));
+    extra = corner_scale_.cwiseProduct(solved);
     Eigen::Map<Eigen::VectorXd> nodal(x, static_cast<Eigen::Index>(stride));
     for (int j = 0; j < borders(); ++j) {
       nodal -= extra[j] * Eigen::Map<const Eigen::VectorXd>(columns_.data() + stride * static_cast<std::size_t>(j),
@@ -121,6 +123,30 @@ class BorderedBlockTridiagonal {
   Corner corner;  ///< among the border's unknowns; new ones are zero
 
  private:
+  using CornerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_borders, 1>;
+
+  /// Powers of two that bring the diagonal near that of the first unknown. Unknowns have several units: pivots chosen
+  /// by size would depend on them, and with them the rounding.
+  template <class Matrix>
+  static auto scales_of(const Matrix& matrix) {
+    Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1> scales(matrix.rows());
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      const double ratio = std::abs(matrix(i, i) / matrix(0, 0));
+      scales[i] = std::isnormal(ratio) ? std::ldexp(1.0, -(std::ilogb(ratio) >> 1)) : 1;
+    }
+    return scales;
+  }
+
+  static Block inverse_of(const Block& pivot) {
+    if constexpr (B <= 4) {
+      return pivot.inverse();  // in closed form, without pivoting
+    } else {
+      const Vector scale = scales_of(pivot);
+      return scale.asDiagonal() * (scale.asDiagonal() * pivot * scale.asDiagonal()).eval().inverse() *
+             scale.asDiagonal();
+    }
+  }
+
   static Eigen::Map<Vector> block(double* x, int k) { return Eigen::Map<Vector>(x + std::ptrdiff_t{B} * k); }
   static Eigen::Map<const Vector> block(const double* x, int k) {
     return Eigen::Map<const Vector>(x + std::ptrdiff_t{B} * k);
@@ -148,8 +174,9 @@ class BorderedBlockTridiagonal {
   }
 
   std::vector<Block> inverse_;
-  std::vector<double> columns_;  ///< the border's columns, solved
-  Eigen::PartialPivLU<Corner> corner_lu_;
+  std::vector<double> columns_;            ///< the border's columns, solved
+  Eigen::PartialPivLU<Corner> corner_lu_;  ///< of the scaled corner
+  CornerVector corner_scale_;
 };
 
 }  // namespace vlbeam

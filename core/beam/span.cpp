@@ -76,9 +76,13 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              StrainLaw law, const QuadratureRule& rule, const RestCurve<D>* rest)
-    : outer_(outer), open_(open), step_(outer <= open ? 1 : -1), support_(support), section_(section) {
-  choose_kernels(law, rest != nullptr);
+              const QuadratureRule& rule, const RestCurve<D>* rest)
+    : outer_(outer),
+      open_(open),
+      step_(outer <= open ? 1 : -1),
+      support_(support),
+      section_(section),
+      curved_at_rest_(rest != nullptr) {
   build_packs(mesh, rule, rest);
   factor(mesh, rule);
 }
@@ -176,8 +180,8 @@ void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule) {
 
 template <int D>
 double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
-  const double dissipation = (this->*forces_)(q, rate, force);
-  if (rest_forces_ != nullptr) (this->*rest_forces_)(q, force);
+  const double dissipation = forces(q, rate, force);
+  if (curved_at_rest_) rest_forces(q, force);
   const int low = std::min(outer_, open_);
   for (std::size_t k = 0; k < load_.size(); ++k) {
     const int node = low + static_cast<int>(k);

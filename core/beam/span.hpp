@@ -29,7 +29,7 @@ class Span {
   /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` is null for a straight,
   /// unstrained rest shape. Throws std::invalid_argument for a mass matrix that is not positive definite (too few
   /// quadrature points).
-  Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section, StrainLaw law,
+  Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
        const QuadratureRule& rule, const RestCurve<D>* rest);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
@@ -75,35 +75,18 @@ class Span {
     NodeBlock<D> inverse;
     CouplingBlock<Components> next;
   };
-  using Forces = double (Span::*)(const double*, const double*, double*) const;
-  using Tangents = void (Span::*)(const double*, const double*, double, double, NodeTangent<D>*, NodeTangent<D>*,
-                                  NodeTangent<D>*) const;
-
-  using RestForces = void (Span::*)(const double*, double*) const;
-  using RestTangents = void (Span::*)(const double*, NodeTangent<D>*, NodeTangent<D>*, NodeTangent<D>*) const;
-
-  template <StrainLaw Law, bool Bending, bool Damped>
   double forces(const double* q, const double* rate, double* force) const;
-  template <StrainLaw Law, bool Bending>
   void rest_forces(const double* q, double* force) const;
-  template <StrainLaw Law, bool Bending>
-  void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
-  template <StrainLaw Law, bool Bending, bool Damped>
   void tangents(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                 NodeTangent<D>* upper, NodeTangent<D>* lower) const;
-  template <StrainLaw Law, bool Bending, bool Damped>
-  void use_kernels(bool curved_at_rest);
-  void choose_kernels(StrainLaw law, bool curved_at_rest);
+  void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   void build_packs(const Mesh& mesh, const QuadratureRule& rule, const RestCurve<D>* rest);
   void factor(const Mesh& mesh, const QuadratureRule& rule);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
   BeamSection section_;
-  Forces forces_ = nullptr;
-  RestForces rest_forces_ = nullptr;  ///< null for a straight rest shape
-  Tangents tangents_ = nullptr;
-  RestTangents rest_tangents_ = nullptr;
+  bool curved_at_rest_;
   std::vector<PackOfElements> packs_;
   std::vector<Pivot> pivots_;  ///< from the outer node inwards, without the open node
   NodeBlock<D> open_mass_;

@@ -67,16 +67,15 @@ void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
 // Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
 // calls.
 template <int D>
-template <StrainLaw Law, bool Bending, bool Damped>
 [[gnu::flatten]] double Span<D>::forces(const double* q, const double* rate, double* force) const {
   double dissipation = 0;
   for (const auto& pack : packs_) {
     const auto offset = lane_offsets<D>(pack.count);
     const auto e = load_elements<D>(q, pack.first, offset);
-    const auto e_rate = Damped ? load_elements<D>(rate, pack.first, offset) : e;
-    const auto f = fixed_force<Law, Bending, Damped, Pack, D>(pack.tables->basis, e, e_rate, section_);
+    const auto e_rate = section_.damped() ? load_elements<D>(rate, pack.first, offset) : e;
+    const auto f = fixed_force<Pack, D>(pack.tables->basis, e, e_rate, section_);
     add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
-    if constexpr (Damped) {
+    if (section_.damped()) {
       for (int i = 0; i < pack.count; ++i) dissipation += f.dissipation[i];
     }
   }
@@ -84,11 +83,10 @@ template <StrainLaw Law, bool Bending, bool Damped>
 }
 
 template <int D>
-template <StrainLaw Law, bool Bending>
 void Span<D>::rest_forces(const double* q, double* force) const {
   for (const auto& pack : packs_) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto f = rest_force<Law, Bending, Pack, D>(pack.tables->basis, pack.tables->rest, e, section_);
+    const auto f = rest_force<Pack, D>(pack.tables->basis, pack.tables->rest, e, section_);
     add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
   }
 }
@@ -112,27 +110,25 @@ void Span<D>::add_inertia(const double* a, double* out) const {
 }
 
 template <int D>
-template <StrainLaw Law, bool Bending, bool Damped>
-[[gnu::flatten]] void Span<D>::tangents(const double* q, [[maybe_unused]] const double* rate,
-                                        [[maybe_unused]] double by_v, double by_a, NodeTangent<D>* diagonal,
-                                        NodeTangent<D>* upper, NodeTangent<D>* lower) const {
+[[gnu::flatten]] void Span<D>::tangents(const double* q, const double* rate, double by_v, double by_a,
+                                        NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const {
   using Matrix = Eigen::Matrix<double, D, D>;
   for (const auto& pack : packs_) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto elastic = elastic_tangent<Law, Bending, Pack, D>(pack.tables->basis, e, section_.stiffness);
+    const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section_.stiffness);
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
       ChordTangent<double, D> viscous;
-      if constexpr (Damped) {
-        viscous = viscous_tangent<Law, Bending, D>(pack.tables->basis, i, element_nodes<D>(q, k),
-                                                   element_nodes<D>(rate, k), section_, by_v);
+      if (section_.damped()) {
+        viscous = viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section_,
+                                     by_v);
       }
       auto stiffness = [&](std::size_t row, std::size_t column) {
         Matrix result;
         for (int c = 0; c < D; ++c) {
           for (int d = 0; d < D; ++d) result(c, d) = elastic[row][column](c, d)[i];
         }
-        if constexpr (Damped) result += viscous[row][column];
+        if (section_.damped()) result += viscous[row][column];
         return result;
       };
       const auto& m = pack.tables->mass[static_cast<std::size_t>(i)];
@@ -152,14 +148,12 @@ template <StrainLaw Law, bool Bending, bool Damped>
 }
 
 template <int D>
-template <StrainLaw Law, bool Bending>
 void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                             NodeTangent<D>* lower) const {
   for (const auto& pack : packs_) {
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
-      const auto tangent =
-          rest_tangent<Law, Bending, D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
+      const auto tangent = rest_tangent<D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
       add_chord_tangent<D>([&](std::size_t row, std::size_t column) { return tangent[row][column]; }, diagonal + k,
                            upper + k, lower + k);
     }
@@ -169,36 +163,20 @@ void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTange
 template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  (this->*tangents_)(q, rate, by_v, by_a, diagonal, upper, lower);
-  if (rest_tangents_ != nullptr) (this->*rest_tangents_)(q, diagonal, upper, lower);
+  tangents(q, rate, by_v, by_a, diagonal, upper, lower);
+  if (curved_at_rest_) rest_tangents(q, diagonal, upper, lower);
 }
 
-template <int D>
-template <StrainLaw Law, bool Bending, bool Damped>
-void Span<D>::use_kernels(bool curved_at_rest) {
-  forces_ = &Span::forces<Law, Bending, Damped>;
-  tangents_ = &Span::tangents<Law, Bending, Damped>;
-  if (!curved_at_rest) return;
-  rest_forces_ = &Span::rest_forces<Law, Bending>;
-  rest_tangents_ = &Span::rest_tangents<Law, Bending>;
-}
-
-template <int D>
-void Span<D>::choose_kernels(StrainLaw law, bool curved_at_rest) {
-  auto choose = [&]<StrainLaw Law>() {
-    if (section_.bends()) {
-      section_.damped() ? use_kernels<Law, true, true>(curved_at_rest) : use_kernels<Law, true, false>(curved_at_rest);
-    } else {
-      section_.damped() ? use_kernels<Law, false, true>(curved_at_rest)
-                        : use_kernels<Law, false, false>(curved_at_rest);
-    }
-  };
-  law == StrainLaw::green ? choose.template operator()<StrainLaw::green>()
-                          : choose.template operator()<StrainLaw::engineering>();
-}
-
-template void Span<2>::choose_kernels(StrainLaw, bool);
-template void Span<3>::choose_kernels(StrainLaw, bool);
+template double Span<2>::forces(const double*, const double*, double*) const;
+template double Span<3>::forces(const double*, const double*, double*) const;
+template void Span<2>::rest_forces(const double*, double*) const;
+template void Span<3>::rest_forces(const double*, double*) const;
+template void Span<2>::tangents(const double*, const double*, double, double, NodeTangent<2>*, NodeTangent<2>*,
+                                NodeTangent<2>*) const;
+template void Span<3>::tangents(const double*, const double*, double, double, NodeTangent<3>*, NodeTangent<3>*,
+                                NodeTangent<3>*) const;
+template void Span<2>::rest_tangents(const double*, NodeTangent<2>*, NodeTangent<2>*, NodeTangent<2>*) const;
+template void Span<3>::rest_tangents(const double*, NodeTangent<3>*, NodeTangent<3>*, NodeTangent<3>*) const;
 template void Span<2>::add_inertia(const double*, double*) const;
 template void Span<3>::add_inertia(const double*, double*) const;
 template void Span<2>::add_tangent(const double*, const double*, double, double, NodeTangent<2>*, NodeTangent<2>*,

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/newton_stop.hpp"
+
 namespace vlbeam {
 namespace {
 
 constexpr double slow_contraction = 0.1;  // an iteration that gains less asks for a new tangent
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr double settled = 1e-11;  // a correction, relative to the coordinates, that rounding may leave
 
 class EnergyMomentum final : public Stepper {
  public:
@@ -23,6 +26,7 @@ class EnergyMomentum final : public Stepper {
     r_.resize(n);
     if (acceleration_.size() != n) acceleration_.setZero(n);
     v1_ = v0_ + h * acceleration_;
+    if (fields_.empty()) fields_ = system_.fields();
 
     double previous = 0, dissipation = 0;
     if (h != tangent_step_) tangent_step_ = 0;
@@ -33,10 +37,10 @@ class EnergyMomentum final : public Stepper {
       if (tangent_step_ == 0 && !linearize(t, h)) break;
       system_.solve(r_);  // twice the correction of q_1
       v1_ -= (4 / h) * r_;
-      const double correction = 2 * r_.lpNorm<Eigen::Infinity>() / std::max(1.0, q1_.lpNorm<Eigen::Infinity>());
-      if (!std::isfinite(correction)) break;
-      const bool at_rounding = correction <= rounding ||
-                               (iteration > 0 && correction <= options_.newton_tolerance && correction > previous / 2);
+      if (!r_.allFinite()) break;
+      const double correction = 2 * relative_to_coordinates(fields_, r_, q1_);
+      const bool at_rounding =
+          correction <= rounding || (iteration > 0 && correction <= settled && correction > previous / 2);
       if (at_rounding) {
         accept(y, t, h, n, dissipation);
         dt = options_.step;
@@ -53,6 +57,7 @@ class EnergyMomentum final : public Stepper {
   void reset() override {
     acceleration_.resize(0);
     tangent_step_ = 0;
+    fields_.clear();
   }
 
  private:
@@ -75,6 +80,7 @@ class EnergyMomentum final : public Stepper {
 
   SecondOrderSystem& system_;
   EnergyMomentumOptions options_;
+  std::vector<FieldRun> fields_;
   double tangent_step_ = 0;       ///< the step that the factored tangent was made for; 0 for none
   Eigen::VectorXd acceleration_;  ///< mean of the last step, which predicts the next one
   Eigen::VectorXd q0_, v0_, q1_, v1_, r_, middle_q_, middle_v_;

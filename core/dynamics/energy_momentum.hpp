@@ -9,9 +9,8 @@ namespace vlbeam {
 
 /// Options of the energy-momentum method.
 struct EnergyMomentumOptions {
-  double step = 1e-3;               ///< [s]
-  double newton_tolerance = 1e-11;  ///< a correction, relative to the coordinates' size, that rounding may leave
-  int newton_iterations = 30;       ///< beyond which the step is halved
+  double step = 1e-3;          ///< [s]
+  int newton_iterations = 30;  ///< beyond which the step is halved
 };
 
 /// Implicit method that keeps the system's total energy, whatever the step: q_1 = q_0 + h (v_0 + v_1)/2 and a change of

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/newton_stop.hpp"
+
 namespace vlbeam {
 namespace {
 
 constexpr double slow_contraction = 0.2;  // of a modified Newton iteration: a new tangent is then worth its cost
-constexpr double rounding = 1e-9;         // corrections below, and no longer falling, are rounding of a stiff tangent
-constexpr double shortest_share = 1e-5;   // of the step: below, rounding of constraints over h would go into velocities
+constexpr double stagnation = 0.5;       // contraction with tangents of the same step: rounding, or far from a solution
+constexpr double shortest_share = 1e-5;  // of the step: below, rounding of constraints over h would go into velocities
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
 
 class GeneralizedAlpha final : public Stepper {
@@ -42,23 +44,20 @@ class GeneralizedAlpha final : public Stepper {
       start_.h = h;
     }
 
-    // predictor: the velocity goes on. An acceleration carried on would throw stiff modes, whose period is shorter than
-    // the step, far off: Newton would start from a torn mesh
-    q_ = base_q_ + h * base_v_;
-    next_a_ = (-1 / beta_) * (0.5 - beta_) * start_.a;
-    v_ = base_v_ + h * ((1 - gamma_) * start_.a + gamma_ * next_a_);
-    acceleration_ =
-        ((1 - alpha_m_) * next_a_ + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
-
-    if (system_.driven_offset(q_, t + h, r_)) correct(h);  // what is driven has no equation that Newton would solve
-
     double dissipation = 0;
-    if (!solve(t + h, h, dissipation)) {
+    predict(t, h);
+    bool solved = solve(t + h, h, options_.newton, dissipation);
+    if (!solved && options_.newton == NewtonKind::modified) {  // before the step is given up: it would be another one
+      predict(t, h);
+      solved = solve(t + h, h, NewtonKind::full, dissipation);
+    }
+    if (!solved) {
       dt = h / 2;
       tangent_by_a_ = 0;
       stalled_ = true;
       return false;
     }
+    next_a_ = (-1 / beta_) * (0.5 - beta_) * start_.a + (1 / (h * h * beta_)) * d_;
     stalled_ = false;
     double next = options_.step;
     if (options_.adaptive) {
@@ -82,7 +81,10 @@ class GeneralizedAlpha final : public Stepper {
 
   void resume(const Stepper& other) override {
     const auto& main = dynamic_cast<const GeneralizedAlpha&>(other);
-    if (&main != this) system_.follow(main.system_);
+    if (&main != this) {
+      system_.follow(main.system_);
+      stop_.set_fields(main.stop_.fields());
+    }
     end_ = main.start_;
     started_ = true;
     stalled_ = false;
@@ -105,6 +107,8 @@ class GeneralizedAlpha final : public Stepper {
     end_.h = 0;
     end_.dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
     end_.supply = system_.supplied_power(base_q_, base_v_, end_.true_acceleration, t);
+    stop_.set_fields(system_.fields());
+    for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(n);
     started_ = true;
     tangent_by_a_ = 0;
   }
@@ -112,25 +116,42 @@ class GeneralizedAlpha final : public Stepper {
   double by_a(double h) const { return (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)); }
   double by_v(double h) const { return gamma_ / (h * beta_); }
 
-  /// Takes the correction r_ of the positions, and what it means for their derivatives, off the end of the step.
-  void correct(double h) {
-    q_ -= r_;
-    v_ -= by_v(h) * r_;
-    acceleration_ -= by_a(h) * r_;
-    next_a_ -= by_a(h) * (1 - alpha_f_) / (1 - alpha_m_) * r_;
+  /// The velocity goes on. An acceleration carried on would throw stiff modes, whose period is shorter than the step,
+  /// far off: Newton would start from a torn mesh.
+  void predict(double t, double h) {
+    const auto next_a = (-1 / beta_) * (0.5 - beta_) * start_.a;
+    predicted_v_ = base_v_ + h * ((1 - gamma_) * start_.a + gamma_ * next_a);
+    predicted_a_ =
+        ((1 - alpha_m_) * next_a + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
+    d_.setZero(base_q_.size());
+    complete(h);
+    if (system_.driven_offset(q_, t + h, r_)) {  // what is driven has no equation that Newton would solve
+      d_ -= r_;
+      complete(h);
+    }
+  }
+
+  /// The end of the step, from what its positions are off the velocity going on. The increment is kept by itself: next
+  /// to the coordinates it would lose its digits in short steps, and with them the accelerations theirs.
+  void complete(double h) {
+    q_ = base_q_ + (h * base_v_ + d_);
+    v_ = predicted_v_ + by_v(h) * d_;
+    acceleration_ = predicted_a_ + by_a(h) * d_;
   }
 
   /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls.
-  bool solve(double t, double h, double& dissipation) {
+  bool solve(double t, double h, NewtonKind kind, double& dissipation) {
     if (by_a(h) != tangent_by_a_) tangent_by_a_ = 0;
-    double previous = 0;
+    if (h != noise_step_) stop_.forget_noise();
+    noise_step_ = h;
     bool fresh = false;         // the tangent is of this step
     int with_this_tangent = 0;  // iterations of this step
     history_.clear();
+    stop_.begin_step();
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(q_, v_, acceleration_, t, r_);
       if (!r_.allFinite()) return false;
-      if (tangent_by_a_ == 0 || options_.newton == NewtonKind::full) {
+      if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
         if (!system_.linearize(q_, v_, acceleration_, t, by_v(h), by_a(h))) return false;
         if (counters_) ++counters_->tangents;
         tangent_by_a_ = by_a(h);
@@ -138,27 +159,45 @@ class GeneralizedAlpha final : public Stepper {
         with_this_tangent = 0;
       }
       system_.solve(r_);
-      correct(h);
-      const double correction = r_.lpNorm<Eigen::Infinity>() / std::max(1.0, q_.lpNorm<Eigen::Infinity>());
-      if (!std::isfinite(correction)) return false;
-      count(correction);
-      if (correction <= options_.newton_tolerance) return true;
-      if (++with_this_tangent > 1) {
-        const double contraction = correction / previous;
-        if (contraction < 0.5 && contraction / (1 - contraction) * correction <= options_.newton_tolerance) return true;
-        if (contraction > 0.5 && correction <= rounding) return true;
-        if (fresh && contraction > 1) return false;
-        if (contraction > slow_contraction) tangent_by_a_ = 0;
+      if (!r_.allFinite()) return false;
+      d_ -= r_;
+      complete(h);
+      const NewtonStop::Verdict verdict = stop_.judge(r_, d_, options_.newton_tolerance, slow_contraction);
+      count(stop_.error());
+      if (verdict == NewtonStop::Verdict::done) return true;
+      if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(q_)) {
+        measure_noise(t);
+        if (stop_.settle()) return true;
       }
-      previous = correction;
+      if (++with_this_tangent > 1 || kind == NewtonKind::full) {
+        if (fresh && stop_.negligible(q_) && !stop_.falls()) return true;
+        // far from a solution full Newton may find another one than that of a shorter step
+        const double limit = kind == NewtonKind::full ? stagnation : 1;
+        const bool late = kind == NewtonKind::modified || iteration > 1;  // the first may overshoot
+        if (fresh && late && stop_.contraction() > limit && stop_.grows(limit, q_)) return false;
+        if (stop_.contraction() > slow_contraction) tangent_by_a_ = 0;
+      }
     }
     return false;
   }
 
-  void count(double correction) {
+  /// What rounding of all that the residual depends on does to the solution.
+  void measure_noise(double t) {
+    system_.residual(q_, v_, acceleration_, t, r_);
+    NewtonStop::perturb(q_, other_q_);
+    NewtonStop::perturb(v_, other_v_);
+    NewtonStop::perturb(acceleration_, other_a_);
+    other_r_.resize(r_.size());
+    system_.residual(other_q_, other_v_, other_a_, t, other_r_);
+    r_ -= other_r_;
+    system_.solve(r_);
+    stop_.set_noise(r_, q_);
+  }
+
+  void count(double error) {
     if (!counters_) return;
     ++counters_->iterations;
-    history_.push_back(correction);
+    history_.push_back(error);
     if (history_.size() > counters_->longest.size()) counters_->longest = history_;
   }
 
@@ -206,12 +245,17 @@ class GeneralizedAlpha final : public Stepper {
   NewtonCounters* counters_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
-  bool stalled_ = false;             ///< Newton's iteration has asked for the shorter step
-  double tangent_by_a_ = 0;          ///< what the factored tangent was made for; 0 for none
-  Memory start_, end_;               ///< at the start and at the end of the last step
-  Eigen::VectorXd base_q_, base_v_;  ///< at the start of the step
+  bool stalled_ = false;                       ///< Newton's iteration has asked for the shorter step
+  double tangent_by_a_ = 0;                    ///< what the factored tangent was made for; 0 for none
+  Memory start_, end_;                         ///< at the start and at the end of the last step
+  Eigen::VectorXd base_q_, base_v_;            ///< at the start of the step
+  Eigen::VectorXd predicted_v_, predicted_a_;  ///< at its end
+  Eigen::VectorXd d_;                          ///< what its positions are off the velocity going on
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;
-  std::vector<double> history_;  ///< corrections of the current step
+  Eigen::VectorXd other_q_, other_v_, other_a_, other_r_;  ///< perturbed by rounding
+  NewtonStop stop_;
+  double noise_step_ = 0;        ///< [s], that its noise belongs to
+  std::vector<double> history_;  ///< corrections of the current step, relative to its increment
 };
 
 }  // namespace

@@ -19,17 +19,17 @@ struct GeneralizedAlphaOptions {
   double step = 1e-3;    ///< [s]; the longest, and the first, where the step adapts
   double rho_inf = 0.9;  ///< spectral radius at infinity, 0 (strongest damping) to 1 (none)
   NewtonKind newton = NewtonKind::modified;
-  double newton_tolerance = 1e-12;  ///< of the correction relative to the coordinates' size
-  int newton_iterations = 15;       ///< beyond which the step is halved
-  bool adaptive = false;            ///< the step follows the tolerances
-  Tolerances tolerances;            ///< of an adaptive step
+  double newton_tolerance = 1e-8;  ///< of the estimated error relative to the step's own increment (NewtonStop)
+  int newton_iterations = 15;      ///< beyond which the step is halved
+  bool adaptive = false;           ///< the step follows the tolerances
+  Tolerances tolerances;           ///< of an adaptive step
 };
 
 /// What Newton's iterations took.
 struct NewtonCounters {
   std::size_t iterations = 0;
   std::size_t tangents = 0;
-  std::vector<double> longest;  ///< corrections, relative to the coordinates' size, of the step that took most of them
+  std::vector<double> longest;     ///< corrections, relative to the increment, of the step that took most of them
   ConstraintResidual constraints;  ///< the largest of all steps
   Eigen::VectorXd multipliers;     ///< of the last step, as the system scales them
 };

@@ -273,7 +273,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       stepper->reset();
       dt = tried;
     }
-    if (!ode.proceed(t)) return false;
+    if (!ode.proceed(y, t)) return false;
   }
   return true;
 }

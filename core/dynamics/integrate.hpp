@@ -28,8 +28,8 @@ class EventedOde : public Ode {
   virtual void handle_event(int index, Eigen::VectorXd& y, double t) = 0;
   /// The solution at a sample time.
   virtual void sample(const Eigen::VectorXd& y, double t) = 0;
-  /// After each step; false interrupts.
-  virtual bool proceed(double t) = 0;
+  /// After each step, which ended at (t, y); false interrupts.
+  virtual bool proceed(const Eigen::VectorXd& y, double t) = 0;
 };
 
 struct IntegrationOptions {

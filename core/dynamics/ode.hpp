@@ -22,7 +22,7 @@ class Ode {
   virtual std::unique_ptr<SecondOrderSystem> new_second_order() { return nullptr; }
 };
 
-inline constexpr int max_guards = 5;
+inline constexpr int max_guards = 9;
 /// Values of the guard functions; an event is due where one turns positive. Unused ones are negative.
 using Guards = std::array<double, max_guards>;
 

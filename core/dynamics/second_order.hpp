@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
+
+#include "core/dynamics/fields.hpp"
 
 namespace vlbeam {
 
@@ -22,6 +25,8 @@ class SecondOrderSystem {
   virtual Eigen::Index coordinates() const = 0;
   /// How many of the coordinates, the last ones, stand for multipliers.
   virtual Eigen::Index multipliers() const { return 0; }
+  /// What each of the coordinates is.
+  virtual std::vector<FieldRun> fields() const = 0;
   /// Coordinates and velocities from a state y = (q, q', ...) of the minimal ones, and back.
   virtual void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
     q = y.head(coordinates());

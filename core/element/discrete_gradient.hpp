@@ -26,7 +26,7 @@ Vector mean(const Vector& a, const Vector& b) {
 /// Generalized stresses p [N] and m [N m] with p . d(r_x) + m . d(r_xx) = d(W), the change of strain energy per length.
 /// With g = r_x.r_x and F = r_x x r_xx, which is bilinear, W = phi(g) + EI F.F/(2 g^n), n = 3 (green) or 2
 /// (engineering).
-template <StrainLaw Law, bool Bending, int D>
+template <int D>
 struct MeanStress {
   using Vector = Vec<double, D>;
   Vector p, m;
@@ -36,7 +36,7 @@ struct MeanStress {
     const double g0 = r_x.before.dot(r_x.before), g1 = r_x.after.dot(r_x.after);
     const Vector slope = mean(r_x.before, r_x.after);  // d(g) = 2 slope . d(r_x)
     double along;
-    if constexpr (Law == StrainLaw::green) {
+    if (k.green()) {
       const double strain0 = 0.5 * (g0 - 1), strain1 = 0.5 * (g1 - 1);
       along = k.EA * 0.5 * (strain0 + strain1);
       energy = 0.25 * k.EA * (strain0 * strain0 + strain1 * strain1);
@@ -46,11 +46,11 @@ struct MeanStress {
       energy = 0.25 * k.EA * ((stretch0 - 1) * (stretch0 - 1) + (stretch1 - 1) * (stretch1 - 1));
     }
     m.setZero();
-    if constexpr (Bending) {
+    if (k.bends()) {
       // b(g) = g^-n: its two values and its divided difference
       const double i0 = 1 / g0, i1 = 1 / g1;
       double b0 = i0 * i0, b1 = i1 * i1, b_by_g = -i0 * i1 * (i0 + i1);
-      if constexpr (Law == StrainLaw::green) {
+      if (k.green()) {
         b_by_g = -i0 * i1 * (b0 + i0 * i1 + b1);
         b0 *= i0;
         b1 *= i1;
@@ -90,7 +90,7 @@ struct MeanStress {
 
 /// Forces of a fixed-length element whose work between two states is minus the change of strain energy, and the viscous
 /// ones of the mean state moving at the mean rate.
-template <StrainLaw Law, bool Bending, int D>
+template <int D>
 FixedForce<double, D> mean_fixed_force(const FixedBasis<double>& basis, const TwoStates<NodalCubic<double, D>>& e,
                                        const NodalCubic<double, D>& mean_rate, const BeamSection& section) {
   using Vector = Vec<double, D>;
@@ -101,12 +101,12 @@ FixedForce<double, D> mean_fixed_force(const FixedBasis<double>& basis, const Tw
   for (const auto& point : basis.points) {
     const TwoStates<Vector> r_x{at(point.s_x, e.before), at(point.s_x, e.after)};
     const TwoStates<Vector> r_xx{at(point.s_xx, e.before), at(point.s_xx, e.after)};
-    const MeanStress<Law, Bending, D> stress(r_x, r_xx, section.stiffness);
+    const MeanStress<D> stress(r_x, r_xx, section.stiffness);
     Vector p = stress.p, m = stress.m;
     if (section.damped()) {
-      const DampingStress<Law, Bending, double, D> viscous(
-          mean(r_x.before, r_x.after), mean(r_xx.before, r_xx.after), at(point.s_x, mean_rate),
-          at(point.s_xx, mean_rate), section.stiffness, section.damping, section.curvature_regularization);
+      const DampingStress<double, D> viscous(mean(r_x.before, r_x.after), mean(r_xx.before, r_xx.after),
+                                             at(point.s_x, mean_rate), at(point.s_xx, mean_rate), section.stiffness,
+                                             section.damping, section.curvature_regularization);
       p += viscous.p;
       m += viscous.m;
       force.dissipation += point.weight * viscous.power;
@@ -131,7 +131,7 @@ struct MovingForce {
 /// q of v_0.M(q) v_1/2 - V(q). Where q_1 - q_0 = h (v_0 + v_1)/2 the work of f is then minus the change of T + V: with
 /// T = v.p/2 and a symmetric M,
 ///   T_1 - T_0 = (v_0 + v_1)/2 . (p_1 - p_0) - v_0.(M_1 - M_0) v_1/2.
-template <MovingEnds Ends, StrainLaw Law, bool Bending, int D>
+template <MovingEnds Ends, int D>
 MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>& q,
                                    const TwoStates<MovingCoordinates<double, D>>& rate, double h,
                                    const WeightFunction& weights, const ShapeTabulation& table,
@@ -202,7 +202,7 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
     add_momentum(a0, l0, g0, r_x.before, -1);
 
     // discrete gradient of l (rhoA a.b/2 - W + rhoA g.r): forces conjugate to a, b, r, r_x, r_xx and l
-    const MeanStress<Law, Bending, D> stress(r_x, r_xx, law.section.stiffness);
+    const MeanStress<D> stress(r_x, r_xx, law.section.stiffness);
     const Vector f_a = mean(b0, b1) * (0.5 * rhoA * w * l), f_b = mean(a0, a1) * (0.5 * rhoA * w * l);
     const Vector f_r = law.gravity * (rhoA * w * l);
     const Vector f_x = stress.p * (-w * l) - (f_a * end_of(rate.before) + f_b * end_of(rate.after)) * reach;
@@ -223,8 +223,8 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
 
     if (law.section.damped()) {
       const PointMotion<double, D> at = kinematics.at(u, f);
-      const DampingStress<Law, Bending, double, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
-                                                           law.section.damping, law.section.curvature_regularization);
+      const DampingStress<double, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
+                                             law.section.damping, law.section.curvature_regularization);
       const double wl = w * kinematics.length();
       for (std::size_t c = 0; c < 4; ++c) r.nodes[c] += (viscous.p * at.s_x[c] + viscous.m * at.s_xx[c]) * wl;
       r.end += wl * (Ends == MovingEnds::b ? viscous.p.dot(at.y_b_x) + viscous.m.dot(at.y_b_xx)

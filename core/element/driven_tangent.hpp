@@ -39,7 +39,7 @@ std::array<Real, 2> guiding_forces(const MovingEquations<Real, D>& eq, const Mov
 
 /// Derivative of nodal_residual by (r_A, s_A, r_B, s_B), their rates and their accelerations, summed with `by`.
 /// The kinematics of unit vectors are the derivatives of the kinematics; what remains is that of the stresses.
-template <StrainLaw Law, bool Bending, int D>
+template <int D>
 Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<double, D>& q,
                                                    const MovingCoordinates<double, D>& rate,
                                                    const MovingCoordinates<double, D>& a, const TangentWeights& by,
@@ -65,7 +65,7 @@ Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<doubl
     const ShapeTable<double> shape = reshaped ? rational_shape(kinematics.weights(), u) : table.shape[g];
     const PointMotion<double, D> at = kinematics.at(u, shape);
     const PointMotion<double, 4> varied = variation.at(u, shape);
-    const ElasticTangent<Law, Bending, double, D> k(at.r_x, at.r_xx, law.section.stiffness);
+    const ElasticTangent<double, D> k(at.r_x, at.r_xx, law.section.stiffness);
     const double wl = w * l, mu = wl * rhoA;
     const double c = variational ? kinematics.mesh_velocity(u) : 0;
 
@@ -83,7 +83,7 @@ Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<doubl
       by_m[i] = k.pm.transpose() * varied.r_x[j] + k.mm * varied.r_xx[j];
     }
     if (law.section.damped()) {
-      const DampingTangent<Law, Bending, D> viscous(at, law.section);
+      const DampingTangent<D> viscous(at, law.section);
       for (int j = 0; j < 4; ++j) {
         const std::array<double, 4> rates{varied.r_x[j], varied.r_xx[j], varied.v_x[j], varied.v_xx[j]};
         for (std::size_t n = 0; n < 4; ++n) {
@@ -97,7 +97,7 @@ Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<doubl
       for (int i = 0; i < 4; ++i) {
         auto block = tangent.template block<D, D>(i * D, j * D);
         block += (wl * s_x[i]) * by_p[jj];
-        if constexpr (Bending) block += (wl * at.s_xx[static_cast<std::size_t>(i)]) * by_m[jj];
+        if (law.section.bends()) block += (wl * at.s_xx[static_cast<std::size_t>(i)]) * by_m[jj];
         block.diagonal().array() -= inertia(i, j);
       }
     }

@@ -10,7 +10,7 @@ namespace vlbeam {
 /// dm/dr_x is the transpose of dp/dr_xx.
 /// With g = r_x.r_x, s = r_x.r_xx and h = r_xx.r_xx curvature is kappa^2 = h g^(1-n) - s^2 g^(-n), n = 3 (green) or 2
 /// (engineering), in the plane and in space alike, and W depends on g, s and h alone. No branch on values.
-template <StrainLaw Law, bool Bending, class Real, int D>
+template <class Real, int D>
 struct ElasticTangent {
   using Matrix = Eigen::Matrix<Real, D, D>;
 
@@ -20,7 +20,7 @@ struct ElasticTangent {
     using std::sqrt;
     const Real g = rx.dot(rx);
     Real by_g, by_gg;  // of the axial energy, then of W
-    if constexpr (Law == StrainLaw::green) {
+    if (k.green()) {
       by_g = Real(0.25 * k.EA) * (g - Real(1));
       by_gg = Real(0.25 * k.EA);
     } else {
@@ -28,15 +28,15 @@ struct ElasticTangent {
       by_g = Real(0.5 * k.EA) * (Real(1) - inverse_stretch);
       by_gg = Real(0.25 * k.EA) * inverse_stretch * inverse_stretch * inverse_stretch;
     }
-    if constexpr (!Bending) {
+    if (!k.bends()) {
       pp = rank_one(Real(Real(4) * by_gg), rx, rx);
       pp.diagonal().array() += Real(2) * by_g;
       pm = mm = Matrix::Zero();
     } else {
-      constexpr double n = Law == StrainLaw::green ? 3 : 2;
+      const double n = k.curvature_power();
       const Real s = rx.dot(rxx), h = rxx.dot(rxx);
       const Real i1 = Real(1) / g;
-      const Real half = Law == StrainLaw::green ? Real(Real(0.5 * k.EI) * i1 * i1) : Real(Real(0.5 * k.EI) * i1);
+      const Real half = k.green() ? Real(Real(0.5 * k.EI) * i1 * i1) : Real(Real(0.5 * k.EI) * i1);
       const Real si = s * i1, s2 = s * si, hi = h * i1;  // half = EI g^(1-n) / 2
       by_g += half * (Real(n) * s2 - Real(n - 1) * h) * i1;
       by_gg += half * (Real(n * (n - 1)) * hi - Real(n * (n + 1)) * si * si) * i1;

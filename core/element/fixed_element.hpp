@@ -41,7 +41,7 @@ struct FixedForce {
 };
 
 /// Ding & Ouyang (2022), Q_l and Q_t of Eq. 19 with the length constant. No branch on values: `Real` may be a Pack.
-template <StrainLaw Law, bool Bending, bool Damped, class Real, int D>
+template <class Real, int D>
 FixedForce<Real, D> fixed_force(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
                                 const NodalCubic<Real, D>& rate, const BeamSection& section) {
   using Vector = Vec<Real, D>;
@@ -51,13 +51,13 @@ FixedForce<Real, D> fixed_force(const FixedBasis<Real>& basis, const NodalCubic<
   for (const auto& point : basis.points) {
     const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
     const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    const ElasticStress<Law, Bending, Real, D> elastic(r_x, r_xx, section.stiffness);
+    const ElasticStress<Real, D> elastic(r_x, r_xx, section.stiffness);
     Vector p = elastic.p, m = elastic.m;
-    if constexpr (Damped) {
+    if (section.damped()) {
       const Vector v_x = chord_rate * point.s_x[0] + rate.s_a * point.s_x[1] + rate.s_b * point.s_x[2];
       const Vector v_xx = chord_rate * point.s_xx[0] + rate.s_a * point.s_xx[1] + rate.s_b * point.s_xx[2];
-      const DampingStress<Law, Bending, Real, D> viscous(r_x, r_xx, v_x, v_xx, section.stiffness, section.damping,
-                                                         section.curvature_regularization);
+      const DampingStress<Real, D> viscous(r_x, r_xx, v_x, v_xx, section.stiffness, section.damping,
+                                           section.curvature_regularization);
       p += viscous.p;
       m += viscous.m;
       force.dissipation += point.weight * viscous.power;
@@ -66,7 +66,7 @@ FixedForce<Real, D> fixed_force(const FixedBasis<Real>& basis, const NodalCubic<
     force.r_b += p * point.s_x[0];
     force.s_a += p * point.s_x[1];
     force.s_b += p * point.s_x[2];
-    if constexpr (Bending) {
+    if (section.bends()) {
       m *= -point.weight;
       force.r_b += m * point.s_xx[0];
       force.s_a += m * point.s_xx[1];

@@ -15,7 +15,7 @@ template <class Real, int D>
 using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
 
 /// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack.
-template <StrainLaw Law, bool Bending, class Real, int D>
+template <class Real, int D>
 ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
                                       const Stiffness& stiffness) {
   using Vector = Vec<Real, D>;
@@ -26,11 +26,11 @@ ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const Nodal
   for (const auto& point : basis.points) {
     const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
     const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    const ElasticTangent<Law, Bending, Real, D> k(r_x, r_xx, stiffness);
+    const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
     for (std::size_t j = 0; j < 3; ++j) {
       const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
       Matrix by_p = k.pp * w_x;
-      if constexpr (Bending) {
+      if (stiffness.bends()) {
         by_p += k.pm * w_xx;
         const Matrix by_m = k.pm.transpose() * w_x + k.mm * w_xx;
         for (std::size_t i = 0; i <= j; ++i) tangent[i][j] += by_m * point.s_xx[i];
@@ -46,7 +46,7 @@ ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const Nodal
 
 /// Derivative of minus the viscous forces by position plus `by_v` times that by velocity, by automatic differentiation,
 /// for the element in lane `lane` of a pack.
-template <StrainLaw Law, bool Bending, int D>
+template <int D>
 ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane, const NodalCubic<double, D>& e,
                                         const NodalCubic<double, D>& rate, const BeamSection& section, double by_v) {
   constexpr int N = 2 * D;
@@ -67,13 +67,13 @@ ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane,
     return result;
   };
   for (const auto& point : basis.points) {
-    const DampingStress<Law, Bending, Real, D> viscous(
+    const DampingStress<Real, D> viscous(
         seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1), seed(combine(point.s_x, rate), 0, by_v),
         seed(combine(point.s_xx, rate), D, by_v), section.stiffness, section.damping, section.curvature_regularization);
     Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
     for (int c = 0; c < D; ++c) {
       by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();
-      if constexpr (Bending) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
+      if (section.bends()) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
     }
     for (std::size_t j = 0; j < 3; ++j) {
       const Matrix dp =

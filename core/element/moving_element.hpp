@@ -39,7 +39,7 @@ struct MovingLaw {
 ///   x_A,
 /// L the Lagrangian per length: between events energy is conserved for any number of points. Where the rest strains
 /// jump inside the element its pieces have points of their own, and the same holds for each piece.
-template <StrainLaw Law, bool Bending, class Real, int D, MovingEnds Ends = MovingEnds::both>
+template <class Real, int D, MovingEnds Ends = MovingEnds::both>
 MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
                                           const WeightFunction& weights, const ShapeTabulation& table,
                                           const MovingLaw<D>& law) {
@@ -63,13 +63,13 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   const auto motion = [&](const auto& u, const auto& shape) { return kinematics.at(u, shape); };
   for_each_point(
       kinematics, table, reshaped, law.rest, motion, [&](const auto& point, const auto& at, const auto* rest) {
-        const ElasticStress<Law, Bending, Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+        const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
         Vector p = elastic.p, m = elastic.m;
         Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
         Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
         if (rest != nullptr) {
-          const RestStress<Law, Bending, Real, D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
-                                                            law.rest->curvature_regularization());
+          const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
+                                              law.rest->curvature_regularization());
           p += from_rest.p;
           m += from_rest.m;
           stored += from_rest.axial + from_rest.bending;
@@ -77,8 +77,8 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
         }
         const Real& wl = point.weight;
         if (law.section.damped()) {
-          const DampingStress<Law, Bending, Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
-                                                             law.section.damping, law.section.curvature_regularization);
+          const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
+                                               law.section.damping, law.section.curvature_regularization);
           p += viscous.p;
           m += viscous.m;
           eq.dissipation += wl * viscous.power;

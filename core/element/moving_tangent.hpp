@@ -19,12 +19,12 @@ struct MovingResidual {
 };
 
 /// Adds the power lost to damping to `dissipation` [W], where there is one.
-template <MovingEnds Ends, StrainLaw Law, bool Bending, class Real, int D>
+template <MovingEnds Ends, class Real, int D>
 MovingResidual<Real, D> moving_residual(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
                                         const MovingCoordinates<Real, D>& a, const WeightFunction& weights,
                                         const ShapeTabulation& table, const MovingLaw<D>& law,
                                         Real* dissipation = nullptr) {
-  const auto eq = moving_equations<Law, Bending, Real, D, Ends>(q, rate, weights, table, law);
+  const auto eq = moving_equations<Real, D, Ends>(q, rate, weights, table, law);
   const std::array<Vec<Real, D>, 4> nodal{a.e.r_a, a.e.s_a, a.e.r_b, a.e.s_b};
   constexpr bool at_a = Ends == MovingEnds::a;
   const auto& border = at_a ? eq.mass_a : eq.mass_b;
@@ -41,7 +41,7 @@ MovingResidual<Real, D> moving_residual(const MovingCoordinates<Real, D>& q, con
 }
 
 /// Derivatives of the viscous stresses by r_x, r_xx, v_x and v_xx, by automatic differentiation.
-template <StrainLaw Law, bool Bending, int D>
+template <int D>
 struct DampingTangent {
   using Matrix = Eigen::Matrix<double, D, D>;
   std::array<Matrix, 4> p, m;
@@ -55,17 +55,16 @@ struct DampingTangent {
       for (int c = 0; c < D; ++c) result[c] = Real(value[c], N, first + c);
       return result;
     };
-    const DampingStress<Law, Bending, Real, D> stress(seed(at.r_x, 0), seed(at.r_xx, D), seed(at.v_x, 2 * D),
-                                                      seed(at.v_xx, 3 * D), section.stiffness, section.damping,
-                                                      section.curvature_regularization);
+    const DampingStress<Real, D> stress(seed(at.r_x, 0), seed(at.r_xx, D), seed(at.v_x, 2 * D), seed(at.v_xx, 3 * D),
+                                        section.stiffness, section.damping, section.curvature_regularization);
     for (int c = 0; c < D; ++c) {
       viscous_p[c] = stress.p[c].value();
-      viscous_m[c] = Bending ? stress.m[c].value() : 0;
+      viscous_m[c] = section.bends() ? stress.m[c].value() : 0;
       for (std::size_t i = 0; i < 4; ++i) {
         const auto by = static_cast<int>(i) * D;
         p[i].row(c) = stress.p[c].derivatives().template segment<D>(by).transpose();
         m[i].row(c).setZero();
-        if constexpr (Bending) m[i].row(c) = stress.m[c].derivatives().template segment<D>(by).transpose();
+        if (section.bends()) m[i].row(c) = stress.m[c].derivatives().template segment<D>(by).transpose();
       }
     }
   }
@@ -75,7 +74,7 @@ struct DampingTangent {
 /// `by_v` and `by_a`. At a given x all kinematics are linear in the nodal coordinates and their rates: the same
 /// kinematics of unit vectors are their derivatives, and what remains is that of the stresses. Only the column of the
 /// moving end, one direction, is left to automatic differentiation.
-template <MovingEnds Ends, StrainLaw Law, bool Bending, int D>
+template <MovingEnds Ends, int D>
 Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinates<double, D>& q,
                                                            const MovingCoordinates<double, D>& rate,
                                                            const MovingCoordinates<double, D>& a, double by_v,
@@ -113,8 +112,8 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinat
                      &y_xx = at_a ? at.y_a_xx : at.y_b_xx;
         const Row &by_y = at_a ? by.y_a : by.y_b, &by_y_x = at_a ? by.y_a_x : by.y_b_x,
                   &by_y_xx = at_a ? by.y_a_xx : by.y_b_xx;
-        const ElasticStress<Law, Bending, double, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
-        const ElasticTangent<Law, Bending, double, D> k(at.r_x, at.r_xx, law.section.stiffness);
+        const ElasticStress<double, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+        const ElasticTangent<double, D> k(at.r_x, at.r_xx, law.section.stiffness);
         const double wl = point.weight, mu = wl * rhoA;
         const double mu_c = variational ? mu * point.mesh_velocity : 0;
         const double mu_rate = variational ? point.weight_rate * rhoA : 0;
@@ -127,8 +126,8 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinat
         Matrix pp = k.pp, pm = k.pm, mm = k.mm;
         Vector along_by_slope = Vector::Zero(), along_by_second = Vector::Zero();
         if (rest != nullptr) {
-          const RestTangent<Law, Bending, D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
-                                                       law.rest->curvature_regularization());
+          const RestTangent<D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
+                                         law.rest->curvature_regularization());
           elastic_p += from_rest.p;
           elastic_m += from_rest.m;
           pp += from_rest.pp;
@@ -150,7 +149,7 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinat
           by_m[i] = by_elastic_m[i];
         }
         if (law.section.damped()) {
-          const DampingTangent<Law, Bending, D> viscous(at, law.section);
+          const DampingTangent<D> viscous(at, law.section);
           p += viscous.viscous_p;
           m += viscous.viscous_m;
           for (int j = 0; j < 4; ++j) {
@@ -170,7 +169,7 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinat
           for (int i = 0; i < 4; ++i) {
             auto block = tangent.template block<D, D>(i * D, j * D);
             block += (wl * by.r_x[i]) * by_p[jj];
-            if constexpr (Bending) block += (wl * by.r_xx[i]) * by_m[jj];
+            if (law.section.bends()) block += (wl * by.r_xx[i]) * by_m[jj];
             block.diagonal().array() -= by.r[i] * by_f0[j] + by.r_x[i] * by_f1[j];
           }
           Vector end = y * by_f0[j] + f0 * by_y[j] + y_x * by_f1[j] + f1 * by_y_x[j] + f2 * by_y_xx[j] -
@@ -199,8 +198,8 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> moving_tangent(const MovingCoordinat
     (at_a ? result.x_a : result.x_b).derivatives()[0] = scale;
     return result;
   };
-  const auto by_end = moving_residual<Ends, Law, Bending, Real, D>(along_end(q, 1), along_end(rate, by_v),
-                                                                   along_end(a, by_a), weights, table, law);
+  const auto by_end =
+      moving_residual<Ends, Real, D>(along_end(q, 1), along_end(rate, by_v), along_end(a, by_a), weights, table, law);
   for (int i = 0; i < 4; ++i) {
     for (int c = 0; c < D; ++c)
       tangent(i * D + c, N - 1) = by_end.nodes[static_cast<std::size_t>(i)][c].derivatives()[0];

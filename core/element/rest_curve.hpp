@@ -56,20 +56,16 @@ class RestCurve {
                        r_xxx = derivative(3, 1 / (l * l * l));
     const Real g = r_x.dot(r_x), half_rate = r_x.dot(r_xx);
     RestStrain<Real> rest;
-    auto set_curvature = [&]<StrainLaw Law>() {
-      const Curvature<Law, Real, D> kappa(r_x, r_xx, regularization_);
-      rest.curvature = kappa.value;
-      rest.curvature_x = kappa.by_slope.dot(r_xx) + kappa.by_second.dot(r_xxx);
-    };
     if (law_ == StrainLaw::green) {
       rest.axial = Real(0.5) * (g - Real(1));
       rest.axial_x = half_rate;
-      set_curvature.template operator()<StrainLaw::green>();
     } else {
       rest.axial = sqrt(g) - Real(1);
       rest.axial_x = half_rate / sqrt(g);
-      set_curvature.template operator()<StrainLaw::engineering>();
     }
+    const Curvature<Real, D> kappa(r_x, r_xx, law_, regularization_);
+    rest.curvature = kappa.value;
+    rest.curvature_x = kappa.by_slope.dot(r_xx) + kappa.by_second.dot(r_xxx);
     return rest;
   }
 

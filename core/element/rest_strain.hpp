@@ -16,24 +16,25 @@ struct RestStrain {
 
 /// Signed curvature f/g^(n/2) in the plane, f = r_x x r_xx, g = r_x.r_x, n = 3 (green) or 2 (engineering); in space
 /// sqrt(kappa^2 + regularization^2). With its gradients.
-template <StrainLaw Law, class Real, int D>
+template <class Real, int D>
 struct Curvature {
   Real value;
   Vec<Real, D> by_slope, by_second;
 
-  Curvature(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, [[maybe_unused]] double regularization) {
+  Curvature(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, StrainLaw law, [[maybe_unused]] double regularization) {
     using std::sqrt;
-    constexpr double n = Law == StrainLaw::green ? 3 : 2;
+    const bool green = law == StrainLaw::green;
+    const double n = curvature_power(law);
     const Real g = rx.dot(rx), inverse = Real(1) / g;
     if constexpr (D == 2) {
-      const Real scale = Law == StrainLaw::green ? Real(inverse / sqrt(g)) : inverse;
+      const Real scale = green ? Real(inverse / sqrt(g)) : inverse;
       const Real f = rx[0] * rxx[1] - rx[1] * rxx[0];
       value = f * scale;
       by_slope << rxx[1] * scale, -(rxx[0] * scale);
       by_second << -(rx[1] * scale), rx[0] * scale;
       by_slope -= rx * Real(Real(n) * value * inverse);
     } else {
-      const Real scale = Law == StrainLaw::green ? Real(inverse * inverse * inverse) : Real(inverse * inverse);
+      const Real scale = green ? Real(inverse * inverse * inverse) : Real(inverse * inverse);
       const CrossProduct<Real, D> cross(rx, rxx);
       const Real squared = cross.squared * scale;
       value = sqrt(squared + Real(regularization * regularization));
@@ -48,7 +49,7 @@ struct Curvature {
 ///   W_0 = - EA eps_0 (eps - eps_0/2) - EI kappa_0 (kappa - kappa_0/2),
 /// so that W + W_0 = EA (eps - eps_0)^2/2 + EI (kappa - kappa_0)^2/2. `along` is the part of its derivative along the
 /// beam that comes from the rest strains themselves.
-template <StrainLaw Law, bool Bending, class Real, int D>
+template <class Real, int D>
 struct RestStress {
   Vec<Real, D> p, m;
   Real axial, bending, along;
@@ -58,7 +59,7 @@ struct RestStress {
     using std::sqrt;
     const Real g = rx.dot(rx);
     Real eps;
-    if constexpr (Law == StrainLaw::green) {
+    if (k.green()) {
       eps = Real(0.5) * (g - Real(1));
       p = rx * Real(Real(-k.EA) * rest.axial);
     } else {
@@ -70,8 +71,9 @@ struct RestStress {
     along = Real(-k.EA) * (eps - rest.axial) * rest.axial_x;
     m.setZero();
     bending = Real(0);
-    if constexpr (Bending) {
-      const Curvature<Law, Real, D> kappa(rx, rxx, curvature_regularization);
+    if constexpr (D > 1) {  // the angle of a section, D = 1, has no curvature
+      if (!k.bends()) return;
+      const Curvature<Real, D> kappa(rx, rxx, k.law, curvature_regularization);
       const Real moment = Real(-k.EI) * rest.curvature;
       p += kappa.by_slope * moment;
       m = kappa.by_second * moment;

@@ -9,7 +9,7 @@ namespace vlbeam {
 
 /// RestStress with its derivatives by r_x and r_xx, by automatic differentiation: dp/dr_x, dp/dr_xx, dm/dr_xx (dm/dr_x
 /// is the transpose of dp/dr_xx), and those of `along`.
-template <StrainLaw Law, bool Bending, int D>
+template <int D>
 struct RestTangent {
   using Vector = Vec<double, D>;
   using Matrix = Eigen::Matrix<double, D, D>;
@@ -29,14 +29,14 @@ struct RestTangent {
     auto constant = [](double value) { return Real(value, Eigen::Matrix<double, N, 1>::Zero()); };
     const RestStrain<Real> fixed{constant(rest.axial), constant(rest.curvature), constant(rest.axial_x),
                                  constant(rest.curvature_x)};
-    const RestStress<Law, Bending, Real, D> stress(seed(rx, 0), seed(rxx, D), fixed, k, curvature_regularization);
+    const RestStress<Real, D> stress(seed(rx, 0), seed(rxx, D), fixed, k, curvature_regularization);
     m.setZero();
     mm.setZero();
     for (int c = 0; c < D; ++c) {
       p[c] = stress.p[c].value();
       pp.row(c) = stress.p[c].derivatives().template head<D>().transpose();
       pm.row(c) = stress.p[c].derivatives().template tail<D>().transpose();
-      if constexpr (Bending) {
+      if (k.bends()) {
         m[c] = stress.m[c].value();
         mm.row(c) = stress.m[c].derivatives().template tail<D>().transpose();
       }

@@ -11,7 +11,7 @@ struct BeamSection {
   double damping = 0;                   ///< Kelvin-Voigt time c [s]
   double curvature_regularization = 0;  ///< kappa_reg [1/m], bending damping in space only
 
-  bool bends() const { return stiffness.EI != 0; }
+  bool bends() const { return stiffness.bends(); }
   bool damped() const { return damping != 0; }
 };
 

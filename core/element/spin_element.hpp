@@ -28,45 +28,6 @@ struct SpinCoordinates {
   Real x_a, x_b;          ///< [m]
 };
 
-/// Equations of motion M q'' = Q, q = (theta_A, theta_B, x_A, x_B).
-template <class Real>
-struct SpinEquations {
-  double inertia = 0;                 ///< rho I_p
-  Real l;                             ///< the mass matrix of the angles is rho I_p l/6 (2 1; 1 2)
-  Real tau;                           ///< that with x_i is -tau times the column of theta_i
-  Real force_theta_a, force_theta_b;  ///< [N m]
-  Real force_a, force_b;              ///< on x_A, x_B [N]
-  Real dissipation;                   ///< power lost to damping [W]
-
-  Real mass_diagonal() const { return l * (inertia / 3); }
-  Real mass_coupling() const { return l * (inertia / 6); }
-
-  /// M a - Q of (theta_A, theta_B, x_A, x_B).
-  std::array<Real, 4> residual(const SpinCoordinates<Real>& a) const {
-    const Real at_a = a.theta_a - tau * a.x_a, at_b = a.theta_b - tau * a.x_b;
-    const Real m_a = mass_diagonal() * at_a + mass_coupling() * at_b;
-    const Real m_b = mass_coupling() * at_a + mass_diagonal() * at_b;
-    return {m_a - force_theta_a, m_b - force_theta_b, -tau * m_a - force_a, -tau * m_b - force_b};
-  }
-
-  /// The same as the equations of a field of one component, the rows of its slopes empty.
-  MovingEquations<Real, 1> of_one_field() const {
-    const Real zero(0), m = mass_diagonal(), n = mass_coupling();
-    auto one = [](const Real& value) -> Vec<Real, 1> { return Vec<Real, 1>::Constant(value); };
-    MovingEquations<Real, 1> eq;
-    eq.mass = {{{m, zero, n, zero}, {zero, zero, zero, zero}, {n, zero, m, zero}, {zero, zero, zero, zero}}};
-    eq.mass_a = {one(-tau * m), one(zero), one(-tau * n), one(zero)};
-    eq.mass_b = {one(-tau * n), one(zero), one(-tau * m), one(zero)};
-    eq.mass_aa = eq.mass_bb = tau * tau * m;
-    eq.mass_ab = tau * tau * n;
-    eq.force = {one(force_theta_a), one(zero), one(force_theta_b), one(zero)};
-    eq.force_a = force_a;
-    eq.force_b = force_b;
-    eq.dissipation = dissipation;
-    return eq;
-  }
-};
-
 /// Spin of the material point at either end, [rad/s], the twist [rad/m] and its rate at a fixed material point.
 template <class Real>
 struct SpinMotion {
@@ -87,28 +48,30 @@ struct SpinMotion {
   Real momentum(const SpinSection& section) const { return l * (omega_a + omega_b) * Real(section.rhoIp / 2); }
 };
 
-/// Equations of motion of one element's spin.
+/// Equations of motion of one element's spin, as those of a field of one component whose slopes are no coordinates:
+/// their rows are empty.
 ///
 /// `variational` is Lagrange's equations of  integral of rho I_p omega^2/2 - G I_p tau^2/2 dx  over the moving element.
 /// Summed at a node that moves at x' they hold the momentum flux rho I_p x'^2 (tau+ - tau-) by themselves: theta has a
 /// kink there, and without this flux the term x'^2 theta_xx of the rod's equation is lost.
 /// `virtual_work` takes the acceleration at fixed material points, and loses it.
 template <class Real>
-SpinEquations<Real> spin_equations(const SpinCoordinates<Real>& q, const SpinCoordinates<Real>& rate,
-                                   Formulation formulation, const SpinSection& section) {
+MovingEquations<Real, 1> spin_equations(const SpinCoordinates<Real>& q, const SpinCoordinates<Real>& rate,
+                                        Formulation formulation, const SpinSection& section) {
   const SpinMotion<Real> at(q, rate);
-  SpinEquations<Real> eq;
-  eq.inertia = section.rhoIp;
-  eq.l = at.l;
-  eq.tau = at.tau;
+  auto one = [](const Real& value) -> Vec<Real, 1> { return Vec<Real, 1>::Constant(value); };
+  const Real zero(0), m = at.l * (section.rhoIp / 6), twice = at.l * (section.rhoIp / 3);
+  MovingEquations<Real, 1> eq;
+  eq.mass = {{{twice, zero, m, zero}, {zero, zero, zero, zero}, {m, zero, twice, zero}, {zero, zero, zero, zero}}};
+  eq.mass_a = {one(-at.tau * twice), one(zero), one(-at.tau * m), one(zero)};
+  eq.mass_b = {one(-at.tau * m), one(zero), one(-at.tau * twice), one(zero)};
+  eq.mass_aa = eq.mass_bb = at.tau * at.tau * twice;
+  eq.mass_ab = at.tau * at.tau * m;
   const Real torque = at.tau * section.GIp, viscous = at.tau_rate * (section.damping * section.GIp);
   eq.dissipation = at.l * viscous * at.tau_rate;
 
   // what the rates add to the momentum's change at either end, the angles' accelerations apart
-  const Real m = eq.mass_coupling();
-  Real change_a, change_b;
-  eq.force_theta_a = torque + viscous;
-  eq.force_theta_b = -torque - viscous;
+  Real change_a, change_b, theta_a = torque + viscous, theta_b = -torque - viscous;
   if (formulation == Formulation::variational) {
     const Real momentum_a = m * (at.omega_a * 2.0 + at.omega_b), momentum_b = m * (at.omega_a + at.omega_b * 2.0);
     const Real grows = at.l_rate * (section.rhoIp / 6);
@@ -116,8 +79,8 @@ SpinEquations<Real> spin_equations(const SpinCoordinates<Real>& q, const SpinCoo
     change_b = grows * (at.omega_a + at.omega_b * 2.0) - m * at.tau_rate * (rate.x_a + rate.x_b * 2.0);
     const Real flux = (momentum_a * rate.x_a + momentum_b * rate.x_b) / at.l;
     const Real per_length = at.kinetic_energy(section) / at.l + flux * at.tau + torque * at.tau * 0.5;
-    eq.force_theta_a += flux;
-    eq.force_theta_b -= flux;
+    theta_a += flux;
+    theta_b -= flux;
     eq.force_a = at.tau_rate * momentum_a - per_length;
     eq.force_b = at.tau_rate * momentum_b + per_length;
   } else {
@@ -126,8 +89,7 @@ SpinEquations<Real> spin_equations(const SpinCoordinates<Real>& q, const SpinCoo
     eq.force_a = -torque * at.tau;
     eq.force_b = torque * at.tau;
   }
-  eq.force_theta_a -= change_a;
-  eq.force_theta_b -= change_b;
+  eq.force = {one(theta_a - change_a), one(zero), one(theta_b - change_b), one(zero)};
   eq.force_a += at.tau * (change_a - viscous);
   eq.force_b += at.tau * (change_b + viscous);
   return eq;

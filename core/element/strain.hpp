@@ -30,16 +30,23 @@ struct CrossProduct {
   }
 };
 
-/// Stiffness of the section: EA [N], EI [N m^2].
+/// Stiffness of the section, EA [N] and EI [N m^2], and the strains that it resists. Element laws branch on `law` and
+/// on whether there is bending at every point: always the same way, so that it costs nothing beside the arithmetic, and
+/// each law is compiled once.
 struct Stiffness {
   double EA;
   double EI;
+  StrainLaw law = StrainLaw::green;
+
+  bool bends() const { return EI != 0; }
+  bool green() const { return law == StrainLaw::green; }
+  double curvature_power() const { return vlbeam::curvature_power(law); }
 };
 
 /// Strain energy per length W = EA eps^2/2 + EI kappa^2/2 [J/m] and its gradients, the generalized stresses
 /// p = dW/dr_x [N] and m = dW/dr_xx [N m] (Ding & Ouyang 2022, Eq. 17-19).
-/// Curvature enters as kappa dkappa only, which is smooth where the beam is straight. `Bending` false is a cable.
-template <StrainLaw Law, bool Bending, class Real, int D>
+/// Curvature enters as kappa dkappa only, which is smooth where the beam is straight. EI = 0 is a cable.
+template <class Real, int D>
 struct ElasticStress {
   Vec<Real, D> p, m;
   Real axial, bending;
@@ -48,7 +55,7 @@ struct ElasticStress {
     using std::sqrt;
     const Real g = rx.dot(rx);
     Real along;
-    if constexpr (Law == StrainLaw::green) {
+    if (k.green()) {
       const Real eps = Real(0.5) * (g - Real(1));
       axial = Real(0.5 * k.EA) * eps * eps;
       along = Real(k.EA) * eps;
@@ -58,13 +65,12 @@ struct ElasticStress {
       axial = Real(0.5 * k.EA) * eps * eps;
       along = Real(k.EA) * (Real(1) - Real(1) / stretch);
     }
-    if constexpr (Bending) {
+    if (k.bends()) {
       // kappa^2 = F.F / g^n, n = 3 (green) or 2 (engineering)
       const CrossProduct<Real, D> cross(rx, rxx);
       const Real inverse = Real(1) / g;
-      const Real scale =
-          Real(k.EI) * (Law == StrainLaw::green ? Real(inverse * inverse * inverse) : Real(inverse * inverse));
-      constexpr double n = Law == StrainLaw::green ? 3 : 2;
+      const Real scale = Real(k.EI) * (k.green() ? Real(inverse * inverse * inverse) : Real(inverse * inverse));
+      const double n = k.curvature_power();
       bending = Real(0.5) * scale * cross.squared;
       along -= Real(n) * scale * cross.squared * inverse;
       p = rx * along + cross.by_slope * scale;
@@ -80,7 +86,7 @@ struct ElasticStress {
 /// Kelvin-Voigt stresses EA c eps' and EI c kappa' as generalized stresses, rates at a fixed material point.
 /// In space kappa' dkappa is 0/0 where the beam is straight; it is regularised as
 /// (kappa kappa')(kappa dkappa)/(kappa^2 + kappa_reg^2). In the plane the signed curvature needs no such thing.
-template <StrainLaw Law, bool Bending, class Real, int D>
+template <class Real, int D>
 struct DampingStress {
   Vec<Real, D> p, m;
   Real power;  ///< dissipated power per length [W/m]
@@ -89,16 +95,16 @@ struct DampingStress {
                 const Stiffness& k, double c, double curvature_regularization) {
     using std::sqrt;
     const Real g = rx.dot(rx);
-    const Vec<Real, D> strain_gradient = Law == StrainLaw::green ? rx : Vec<Real, D>(rx * Real(Real(1) / sqrt(g)));
+    const Vec<Real, D> strain_gradient = k.green() ? rx : Vec<Real, D>(rx * Real(Real(1) / sqrt(g)));
     const Real strain_rate = strain_gradient.dot(vx);
     p = strain_gradient * Real(Real(c * k.EA) * strain_rate);
     power = Real(c * k.EA) * strain_rate * strain_rate;
     m.setZero();
-    if constexpr (Bending) {
-      constexpr double n = Law == StrainLaw::green ? 3 : 2;
+    if (k.bends()) {
+      const double n = k.curvature_power();
       if constexpr (D == 2) {
         const Real f = rx[0] * rxx[1] - rx[1] * rxx[0];
-        const Real scale = Law == StrainLaw::green ? Real(Real(1) / (g * sqrt(g))) : Real(Real(1) / g);
+        const Real scale = k.green() ? Real(Real(1) / (g * sqrt(g))) : Real(Real(1) / g);
         Vec<Real, D> by_slope, by_second;
         by_slope << rxx[1] * scale, -(rxx[0] * scale);
         by_slope -= rx * Real(Real(n) * f * scale / g);
@@ -110,7 +116,7 @@ struct DampingStress {
       } else {
         const CrossProduct<Real, D> cross(rx, rxx);
         const Real inverse = Real(1) / g;
-        const Real scale = Law == StrainLaw::green ? Real(inverse * inverse * inverse) : Real(inverse * inverse);
+        const Real scale = k.green() ? Real(inverse * inverse * inverse) : Real(inverse * inverse);
         const Real curvature_squared = cross.squared * scale;
         const Vec<Real, D> by_slope = cross.by_slope * scale - rx * Real(Real(n) * curvature_squared * inverse);
         const Vec<Real, D> by_second = cross.by_second * scale;

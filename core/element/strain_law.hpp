@@ -8,4 +8,7 @@ enum class StrainLaw {
   engineering,  ///< eps = |r_x| - 1, kappa = |r_x x r_xx|/|r_x|^2
 };
 
+/// n of kappa^2 = F.F / (r_x.r_x)^n, F = r_x x r_xx.
+constexpr double curvature_power(StrainLaw law) { return law == StrainLaw::green ? 3 : 2; }
+
 }  // namespace vlbeam

@@ -8,8 +8,8 @@ namespace vlbeam {
 // with EA, rhoA and the stretch it does with G I_p, rho I_p and the twist theta_x, to which its strain energy
 // G I_p theta_x^2/2 is a parabola.
 
-template <StrainLaw Law, bool Bending, class Real>
-struct ElasticStress<Law, Bending, Real, 1> {
+template <class Real>
+struct ElasticStress<Real, 1> {
   Vec<Real, 1> p, m;
   Real axial, bending;
 
@@ -17,8 +17,8 @@ struct ElasticStress<Law, Bending, Real, 1> {
       : p(twist * Real(k.EA)), m(Vec<Real, 1>::Zero()), axial(Real(0.5) * p.dot(twist)), bending(0) {}
 };
 
-template <StrainLaw Law, bool Bending, class Real>
-struct DampingStress<Law, Bending, Real, 1> {
+template <class Real>
+struct DampingStress<Real, 1> {
   Vec<Real, 1> p, m;
   Real power;
 

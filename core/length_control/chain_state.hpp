@@ -24,6 +24,13 @@ struct ChainState {
     Vec<double, D> slope, rate;
   };
   std::optional<Kink> kink;
+  /// A mass inside the first or the last element, instead of a moving node.
+  struct Rider {
+    int element;
+    double x, rate;     ///< material coordinate [m] and its rate [m/s]
+    bool held = false;  ///< at the end of the beam, by a support
+  };
+  std::optional<Rider> rider;
 
   /// Coordinates and rates of element k, its moving ends included.
   MovingCoordinates<double, D> coordinates(int k) const {

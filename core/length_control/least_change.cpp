@@ -17,6 +17,7 @@ constexpr double converged = 1e-9;               // of slopes and logarithms of 
 constexpr double longest_step = 0.3;             // of the same, in one iteration
 constexpr double prices[] = {1, 1e2, 1e4, 1e6};  // of a change of strain energy
 constexpr double gauge = 0.03;                   // c, how much weights cost that change nothing
+constexpr double least_curvature = 1e-10;        // over the element's length
 constexpr double least_bending = 1e-3;           // of EA l^2, in K
 
 /// The search for slopes and weights of one merged element.
@@ -29,9 +30,8 @@ class Search {
   using Unknowns = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
 
-  Search(const ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational, StrainLaw strain_law,
-         const MovingLaw<D>& law)
-      : chain_(chain), merged_(merged), strain_law_(strain_law), law_(law) {
+  Search(const ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational, const MovingLaw<D>& law)
+      : chain_(chain), merged_(merged), law_(law) {
     free_.setOnes();
     if (merged == 0 || held(merged)) free_.template head<D>().setZero();
     if (merged + 1 == chain.mesh.last() || held(merged + 1)) free_.template segment<D>(D).setZero();
@@ -39,6 +39,7 @@ class Search {
     const int first = std::max(0, merged - 1), last = std::min(chain.mesh.elements(), merged + 2);
     const auto& x = chain.mesh.x;
     length_ = x[static_cast<std::size_t>(merged) + 1] - x[static_cast<std::size_t>(merged)];
+    if (D == 3) regularization_ = least_curvature / length_;
     const auto& k = law.section.stiffness;
     scale_ = std::max(k.EI, least_bending * k.EA * length_ * length_);
     const auto pieces =
@@ -151,31 +152,26 @@ class Search {
     for (const Point& point : points_) {
       const auto now = shape_at(point, unknown);
       const double w = point.weight;
-      auto compare = [&]<StrainLaw Law>() {
-        const ElasticStress<Law, true, Real, D> is(now.r_x, now.r_xx, k);
-        const ElasticStress<Law, true, double, D> was(point.old.r_x, point.old.r_xx, k);
-        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
-        old_energy_ += w * (was.axial + was.bending);
-        add((stretch<Law, Real>(now.r_x) - Real(stretch<Law, double>(point.old.r_x), Unknowns::Zero())) *
-            std::sqrt(w * k.EA));
-        if (law_.section.bends()) {
-          const Curvature<Law, Real, D> kappa(now.r_x, now.r_xx, regularization_);
-          const Curvature<Law, double, D> old(point.old.r_x, point.old.r_xx, regularization_);
-          add((kappa.value - Real(old.value, Unknowns::Zero())) * std::sqrt(w * k.EI));
-        }
-        if (law_.rest != nullptr) {
-          const auto rest = law_.rest->at(point.x, law_.rest->piece_at(point.x));
-          const double regularization = law_.rest->curvature_regularization();
-          const RestStrain<Real> constant{Real(rest.axial, Unknowns::Zero()), Real(rest.curvature, Unknowns::Zero()),
-                                          Real(rest.axial_x, Unknowns::Zero()),
-                                          Real(rest.curvature_x, Unknowns::Zero())};
-          const RestStress<Law, true, Real, D> here(now.r_x, now.r_xx, constant, k, regularization);
-          const RestStress<Law, true, double, D> there(point.old.r_x, point.old.r_xx, rest, k, regularization);
-          energy += (here.axial + here.bending) * w - Real(w * (there.axial + there.bending), Unknowns::Zero());
-        }
-      };
-      strain_law_ == StrainLaw::green ? compare.template operator()<StrainLaw::green>()
-                                      : compare.template operator()<StrainLaw::engineering>();
+      const ElasticStress<Real, D> is(now.r_x, now.r_xx, k);
+      const ElasticStress<double, D> was(point.old.r_x, point.old.r_xx, k);
+      energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
+      old_energy_ += w * (was.axial + was.bending);
+      add((stretch<Real>(now.r_x, k.law) - Real(stretch<double>(point.old.r_x, k.law), Unknowns::Zero())) *
+          std::sqrt(w * k.EA));
+      if (law_.section.bends()) {
+        const Curvature<Real, D> kappa(now.r_x, now.r_xx, k.law, regularization_);
+        const Curvature<double, D> old(point.old.r_x, point.old.r_xx, k.law, regularization_);
+        add((kappa.value - Real(old.value, Unknowns::Zero())) * std::sqrt(w * k.EI));
+      }
+      if (law_.rest != nullptr) {
+        const auto rest = law_.rest->at(point.x, law_.rest->piece_at(point.x));
+        const double regularization = law_.rest->curvature_regularization();
+        const RestStrain<Real> constant{Real(rest.axial, Unknowns::Zero()), Real(rest.curvature, Unknowns::Zero()),
+                                        Real(rest.axial_x, Unknowns::Zero()), Real(rest.curvature_x, Unknowns::Zero())};
+        const RestStress<Real, D> here(now.r_x, now.r_xx, constant, k, regularization);
+        const RestStress<double, D> there(point.old.r_x, point.old.r_xx, rest, k, regularization);
+        energy += (here.axial + here.bending) * w - Real(w * (there.axial + there.bending), Unknowns::Zero());
+      }
       for (int c = 0; c < D; ++c) {
         add((now.r[c] - Real(point.old.r[c], Unknowns::Zero())) * std::sqrt(w * scale_ / std::pow(length_, 4)));
       }
@@ -187,11 +183,11 @@ class Search {
     energy_gradient_ = energy.derivatives();
   }
 
-  template <StrainLaw Law, class Scalar>
-  static Scalar stretch(const Vec<Scalar, D>& rx) {
+  template <class Scalar>
+  static Scalar stretch(const Vec<Scalar, D>& rx, StrainLaw law) {
     using std::sqrt;
     const Scalar g = rx.dot(rx);
-    return Law == StrainLaw::green ? Scalar((g - Scalar(1)) * 0.5) : Scalar(sqrt(g) - Scalar(1));
+    return law == StrainLaw::green ? Scalar((g - Scalar(1)) * 0.5) : Scalar(sqrt(g) - Scalar(1));
   }
 
   struct Shape {
@@ -239,10 +235,9 @@ class Search {
 
   const ChainState<D>& chain_;
   int merged_;
-  StrainLaw strain_law_;
   const MovingLaw<D>& law_;
   double length_ = 0, scale_ = 0;
-  static constexpr double regularization_ = D == 3 ? 1e-9 : 0;  // [1/m], keeps kappa differentiable where it is zero
+  double regularization_ = 0;  // [1/m], keeps kappa differentiable in space where it is zero
   std::vector<Point> points_;
   Unknowns free_, gradient_, energy_gradient_;
   Square hessian_;
@@ -253,11 +248,11 @@ class Search {
 
 template <int D>
 MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational,
-                           StrainLaw strain_law, const MovingLaw<D>& law) {
+                           const MovingLaw<D>& law) {
   const auto i = static_cast<std::size_t>(merged);
   MergedWeights weights;
   chain.mesh.weights[i] = {unit_weights, chain.mesh.x[i], chain.mesh.x[i + 1]};
-  const typename Search<D>::Unknowns p = Search<D>(chain, before, merged, rational, strain_law, law)();
+  const typename Search<D>::Unknowns p = Search<D>(chain, before, merged, rational, law)();
   slope<D>(chain.q.data(), merged) += p.template head<D>();
   slope<D>(chain.q.data(), merged + 1) += p.template segment<D>(D);
   for (std::size_t k = 0; k < 3; ++k) weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)] - p[2 * D + 3]);
@@ -265,7 +260,7 @@ MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, in
   return weights;
 }
 
-template MergedWeights least_change(ChainState<2>&, const ChainState<2>&, int, bool, StrainLaw, const MovingLaw<2>&);
-template MergedWeights least_change(ChainState<3>&, const ChainState<3>&, int, bool, StrainLaw, const MovingLaw<3>&);
+template MergedWeights least_change(ChainState<2>&, const ChainState<2>&, int, bool, const MovingLaw<2>&);
+template MergedWeights least_change(ChainState<3>&, const ChainState<3>&, int, bool, const MovingLaw<3>&);
 
 }  // namespace vlbeam

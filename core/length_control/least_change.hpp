@@ -16,11 +16,9 @@ namespace vlbeam {
 /// shape keeps the strain energy, as with two slopes alone, the one that changes it least. Returns the weights.
 template <int D>
 MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational,
-                           StrainLaw strain_law, const MovingLaw<D>& law);
+                           const MovingLaw<D>& law);
 
-extern template MergedWeights least_change(ChainState<2>&, const ChainState<2>&, int, bool, StrainLaw,
-                                           const MovingLaw<2>&);
-extern template MergedWeights least_change(ChainState<3>&, const ChainState<3>&, int, bool, StrainLaw,
-                                           const MovingLaw<3>&);
+extern template MergedWeights least_change(ChainState<2>&, const ChainState<2>&, int, bool, const MovingLaw<2>&);
+extern template MergedWeights least_change(ChainState<3>&, const ChainState<3>&, int, bool, const MovingLaw<3>&);
 
 }  // namespace vlbeam

@@ -1,5 +1,6 @@
 #include "core/length_control/length_control.hpp"
 
+#include "core/length_control/chain_motion.hpp"
 #include "core/length_control/least_change.hpp"
 #include "core/length_control/segmentation.hpp"
 
@@ -18,9 +19,9 @@ void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
 /// Gives element k of `chain` the shape of one that has lost node `deleted` of the chain `before`.
 template <int D>
 MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted,
-                         const LengthControl& control, StrainLaw strain_law, const MovingLaw<D>& law) {
+                         const LengthControl& control, const MovingLaw<D>& law) {
   if (control.merge == MergePolicy::least_change) {
-    return least_change(chain, before, k, control.rational, strain_law, law);
+    return least_change(chain, before, k, control.rational, law);
   }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
@@ -37,7 +38,7 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
 
 template <int D>
 MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                                StrainLaw strain_law, const MovingLaw<D>& law) {
+                                const MovingLaw<D>& law) {
   const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
   const int j = before.joint;
@@ -51,7 +52,44 @@ MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const
   chain.joint = deleted;
   chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
   chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
-  return merge_into(chain, merged, before, deleted, control, strain_law, law);
+  return merge_into(chain, merged, before, deleted, control, law);
+}
+
+template <int D>
+MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const LengthControl& control,
+                           const MovingLaw<D>& law) {
+  const ChainState<D> before = chain;
+  const bool forward = direction == Direction::forward;
+  const int j = before.joint, cut = forward ? j - 1 : j, merged = forward ? j : j - 1;
+  const auto& x = before.mesh.x;
+  const auto i = static_cast<std::size_t>(j);
+  const double reach = std::min(control.standard_length, (x[i + 1] - x[i - 1]) / 2);
+  const auto node = segment(before, cut, forward ? x[i + 1] - reach : x[i - 1] + reach, law.transport);
+  place_node(chain, j, node);
+  chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
+  chain.joint = no_joint;
+  chain.joint_rate = 0;
+  chain.kink.reset();
+  chain.rider = {merged, x[i], before.joint_rate, false};
+  return merge_into(chain, merged, before, j, control, law);
+}
+
+template <int D>
+MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law) {
+  const ChainState<D> before = chain;
+  const auto& rider = *before.rider;
+  const bool forward = rider.element > 0;
+  const int cut = rider.element, j = forward ? cut : cut + 1, merged = forward ? cut - 1 : cut + 1;
+  const auto node = segment(before, cut, rider.x, law.transport);
+  const auto at = motion_at(before, cut, rider.x, law.transport);
+  place_node(chain, j, node);
+  position<D>(chain.rate.data(), j) += rider.rate * at.r_x;
+  slope<D>(chain.rate.data(), j) += rider.rate * at.r_xx;
+  chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.right : node.left;
+  chain.joint = j;
+  chain.joint_rate = rider.rate;
+  chain.rider.reset();
+  return merge_into(chain, merged, before, j, control, law);
 }
 
 template <int D>
@@ -87,10 +125,12 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
   chain.kink.reset();
 }
 
-template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, StrainLaw,
-                                         const MovingLaw<2>&);
-template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, StrainLaw,
-                                         const MovingLaw<3>&);
+template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, const MovingLaw<2>&);
+template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
+template MergedWeights merge_at_end(ChainState<2>&, Direction, const LengthControl&, const MovingLaw<2>&);
+template MergedWeights merge_at_end(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
+template MergedWeights cut_at_end(ChainState<2>&, const LengthControl&, const MovingLaw<2>&);
+template MergedWeights cut_at_end(ChainState<3>&, const LengthControl&, const MovingLaw<3>&);
 template void separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
 template void separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
 

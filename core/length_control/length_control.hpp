@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/element/moving_element.hpp"
 #include "core/length_control/chain_state.hpp"
 #include "core/length_control/merge_policy.hpp"
@@ -16,7 +18,11 @@ struct LengthControl {
   MergePolicy merge = MergePolicy::point_fit;
   bool rational = true;  ///< merged elements may have weights other than 1
   VelocityTransfer velocities = VelocityTransfer::nodal;
+  /// The last element, shorter than this share of L_std, loses its moving node; 0: never.
+  double end_merge = 0;
 
+  /// Where what rides inside the last element gets a node again, so that no other event is due at once.
+  double end_cut() const { return std::max(end_merge, 2 - upper) + 0.01; }
   double trigger_length() const { return upper * (1 + hysteresis) * standard_length; }
 };
 
@@ -29,7 +35,20 @@ enum class Direction { forward, backward };
 /// mirror image.
 template <int D>
 MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                                StrainLaw strain_law, const MovingLaw<D>& law);
+                                const MovingLaw<D>& law);
+
+/// The moving node goes before the last element (forward) or the first one (backward) vanishes: the element behind it
+/// is cut at L_std from the end of the beam, or in the middle between end and next fixed node where that is nearer, and
+/// the two elements at the moving node become the fixed one inside which it now rides. Nodes keep their number; the cut
+/// is node `joint`.
+template <int D>
+MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const LengthControl& control,
+                           const MovingLaw<D>& law);
+
+/// What rides inside the last or the first element gets a moving node: the element is cut there, and the next fixed
+/// node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes.
+template <int D>
+MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law);
 
 /// The moving node leaves the beam at its last node (forward) or first node (backward). The last element, about to
 /// vanish, goes with it: curve and velocity of the element behind the node are continued to the end, and cut at L_std

@@ -15,6 +15,7 @@ namespace {
 constexpr int polynomial_points = 5;
 constexpr int rational_points = 10;
 constexpr double separation_share = 1e-3;  // of the beam's length
+constexpr double default_end_merge = 0.5;  // of L_std
 
 bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
 
@@ -31,7 +32,7 @@ std::shared_ptr<const RestCurve<D>> rest_curve_of(const ChainState<D>& chain, co
     const auto q = chain.coordinates(k);
     pieces.push_back({q.x_a, q.x_b, q.e, chain.mesh.weights[static_cast<std::size_t>(k)].w});
   }
-  return std::make_shared<const RestCurve<D>>(std::move(pieces), model.strain_law,
+  return std::make_shared<const RestCurve<D>>(std::move(pieces), model.section.stiffness.law,
                                               model.section.curvature_regularization);
 }
 
@@ -98,6 +99,7 @@ BeamSection build_section(const BeamSpec& beam) {
     section.rhoA = beam.section.rhoA;
     section.stiffness = {beam.section.EA, beam.section.EI};
   }
+  section.stiffness.law = beam.strain_law;
   section.damping = beam.material.damping;
   section.curvature_regularization = beam.material.curvature_regularization;
   return section;
@@ -183,11 +185,17 @@ double separation_distance(const Scene& scene) {
   return scene.sliding_mass->separation_distance.value_or(separation_share * beam_length(scene));
 }
 
+double end_merge(const Scene& scene) {
+  const bool kinked = scene.sliding_mass && scene.sliding_mass->slopes != JointSlopes::continuous;
+  const bool stops = !scene.sliding_mass || scene.sliding_mass->at_support == AtSupport::stop;
+  const double otherwise = !scene.length_control.enabled || (kinked && stops) ? 0 : default_end_merge;
+  return scene.length_control.end_merge.value_or(otherwise);
+}
+
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
   model.section = build_section(scene.beam);
-  model.strain_law = scene.beam.strain_law;
   model.formulation = scene.formulation;
   model.transport = scene.weights;
   model.quadrature_points = quadrature_points(scene);
@@ -207,12 +215,13 @@ BeamModel<D> build_model(const Scene& scene) {
   if (scene.sliding_mass) {
     model.joint = SlidingJoint{scene.sliding_mass->mass, scene.sliding_mass->slopes, scene.sliding_mass->friction};
     model.separation_distance = separation_distance(scene);
+    model.at_support = {scene.sliding_mass->at_support, scene.sliding_mass->restitution};
   }
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
   model.length_control = {control.enabled,    standard_length(scene), control.upper,
                           control.hysteresis, control.merge,          !is_polynomial(scene.beam.element),
-                          control.velocities};
+                          control.velocities, end_merge(scene)};
   if (has_rest_shape(scene)) model.rest = rest_curve_of(build_chain<D>(scene), model);
   return model;
 }

@@ -23,6 +23,9 @@ bool has_rest_shape(const Scene& scene);
 /// Distance from a free end at which the sliding mass of the scene leaves [m].
 double separation_distance(const Scene& scene);
 
+/// Length of the last element, over L_std, at which the sliding mass of the scene loses its node; 0 for never.
+double end_merge(const Scene& scene);
+
 /// Material coordinates of the initial nodes, and which of them is the joint's. Throws InvalidInput where the sliding
 /// mass has no node of its own between two knots of a NURBS curve.
 struct InitialNodes {

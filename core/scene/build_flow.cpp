@@ -99,7 +99,6 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
     model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = 0, .direction = along};
     if (scene.beam.rotary_inertia == BendingInertia::gyroscopic) model.rotary.gyroscopic = rhoIp * initial_spin(scene);
   }
-  model.strain_law = scene.beam.strain_law;
   model.formulation = scene.formulation;
   model.transport = scene.weights;
   model.quadrature_points = quadrature_points(scene);

@@ -59,6 +59,10 @@ constexpr auto names(JointSlopes) {
   return std::to_array<Named<JointSlopes>>(
       {{continuous, "continuous"}, {tangent, "tangent"}, {equal_stretch, "equal-stretch"}, {free, "free"}});
 }
+constexpr auto names(AtSupport) {
+  using enum AtSupport;
+  return std::to_array<Named<AtSupport>>({{stop, "stop"}, {rest, "rest"}, {rebound, "rebound"}});
+}
 constexpr auto names(MergePolicy) {
   using enum MergePolicy;
   return std::to_array<Named<MergePolicy>>({{point_fit, "point-fit"}, {unit, "unit"}, {least_change, "least-change"}});
@@ -103,13 +107,26 @@ constexpr auto names(WeightTransport) {
 }
 constexpr auto names(EventType) {
   using enum EventType;
-  return std::to_array<Named<EventType>>(
-      {{segment_merge, "segment-merge"}, {separation, "separation"}, {reweighting, "reweighting"}});
+  return std::to_array<Named<EventType>>({{segment_merge, "segment-merge"},
+                                          {separation, "separation"},
+                                          {reweighting, "reweighting"},
+                                          {end_merge, "end-merge"},
+                                          {end_cut, "end-cut"},
+                                          {contact, "contact"},
+                                          {lift_off, "lift-off"}});
 }
 constexpr auto names(RunStatus) {
   using enum RunStatus;
   return std::to_array<Named<RunStatus>>(
       {{completed, "completed"}, {separated, "separated"}, {failed, "failed"}, {interrupted, "interrupted"}});
+}
+constexpr auto names(WarningKind) {
+  using enum WarningKind;
+  return std::to_array<Named<WarningKind>>({{energy_at_events, "energy-at-events"},
+                                            {energy_not_restored, "energy-not-restored"},
+                                            {energy_between_events, "energy-between-events"},
+                                            {energy_unexplained, "energy-unexplained"},
+                                            {stability_limits_steps, "stability-limits-steps"}});
 }
 
 /// A choice whose values have names.

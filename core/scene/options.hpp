@@ -120,8 +120,10 @@ constexpr auto names(SceneSchema) { return std::to_array<Named<SceneSchema>>({{S
 
 /// Calls the visitor for every option of a scene, each after the options it depends on:
 ///   visitor(option, member)           for an option; `member` is a reference into the scene;
-///   visitor.present(option, optional) for a part that may be absent; the part's options follow if it says true;
-///   visitor.list(option, vector)      for a list of any length; the options of its entries follow, "/loads/0/type".
+///   visitor.section(option)           for an object whose options follow, and which every scene needs if it is
+///   required; visitor.present(option, optional) for a part that may be absent; the part's options follow if it says
+///   true; visitor.list(option, vector)      for a list of any length; the options of its entries follow,
+///   "/loads/0/type".
 template <class Visitor, class SceneT>
 requires std::same_as<std::remove_const_t<SceneT>, Scene>
 void visit_options(Visitor&& visitor, SceneT& scene) {
@@ -148,6 +150,16 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .range = Range::non_negative()},
           scene.gravity_ramp);
 
+  visitor.section(Option{.pointer = "/beam", .unit = "", .description = "the beam", .required = true});
+  const auto section = [&](std::string_view pointer, std::string_view description) {
+    visitor.section(Option{.pointer = pointer, .unit = "", .description = description});
+  };
+  section("/beam/curve", "the beam's axis at t = 0");
+  section("/beam/section", "cross section");
+  section("/beam/material", "material");
+  section("/length_control", "how the mesh follows the sliding mass");
+  section("/integrator", "integration in time");
+  section("/output", "what is kept of the motion");
   auto& beam = scene.beam;
   constexpr std::string_view curve_type = "/beam/curve/type";
   visitor(Option{.pointer = curve_type, .unit = "", .description = "kind of the beam's initial axis"}, beam.curve.type);
@@ -345,6 +357,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
       visitor(Option{.pointer = pointer, .unit = part_unit, .description = description, .range = range, .when = when},
               member);
     };
+    section(at, "a function of time, S(t/ramp) (value + rate t + acceleration t^2/2 + oscillation)");
     part("value", unit, "of a function of time: its constant part", {}, f.value);
     part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
     part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
@@ -380,6 +393,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   };
   support("/supports/at=start", scene.start);
   support("/supports/at=end", scene.end);
+  section("/supports", "what holds the ends of the beam; one that is not listed is free");
 
   if (visitor.present(
           Option{.pointer = "/sliding_mass", .unit = "", .description = "a lumped mass that slides along the beam"},
@@ -431,6 +445,18 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                .description = "distance from a free end where the mass leaves; 1e-3 of the beam's length if not given",
                .range = Range::positive()},
         mass.separation_distance);
+    constexpr std::string_view at_support = "/sliding_mass/at_support";
+    visitor(Option{.pointer = at_support,
+                   .unit = "",
+                   .description = "what becomes of the mass at an end that it cannot leave: the run stops there, or it "
+                                  "rests until the contact force turns, or it rebounds"},
+            mass.at_support);
+    visitor(Option{.pointer = "/sliding_mass/restitution",
+                   .unit = "-",
+                   .description = "of a rebound: speed along the beam after it over that before",
+                   .range = Range::closed(0, 1),
+                   .when = only_if(at_support, mass.at_support, AtSupport::rebound)},
+            mass.restitution);
   }
 
   if (visitor.present(Option{.pointer = "/spin", .unit = "", .description = "the section's rotation about the axis"},
@@ -567,6 +593,14 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                                 "projected and scaled to the old total energy",
                  .source = "Ding & Ouyang 2022 is nodal"},
           scene.length_control.velocities);
+  visitor(Option{.pointer = "/length_control/end_merge",
+                 .unit = "-",
+                 .description =
+                     "length of the element between the mass and an end of the beam, over the uniform element length, "
+                     "below which the mass rides inside an element without a node of its own; 0 never; 0.5 if not "
+                     "given, but 0 without length control, and for a kinked mass that stops at supports",
+                 .range = {.low = 0, .high = 0.9}},
+          scene.length_control.end_merge);
 
   visitor(
       Option{.pointer = "/constraints",
@@ -583,7 +617,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   visitor(Option{.pointer = "/integrator/rtol",
                  .unit = "-",
                  .description = "relative tolerance of a step, of the methods that choose their step",
-                 .range = {.low = 0, .high = 1, .low_open = true}},
+                 .range = Range::closed(1e-14, 1)},
           scene.integrator.rtol);
   visitor(Option{.pointer = "/integrator/atol",
                  .unit = "m, m/s",
@@ -609,13 +643,14 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "a new tangent at every iteration (full) or when one converges too slowly (modified)",
                  .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
           scene.integrator.newton);
-  visitor(Option{.pointer = "/integrator/newton_tolerance",
-                 .unit = "-",
-                 .description = "where Newton's iteration ends: its correction over the largest coordinate or 1; what "
-                                "it leaves adds up over the steps",
-                 .range = {.low = 1e-15, .high = 1e-2},
-                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
-          scene.integrator.newton_tolerance);
+  visitor(
+      Option{.pointer = "/integrator/newton_tolerance",
+             .unit = "-",
+             .description = "where Newton's iteration ends: its estimated error over the step's own increment, field "
+                            "by field; rounding ends it, too",
+             .range = {.low = 1e-15, .high = 1e-2},
+             .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+      scene.integrator.newton_tolerance);
   visitor(Option{.pointer = "/integrator/adaptive",
                  .unit = "",
                  .description = "the step follows rtol and atol of the positions, up to the length given",
@@ -627,7 +662,11 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                                 "which leaves every method of first order"},
           scene.integrator.locate_events);
 
-  visitor(Option{.pointer = "/duration", .unit = "s", .description = "simulated time", .range = Range::positive()},
+  visitor(Option{.pointer = "/duration",
+                 .unit = "s",
+                 .description = "simulated time",
+                 .range = Range::positive(),
+                 .required = true},
           scene.duration);
   visitor(Option{.pointer = "/output/interval",
                  .unit = "s",

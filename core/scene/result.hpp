@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,24 @@ struct FlowSample {
   std::optional<std::array<double, 2>> end_angles;  ///< of the first and the last node [rad]; with spin
   double spin_momentum = 0;                         ///< about the axis [N m s]
   std::vector<Point> loads;                         ///< where the concentrated ones are [m]
+  std::vector<Reaction> supports;                   ///< of inner nodes, in the order of the scene
+  std::vector<double> torques;                      ///< of the drives of the angle, about the axis [N m]
   std::optional<Ledger> ledger;                     ///< with methods of first-order equations
+};
+
+/// Between the sliding mass and the beam, while it is on it.
+struct JointSample {
+  double velocity;    ///< rate of its material coordinate, x_i' [m/s]
+  Point force;        ///< with which the beam acts on the mass [N]
+  double tangential;  ///< of the force: along the beam's tangent, towards its end [N]
+  double normal;      ///< and across it, the magnitude [N]
+};
+
+/// Least and largest over the beam; of strains from the rest shape, as the strain law measures them.
+struct StrainSample {
+  std::array<double, 2> axial_strain{};  ///< [-]
+  std::array<double, 2> axial_force{};   ///< EA (strain + damping c times its rate), along the axis [N]
+  double curvature = 0;                  ///< largest magnitude [1/m]
 };
 
 /// The observed quantities at one instant.
@@ -46,9 +64,12 @@ struct Sample {
   Energy energy;                         ///< by a 25-point rule, independent of the model's own points
   double discrete_total = 0;             ///< total energy summed over the model's own quadrature points [J]
   Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]
+  Point angular_momentum{};              ///< of the same about the origin [kg m^2/s]; in the plane the last component
   std::array<Reaction, 2>
       reactions{};  ///< of the supports at start and end, by the accelerations that belong to the state
-  std::optional<FlowSample> flow;
+  StrainSample strains;
+  std::optional<JointSample> joint;  ///< as `joint_position`
+  std::shared_ptr<const FlowSample> flow;
 };
 
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
@@ -63,8 +84,17 @@ struct Configuration {
   struct Kink {
     std::size_t node;
     Point r_x;
+    Point r_x_rate{};  ///< [1/s]
   };
   std::optional<Kink> kink;
+  /// How fast all this changes.
+  struct Rates {
+    std::vector<double> x;      ///< of the material coordinates [m/s]
+    std::vector<Point> v;       ///< velocities of the material points at the nodes [m/s]
+    std::vector<Point> r_x;     ///< of the slopes [1/s]
+    std::vector<double> spins;  ///< rates of the angles [rad/s]; with spin
+  };
+  Rates rates;
 };
 
 /// A length-control event, located in time, with what it cost.
@@ -77,6 +107,7 @@ struct Event {
   Energy energy_jump;                      ///< after minus before, 25-point rule
   double discrete_jump = 0;                ///< jump of the total over the model's own points [J]
   std::vector<double> momentum_jump;       ///< linear [kg m/s], then angular about the origin [kg m^2/s]
+  bool restored = true;                    ///< false: `conservative` velocities could not restore the energy
   Configuration before;
   Configuration after;
 };
@@ -86,6 +117,22 @@ enum class RunStatus {
   separated,  ///< the mass left the beam and the run went on to its end
   failed,     ///< the computation broke down; what was computed until then is here
   interrupted,
+};
+
+/// What a run warns of.
+enum class WarningKind {
+  energy_at_events,        ///< length control has changed the total energy
+  energy_not_restored,     ///< `conservative` velocities could not restore it
+  energy_between_events,   ///< the integrator or the formulation has
+  energy_unexplained,      ///< the model's own quadrature points do not see a change of it
+  stability_limits_steps,  ///< of an explicit method; an implicit one would need fewer
+};
+
+/// Something that the results of a run do not show by themselves, and that its user should know.
+struct Warning {
+  WarningKind kind;
+  std::string message;  ///< what has happened, with numbers
+  std::string remedy;   ///< what to try
 };
 
 /// Wall times [s]; never part of a committed report.
@@ -102,9 +149,10 @@ struct RunResult {
   std::vector<Configuration> configurations;
   std::vector<Event> events;
   double max_kinetic = 0;       ///< largest kinetic energy of the samples [J]
-  double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - jumps|, the model's own points [J]
+  double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - supplied - jumps|, the model's own points [J]
   ConstraintResidual slopes;    ///< largest of the samples: how far a kinked joint's slopes are from what ties them
   SolverCounters solver;
+  std::vector<Warning> warnings;
   RunTiming timing;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 
 #include "core/error.hpp"
 
@@ -34,7 +35,8 @@ std::vector<double> Stops::all() const {
 }
 
 IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest) {
-  const double wave_time = shortest * std::sqrt(section.rhoA / std::max(section.stiffness.EA, section.stiffness.EI));
+  const double stiffness = std::max(section.stiffness.EA, section.stiffness.EI / (shortest * shortest));
+  const double wave_time = shortest * std::sqrt(section.rhoA / stiffness);
   const auto& integrator = scene.integrator;
   IntegrationOptions options;
   options.type = integrator.type;
@@ -52,16 +54,25 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
 }
 
 void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial,
-                const std::vector<double>& stops, const IntegrationOptions& options, RunResult& result) {
+                const Stops& stops, const IntegrationOptions& options, RunResult& result) {
   double t = 0;
   const auto started = std::chrono::steady_clock::now();
   try {
+    result.samples.reserve(stops.samples.size());
     Eigen::VectorXd y = initial();
-    if (!integrate(ode, y, t, scene.duration, stops, options, result.solver)) result.status = RunStatus::interrupted;
+    if (!integrate(ode, y, t, scene.duration, stops.all(), options, result.solver)) {
+      result.status = RunStatus::interrupted;
+    }
   } catch (const ComputationFailed& failure) {
     result.status = RunStatus::failed;
     result.failure = failure.what();
     result.failure_time = failure.t;
+  } catch (const std::bad_alloc&) {
+    result.status = RunStatus::failed;
+    result.failure = "out of memory after " + std::to_string(result.samples.size()) + " samples and " +
+                     std::to_string(result.configurations.size()) +
+                     " shapes: take fewer (/output/interval, /output/configurations) or fewer elements";
+    result.failure_time = t;
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   result.timing.motion = elapsed.count();

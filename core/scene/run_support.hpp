@@ -14,6 +14,18 @@ Point point_of(const Vec<double, D>& v) {
   return point;
 }
 
+/// Of a node's generalized force, position and slope.
+template <int D>
+Reaction reaction_of(const Eigen::Matrix<double, 2 * D, 1>& force) {
+  return {point_of<D>(force.template head<D>()), point_of<D>(force.template tail<D>())};
+}
+
+inline StrainSample strain_sample(const StrainExtremes& extremes) {
+  return {{extremes.strain.least, extremes.strain.largest},
+          {extremes.force.least, extremes.force.largest},
+          extremes.curvature};
+}
+
 /// Where a run stops to look: at the samples, and at the configurations, both in increasing order.
 struct Stops {
   std::vector<double> samples, configurations;
@@ -29,7 +41,7 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
 
 /// Runs to the end of the scene, from the state that `initial` makes, and notes how it went.
 void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial,
-                const std::vector<double>& stops, const IntegrationOptions& options, RunResult& result);
+                const Stops& stops, const IntegrationOptions& options, RunResult& result);
 
 /// Runs a scene whose beam is a FlowingBeam.
 template <int D>

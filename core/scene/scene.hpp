@@ -9,6 +9,7 @@
 #include "core/dynamics/stepper.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
+#include "core/joint/at_support.hpp"
 #include "core/joint/friction.hpp"
 #include "core/joint/slope_conditions.hpp"
 #include "core/length_control/merge_policy.hpp"
@@ -114,6 +115,8 @@ struct SlidingMassSpec {
   JointSlopes slopes = JointSlopes::continuous;
   std::optional<AxialFriction> friction;      ///< none unless given
   std::optional<double> separation_distance;  ///< distance from a free end where the mass leaves [m]; default 1e-3 L
+  AtSupport at_support = AtSupport::stop;     ///< where it reaches an end that is not free
+  double restitution = 1;                     ///< of a rebound
 };
 
 /// The section's rotation about the axis of the beam.
@@ -171,6 +174,7 @@ struct LengthControlSpec {
   double hysteresis = 1e-3;  ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
   MergePolicy merge = MergePolicy::point_fit;
   VelocityTransfer velocities = VelocityTransfer::nodal;
+  std::optional<double> end_merge;  ///< over L_std: a shorter last element loses its moving node; see end_merge()
 };
 
 struct IntegratorSpec {
@@ -180,7 +184,7 @@ struct IntegratorSpec {
   double step = 1e-3;                        ///< methods of fixed step [s]
   double rho_inf = 0.9;                      ///< generalized-alpha: spectral radius at infinity
   NewtonKind newton = NewtonKind::modified;  ///< generalized-alpha
-  double newton_tolerance = 1e-12;           ///< generalized-alpha: of Newton's correction, relative
+  double newton_tolerance = 1e-8;            ///< generalized-alpha: what Newton leaves, over the increment
   bool adaptive = false;                     ///< generalized-alpha: the step follows rtol and atol
   bool locate_events = true;
 };

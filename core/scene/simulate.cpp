@@ -6,7 +6,9 @@
 
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
+#include "core/scene/energy_ledger.hpp"
 #include "core/scene/run_support.hpp"
+#include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
 
 namespace vlbeam {
@@ -28,6 +30,13 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     const bool restricted = transport == WeightTransport::transported && weights.w != unit_weights;
     shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
   }
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    const double x_rate = k == chain.joint ? chain.joint_rate : 0;
+    shape.rates.x.push_back(x_rate);
+    shape.rates.v.push_back(point_of<D>(position<D>(chain.rate.data(), k) - x_rate * slope<D>(chain.q.data(), k)));
+    shape.rates.r_x.push_back(point_of<D>(slope<D>(chain.rate.data(), k)));
+  }
+  if (chain.kink) shape.kink->r_x_rate = point_of<D>(chain.kink->rate);
   return shape;
 }
 
@@ -48,7 +57,7 @@ class Run {
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
     const auto options = integration_options(scene_, system_.model().section, shortest);
     run_to_end(
-        scene_, system_, [this] { return system_.initial_state(); }, stops_.all(), options, result_);
+        scene_, system_, [this] { return system_.initial_state(); }, stops_, options, result_);
     result_.timing.motion -= result_.timing.length_control + observing_;
     result_.solver.rhs_evaluations = system_.rhs_evaluations();
     return std::move(result_);
@@ -61,23 +70,24 @@ class Run {
       result_.configurations.push_back(configuration_of(system_.chain(y), t, scene_.weights));
     }
     if (stops_.samples_at(t)) {
-      const auto seen = system_.observe(y, t, ledger_points);
+      const auto seen = system_.observe(y, t, ledger_points, true);
       const auto own = system_.observe(y, t, system_.model().quadrature_points);
       Sample sample;
       sample.t = t;
       const auto chain = system_.chain(y);
-      if (system_.has_joint()) sample.joint_position = chain.mesh.x[static_cast<std::size_t>(chain.joint)];
-      if (const auto mass = system_.mass_position(y)) sample.mass_position = point_of<D>(*mass);
+      if (const auto place = mass_coordinate(chain)) sample.joint_position = *place;
+      if (const auto mass = system_.mass_motion(y)) sample.mass_position = point_of<D>(mass->r);
       sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
       sample.beam_length = seen.beam_length;
       sample.beam_length_rate = seen.beam_length_rate;
       sample.energy = seen.energy;
       sample.discrete_total = own.energy.total();
       sample.momentum = point_of<D>(seen.momentum);
-      const auto forces = system_.reactions(y, t);
-      for (std::size_t i = 0; i < 2; ++i) {
-        sample.reactions[i] = {point_of<D>(forces[i].template head<D>()), point_of<D>(forces[i].template tail<D>())};
-      }
+      sample.angular_momentum = point_of<3>(seen.angular_momentum);
+      sample.strains = strain_sample(*seen.extremes);
+      const OuterForces<D> forces = system_.forces(y, t);
+      for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+      if (system_.mass_on_beam()) sample.joint = joint_sample(y, chain, forces.on_mass);
       const ConstraintResidual slopes = system_.slope_residual(y);
       result_.slopes.position = std::max(result_.slopes.position, slopes.position);
       result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
@@ -85,9 +95,29 @@ class Run {
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       result_.max_energy_drift = std::max(
           result_.max_energy_drift, std::abs(sample.discrete_total - sample.energy.supplied - first_total_ - jumps_));
-      result_.samples.push_back(sample);
+      result_.samples.push_back(std::move(sample));
     }
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  /// Material coordinate of the mass, while it is on the beam.
+  static std::optional<double> mass_coordinate(const ChainState<D>& chain) {
+    if (chain.rider) return chain.rider->x;
+    if (chain.joint == no_joint) return std::nullopt;
+    return chain.mesh.x[static_cast<std::size_t>(chain.joint)];
+  }
+
+  JointSample joint_sample(const Eigen::VectorXd& y, const ChainState<D>& chain, const Vec<double, D>& force) const {
+    Vec<double, D> tangent;
+    if (chain.rider) {
+      tangent = system_.rider_motion(y.data(), y.data() + system_.coordinates()).r_x.normalized();
+    } else {
+      tangent = slope<D>(chain.q.data(), chain.joint).normalized();
+    }
+    if (chain.kink) tangent = (tangent + chain.kink->slope.normalized()).normalized();
+    const double along = force.dot(tangent);
+    return {chain.rider ? chain.rider->rate : chain.joint_rate, point_of<D>(force), along,
+            (force - along * tangent).norm()};
   }
 
   void event(const EventRecord<D>& record) {
@@ -100,6 +130,7 @@ class Run {
     event.energy_jump = record.jump;
     event.discrete_jump = record.discrete_jump;
     event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
+    event.restored = record.restored;
     event.before = configuration_of(record.before, record.t, scene_.weights);
     event.after = configuration_of(record.after, record.t, scene_.weights);
     if (record.type == EventType::separation) result_.status = RunStatus::separated;
@@ -116,12 +147,19 @@ class Run {
   double first_total_ = 0, jumps_ = 0, observing_ = 0;
 };
 
+template <int D>
+RunResult simulate_in(const Scene& scene, const ProgressCallback& progress) {
+  return flows(scene) ? simulate_flow<D>(scene, progress) : Run<D>(scene, progress)();
+}
+
 }  // namespace
 
 RunResult simulate(const Scene& scene, const ProgressCallback& progress) {
   validate(scene);
-  if (flows(scene)) return scene.dimension == 2 ? simulate_flow<2>(scene, progress) : simulate_flow<3>(scene, progress);
-  return scene.dimension == 2 ? Run<2>(scene, progress)() : Run<3>(scene, progress)();
+  RunResult result = scene.dimension == 2 ? simulate_in<2>(scene, progress) : simulate_in<3>(scene, progress);
+  result.warnings = energy_warnings(scene, result);
+  if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);
+  return result;
 }
 
 }  // namespace vlbeam

@@ -26,7 +26,7 @@ class FlowRun {
     for (std::size_t k = 2; k < nodes.size(); ++k) shortest = std::min(shortest, nodes[k].value - nodes[k - 1].value);
     const auto options = integration_options(scene_, beam_.model().section, shortest);
     run_to_end(
-        scene_, beam_, [this] { return initial_flow(scene_, beam_); }, stops_.all(), options, result_);
+        scene_, beam_, [this] { return initial_flow(scene_, beam_); }, stops_, options, result_);
     result_.solver.rhs_evaluations = beam_.rhs_evaluations();
     return std::move(result_);
   }
@@ -41,6 +41,12 @@ class FlowRun {
       shape.r.push_back(point_of<D>(position<D>(y.data(), k)));
       shape.r_x.push_back(point_of<D>(slope<D>(y.data(), k)));
       if (beam_.model().spin) shape.angles.push_back(y[beam_.angle(k)]);
+      const double* rate = y.data() + beam_.coordinates();
+      const double x_rate = nodes[static_cast<std::size_t>(k)].rate;
+      shape.rates.x.push_back(x_rate);
+      shape.rates.v.push_back(point_of<D>(position<D>(rate, k) - x_rate * slope<D>(y.data(), k)));
+      shape.rates.r_x.push_back(point_of<D>(slope<D>(rate, k)));
+      if (beam_.model().spin) shape.rates.spins.push_back(rate[beam_.angle(k)]);
     }
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
       shape.weights.push_back(beam_.weights_at(k, nodes));
@@ -57,20 +63,35 @@ class FlowRun {
     sample.beam_length_rate = seen.beam_length_rate;
     sample.energy = seen.energy;
     sample.discrete_total = seen.energy.total();
+    sample.energy.supplied = beam_.ramp_work(t, seen);
     sample.momentum = point_of<D>(seen.momentum);
-    FlowSample& flow = sample.flow.emplace();
+    sample.angular_momentum = point_of<3>(seen.angular_momentum);
+    sample.strains = strain_sample(seen.extremes);
+    FlowSample flow;
     flow.mass = seen.mass;
     if (beam_.model().spin) {
       flow.end_angles = {y[beam_.angle(0)], y[beam_.angle(beam_.elements())]};
       flow.spin_momentum = seen.spin_momentum;
     }
     for (const auto& load : beam_.model().loads) flow.loads.push_back(point_of<D>(beam_.position_of(load, y, t)));
-    double supplied = 0;
+    const FlowReactions<D> reactions = beam_.reactions(y, t);
+    flow.torques = reactions.torques;
+    for (std::size_t i = 0; i < reactions.supports.size(); ++i) {
+      const int node = beam_.model().supports[i].node;
+      const Reaction reaction = reaction_of<D>(reactions.supports[i]);
+      if (node > 0 && node < beam_.elements()) {
+        flow.supports.push_back(reaction);
+      } else {
+        sample.reactions[node == 0 ? 0 : 1] = reaction;
+      }
+    }
+    double supplied = sample.energy.supplied;
     if (beam_.model().ledger) {
       const FlowLedger<D> ledger = beam_.ledger(y);
       flow.ledger = {ledger.mass, ledger.ends, ledger.loads, ledger.mesh};
-      supplied = ledger.ends + ledger.loads + ledger.mesh;
+      supplied += ledger.ends + ledger.loads + ledger.mesh;
     }
+    sample.flow = std::make_shared<const FlowSample>(std::move(flow));
     if (result_.samples.empty()) first_total_ = sample.discrete_total;
     result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
     result_.max_energy_drift =

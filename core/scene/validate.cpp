@@ -15,6 +15,10 @@
 namespace vlbeam {
 namespace {
 
+constexpr double smallest_weight_ratio = 1e-6;
+constexpr double largest_quantity = 1e100;
+constexpr double most_steps = 1e9;
+
 [[noreturn]] void refuse(std::string field, std::string value, std::string allowed) {
   throw InvalidInput(std::move(field), std::move(value), std::move(allowed));
 }
@@ -34,8 +38,14 @@ class RangeCheck {
 
   template <class T>
   void list(const Option&, const std::vector<T>&) const {}
+  void section(const Option&) const {}
 
  private:
+  static bool within(const Range& range, double part) { return range.contains(part); }
+  static bool within(const Range& range, const Point& part) {
+    return std::ranges::all_of(part, [&range](double x) { return range.contains(x); });
+  }
+
   /// `T` is the option's type, `part` the option or, of an array, an entry.
   template <class T, class Part>
   static void check(const Option& option, const Part& part, const std::string& field) {
@@ -44,7 +54,9 @@ class RangeCheck {
     } else if constexpr (std::same_as<Part, std::optional<double>>) {
       if (part) check<T>(option, *part, field);
     } else if constexpr (!NamedEnum<Part> && !std::same_as<Part, bool> && !std::same_as<Part, std::string>) {
-      for (std::size_t i = 0; i < part.size(); ++i) check<T>(option, part[i], field + "/" + std::to_string(i));
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        if (!within(option.range, part[i])) check<T>(option, part[i], field + "/" + std::to_string(i));
+      }
     }
   }
 };
@@ -69,13 +81,55 @@ void check_plane(const Scene& scene) {
   }
 }
 
+/// Of weights of one curve: `field` is where they stand.
+void check_weight_ratio(const std::string& field, const double* weights, std::size_t count) {
+  const auto [least, largest] = std::minmax_element(weights, weights + count);
+  if (count == 0 || *least >= smallest_weight_ratio * *largest) return;
+  refuse(field + "/" + std::to_string(least - weights), number_text(*least),
+         "weights of one curve must be within " + number_text(1 / smallest_weight_ratio) +
+             " of each other: the largest here is " + number_text(*largest));
+}
+
+/// Every span between two knots needs an element, and no knot stands more often than the degree.
+void check_knots(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  const std::size_t most = static_cast<std::size_t>(curve.degree) * (static_cast<std::size_t>(scene.beam.elements) + 3);
+  if (curve.knots.size() > most) {
+    refuse("/beam/curve/knots", std::to_string(curve.knots.size()) + " entries",
+           "with " + std::to_string(scene.beam.elements) + " elements there can be at most " + std::to_string(most) +
+               ": each span between two knots needs an element");
+  }
+  check_weight_ratio("/beam/curve/weights", curve.weights.data(), curve.weights.size());
+}
+
+/// Quantities whose squares and products must not leave the range of numbers.
+bool of_usual_size(double value) { return value > 1 / largest_quantity && value < largest_quantity; }
+
+void check_sizes(const Scene& scene) {
+  const BeamSpec& beam = scene.beam;
+  const bool circle = beam.section.type == Section::Type::circle;
+  const BeamSection section = build_section(beam);
+  const auto check = [&](const char* name, double value) {
+    if (of_usual_size(value)) return;
+    const std::string bounds = "it must be between 1e-100 and 1e100";
+    if (!circle) refuse(std::string("/beam/section/") + name, number_text(value), bounds);
+    refuse("/beam/section/radius", number_text(beam.section.radius),
+           "with /beam/material/density = " + number_text(beam.material.density) +
+               " and youngs_modulus = " + number_text(beam.material.youngs_modulus) + " it makes " + name + " = " +
+               number_text(value) + "; " + bounds);
+  };
+  check("rhoA", section.rhoA);
+  check("EA", section.stiffness.EA);
+  if (circle || section.stiffness.EI > 0) check("EI", section.stiffness.EI);
+}
+
 void check_curve(const Scene& scene) {
   const CurveSpec& curve = scene.beam.curve;
   double length = 0;
   switch (curve.type) {
     case CurveType::line:
       length = beam_length(scene);
-      if (!(length > 0)) {
+      if (curve.start == curve.end) {
         refuse("/beam/curve/end", "the same point as /beam/curve/start", "the beam needs a length > 0 [m]");
       }
       break;
@@ -93,6 +147,7 @@ void check_curve(const Scene& scene) {
       break;
     }
     case CurveType::nurbs:
+      check_knots(scene);
       try {
         length = beam_length(scene);
       } catch (const NurbsError& error) {
@@ -108,7 +163,9 @@ void check_curve(const Scene& scene) {
       }
       break;
   }
-  if (!std::isfinite(length)) refuse("/beam/curve", "a curve of no finite length", "the length must be finite");
+  if (!of_usual_size(length)) {
+    refuse("/beam/curve", "a length of " + number_text(length) + " m", "it must be between 1e-100 and 1e100 m");
+  }
 }
 
 void check_beam(const Scene& scene) {
@@ -118,6 +175,7 @@ void check_beam(const Scene& scene) {
            "it must be 0 (the element's default) or 3 to 25: the mass matrix is singular with fewer points");
   }
 
+  check_weight_ratio("/beam/weights", beam.weights.data(), beam.weights.size());
   const auto unequal = std::ranges::find_if(beam.weights, [](double w) { return w != 1; });
   if (unequal != beam.weights.end()) {
     const std::string field = "/beam/weights/" + std::to_string(unequal - beam.weights.begin());
@@ -156,7 +214,8 @@ void check_sliding_mass(const Scene& scene) {
   const double margin = 1e-9 * length;
   if (!(mass.position > margin && mass.position < length - margin)) {
     refuse("/sliding_mass/position", number_text(mass.position),
-           "the mass must be inside the beam, between 0 and " + number_text(length) + " [m] and not on its ends");
+           "the mass must be inside the beam and not on its ends: more than " + number_text(margin) +
+               " and less than " + number_text(length - margin) + " [m]");
   }
   place_nodes(scene, build_axis<3>(scene).breaks());
   const double half_element = standard_length(scene) / 2;
@@ -165,6 +224,8 @@ void check_sliding_mass(const Scene& scene) {
            "it must be less than half an element, " + number_text(half_element) + " [m]");
   }
 }
+
+std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
 void check_length_control(const Scene& scene) {
   const LengthControlSpec& control = scene.length_control;
@@ -175,9 +236,17 @@ void check_length_control(const Scene& scene) {
                " must be in [1.5, 2): below, an event re-fires at once in the other direction; from 2 on, the element "
                "ahead vanishes first");
   }
+  if (control.end_merge && *control.end_merge > 0 && !control.enabled) {
+    refuse("/length_control/end_merge", number_text(*control.end_merge),
+           "without length control it must be 0: take \"enabled\": true, or leave it out");
+  }
+  if (scene.sliding_mass && scene.sliding_mass->at_support != AtSupport::stop && end_merge(scene) == 0) {
+    refuse(control.enabled ? "/length_control/end_merge" : "/length_control/enabled", control.enabled ? "0" : "false",
+           "\"at_support\": " + quoted(to_string(scene.sliding_mass->at_support)) +
+               " needs a mass that reaches the support: take " + (control.enabled ? "a number in (0, 0.9]" : "true") +
+               ", or \"at_support\": \"stop\"");
+  }
 }
-
-std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
 void check_joint(const Scene& scene) {
   if (!scene.sliding_mass) return;
@@ -241,6 +310,10 @@ void check_integrator(const Scene& scene) {
     refuse("/integrator/step", number_text(integrator.step),
            "it must be at most the duration, " + number_text(scene.duration) + " [s]");
   }
+  if (has_fixed_step(integrator.type) && scene.duration / integrator.step > most_steps) {
+    refuse("/integrator/step", number_text(integrator.step),
+           "it must leave at most 1e9 steps in the duration of " + number_text(scene.duration) + " s");
+  }
 }
 
 void check_support_motion(const Scene& scene) {
@@ -281,6 +354,12 @@ void check_output(const Scene& scene) {
            "it must leave at most 1e7 samples in the duration of " + number_text(scene.duration) + " s");
   }
   const auto& times = scene.output.configurations;
+  constexpr double most_nodes = 1e8;
+  if (static_cast<double>(times.size()) * (scene.beam.elements + 1) > most_nodes) {
+    refuse("/output/configurations", std::to_string(times.size()) + " entries",
+           "with " + std::to_string(scene.beam.elements) + " elements there can be at most " +
+               number_text(std::floor(most_nodes / (scene.beam.elements + 1))) + " shapes");
+  }
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::string field = "/output/configurations/" + std::to_string(i);
     if (times[i] > scene.duration) {
@@ -296,6 +375,7 @@ void check_output(const Scene& scene) {
 void validate(const Scene& scene) {
   visit_options(RangeCheck{}, scene);
   check_plane(scene);
+  check_sizes(scene);
   check_curve(scene);
   check_beam(scene);
   check_sliding_mass(scene);

@@ -98,6 +98,10 @@ void check_loads(const Scene& scene) {
     if (load.type == LoadType::force && load.direction == Point{}) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
+    if (load.type == LoadType::torque && !scene.spin) {
+      refuse("/spin", "a missing key",
+             at + " is a torque, which turns the section about the axis: it needs this object");
+    }
     const TimeSpec& size = load.magnitude;
     if (size.value == 0 && size.rate == 0 && size.acceleration == 0 && size.amplitude == 0) {
       refuse(at + "/magnitude", "zero at all times", "give its value, rate, acceleration or amplitude");
@@ -110,7 +114,7 @@ void check_model(const Scene& scene) {
   const FlowingBeam<D> beam(build_flowing_model<D>(scene));
   if (scene.flow) {
     const double stretch =
-        stretch_under(scene.flow->tension, beam.model().section.stiffness.EA, beam.model().strain_law);
+        stretch_under(scene.flow->tension, beam.model().section.stiffness.EA, beam.model().section.stiffness.law);
     const auto nodes = beam.nodes_at(0);
     const double length = stretch * (nodes.back().value - nodes.front().value), curve = beam_length(scene);
     if (!(std::abs(length - curve) <= length_tolerance * curve)) {

@@ -3,31 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/error.hpp"
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
-namespace {
-
-template <MovingEnds Ends, int D>
-MovingEquations<double, D> equations(StrainLaw strain_law, const MovingCoordinates<double, D>& q,
-                                     const MovingCoordinates<double, D>& rate, const WeightFunction& weights,
-                                     const ShapeTabulation& table, const MovingLaw<D>& law) {
-  auto measured = [&]<StrainLaw Law>() {
-    return law.section.bends() ? moving_equations<Law, true, double, D, Ends>(q, rate, weights, table, law)
-                               : moving_equations<Law, false, double, D, Ends>(q, rate, weights, table, law);
-  };
-  return strain_law == StrainLaw::green ? measured.template operator()<StrainLaw::green>()
-                                        : measured.template operator()<StrainLaw::engineering>();
-}
-
-}  // namespace
-
-double gravity_share(double t, double ramp) { return smooth_ramp(t, ramp).value; }
-
-double gravity_share_rate(double t, double ramp) { return smooth_ramp(t, ramp).rate; }
-
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
   if (model.driven() && model.joint && model.length_control.velocities == VelocityTransfer::conservative) {
@@ -38,6 +17,7 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
   initial_ = state_of(chain, {});
   anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
   impose(initial_, 0);
+  ramp_ = RampWork<D>(model.gravity, model.gravity_ramp);
 }
 
 template <int D>
@@ -48,16 +28,16 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
   mesh_ = chain.mesh;
   joint_ = chain.joint;
-  free_mass_ = model_.joint.has_value() && joint_ == no_joint;
+  free_mass_ = model_.joint.has_value() && joint_ == no_joint && !chain.rider;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
-  coordinates_ = nodal_ + (has_joint() ? 1 : 0) + (kinked() || free_mass_ ? D : 0);
+  coordinates_ = nodal_ + (has_joint() || chain.rider ? 1 : 0) + (kinked() || free_mass_ ? D : 0);
   behind_ = kinked() ? nodal_ + 1 : Eigen::Index{node_size<D>} * joint_ + D;
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
   const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
   const RestCurve<D>* rest = model_.rest.get();
-  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, model_.strain_law, rule, rest);
-  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, model_.strain_law, rule, rest);
+  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest);
+  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest);
   if (model_.driven()) {
     for (const std::size_t end : {0, 1}) {
       const std::size_t k = end == 0 ? 0 : static_cast<std::size_t>(mesh_.elements()) - 1;
@@ -69,6 +49,34 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     left_table_ = ShapeTabulation(rule, mesh_.weights[j - 1].w);
     right_table_ = ShapeTabulation(rule, mesh_.weights[j].w);
   }
+  rider_.reset();
+  if (chain.rider) {
+    const auto k = static_cast<std::size_t>(chain.rider->element);
+    rider_.emplace(Riding{chain.rider->element,
+                          chain.rider->held,
+                          k > 0 ? mesh_.x.back() : mesh_.x.front(),
+                          {mesh_.x[k], mesh_.x[k + 1] - mesh_.x[k], mesh_.weights[k].w},
+                          RiderMass<D>(*left_, *right_, mesh_.last() + 1, chain.rider->element)});
+  }
+  set_end_limits();
+}
+
+template <int D>
+void BeamSystem<D>::set_end_limits() {
+  const auto& control = model_.length_control;
+  end_limit_ = {0, 0};
+  cut_limit_ = std::numeric_limits<double>::infinity();
+  if (!control.enabled || control.end_merge == 0) return;
+  if (rider_) cut_limit_ = control.end_cut() * std::min(control.standard_length, rider_->curve.length);
+  if (!has_joint()) return;
+  const auto j = static_cast<std::size_t>(joint_);
+  const double unit = std::min(control.standard_length, (mesh_.x[j + 1] - mesh_.x[j - 1]) / 2);
+  const auto limit = [&](double length) {  // an element that is shorter from the start has to halve first
+    const double due = control.end_merge * unit;
+    return length > due ? due : length / 2;
+  };
+  if (joint_ + 1 == mesh_.last()) end_limit_[0] = limit(mesh_.x[j + 1] - mesh_.x[j]);
+  if (joint_ == 1) end_limit_[1] = limit(mesh_.x[j] - mesh_.x[j - 1]);
 }
 
 template <int D>
@@ -79,6 +87,10 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
   if (has_joint()) {
     y[nodal_] = chain.mesh.x[static_cast<std::size_t>(chain.joint)];
     y[coordinates_ + nodal_] = chain.joint_rate;
+  }
+  if (rider_) {
+    y[nodal_] = chain.rider->x;
+    y[coordinates_ + nodal_] = chain.rider->rate;
   }
   if (kinked()) {
     y.segment<D>(behind_) = chain.kink->slope;
@@ -100,15 +112,20 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
     result.mesh.x[static_cast<std::size_t>(joint_)] = y[nodal_];
     result.joint_rate = y[coordinates_ + nodal_];
   }
+  if (rider_) result.rider = {rider_->element, y[nodal_], y[coordinates_ + nodal_], rider_->held};
   if (kinked()) result.kink = {y.segment<D>(behind_), y.segment<D>(coordinates_ + behind_)};
   return result;
 }
 
 template <int D>
-std::optional<Vec<double, D>> BeamSystem<D>::mass_position(const Eigen::VectorXd& y) const {
-  if (has_joint()) return Vector(position<D>(y.data(), joint_));
-  if (free_mass_) return Vector(y.segment<D>(nodal_));
-  return std::nullopt;
+std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y) const {
+  if (!model_.joint) return std::nullopt;
+  if (rider_) {
+    const auto at = rider_motion(y.data(), y.data() + coordinates_);
+    return MassMotion{at.r, at.v};
+  }
+  const Eigen::Index at = has_joint() ? Eigen::Index{node_size<D> * joint_} : nodal_;
+  return MassMotion{y.segment<D>(at), y.segment<D>(coordinates_ + at)};
 }
 
 template <int D>
@@ -142,11 +159,12 @@ typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double
   const auto j = static_cast<std::size_t>(joint_);
   const double x = q[nodal_], x_rate = rate[nodal_];
   const MovingLaw<D> moving = moving_law(t);
-  return {
-      equations<MovingEnds::b, D>(model_.strain_law, {element_of(q, joint_ - 1), mesh_.x[j - 1], x},
-                                  {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1], left_table_, moving),
-      equations<MovingEnds::a, D>(model_.strain_law, {element_of(q, joint_), x, mesh_.x[j + 1]},
-                                  {element_of(rate, joint_), x_rate, 0}, mesh_.weights[j], right_table_, moving)};
+  return {moving_equations<double, D, MovingEnds::b>({element_of(q, joint_ - 1), mesh_.x[j - 1], x},
+                                                     {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1],
+                                                     left_table_, moving),
+          moving_equations<double, D, MovingEnds::a>({element_of(q, joint_), x, mesh_.x[j + 1]},
+                                                     {element_of(rate, joint_), x_rate, 0}, mesh_.weights[j],
+                                                     right_table_, moving)};
 }
 
 template <int D>
@@ -189,30 +207,41 @@ class BeamSystem<D>::Pull {
  public:
   /// Takes the inertia of the given accelerations from the forces. `at_joint` is null without a joint.
   Pull(const BeamSystem& system, const JointElements* at_joint, double* force, double t)
-      : system_(system), points_(system.driven_points(t)) {
+      : system_(&system), points_(system.driven_points(t)) {
     for (const int end : {0, 1}) ends_[static_cast<std::size_t>(end)] = end_element(end, at_joint);
-    for (End& end : ends_) end.force = Eigen::Map<const Vector>(system_.vectors_of(force, end.element)[end.held]);
+    for (End& end : ends_) end.force = Eigen::Map<const Vector>(system_->vectors_of(force, end.element)[end.held]);
     for (std::size_t e = 0; e < 2; ++e) {
       const End& end = ends_[e];
-      const auto parts = system_.vectors_of(force, end.element);
+      const auto parts = system_->vectors_of(force, end.element);
       for (std::size_t i = 0; i < 4; ++i) {
         Eigen::Map<Vector>(parts[i]) -= end.mass[i][end.held] * points_[e].acceleration;
       }
-      if (at_joint != nullptr) force[system_.nodal_] -= end.by_joint[end.held].dot(points_[e].acceleration);
+      if (at_joint != nullptr) force[system_->nodal_] -= end.by_joint[end.held].dot(points_[e].acceleration);
     }
   }
 
-  /// Completes the accelerations `a`; returns the power of the supports [W].
-  double power(double* a) const {
+  /// Completes the accelerations `a`.
+  void complete(double* a) const {
     for (std::size_t e = 0; e < 2; ++e) {
-      Eigen::Map<Vector>(system_.vectors_of(a, ends_[e].element)[ends_[e].held]) += points_[e].acceleration;
+      Eigen::Map<Vector>(system_->vectors_of(a, ends_[e].element)[ends_[e].held]) += points_[e].acceleration;
     }
+  }
+
+  /// `on_rider` acts on the rider, whose shape functions are `s`, and its opposite on the beam.
+  void add_rider(const Vector& on_rider, const std::array<double, 4>& s) {
+    for (End& end : ends_) {
+      if (end.element == system_->rider_->element) end.force -= s[end.held] * on_rider;
+    }
+  }
+
+  /// Power of the supports at the accelerations `a` [W].
+  double power(double* a) const {
     double sum = 0;
     for (std::size_t e = 0; e < 2; ++e) {
       const End& end = ends_[e];
-      const auto parts = system_.vectors_of(a, end.element);
+      const auto parts = system_->vectors_of(a, end.element);
       Vector reaction = -end.force;
-      if (system_.has_joint()) reaction += end.by_joint[end.held] * a[system_.nodal_];
+      if (system_->has_joint()) reaction += end.by_joint[end.held] * a[system_->nodal_];
       for (std::size_t i = 0; i < 4; ++i) reaction += end.mass[end.held][i] * Eigen::Map<const Vector>(parts[i]);
       sum += reaction.dot(points_[e].rate);
     }
@@ -231,28 +260,51 @@ class BeamSystem<D>::Pull {
 
   End end_element(int end, const JointElements* at_joint) const {
     End result;
-    result.element = end == 0 ? 0 : system_.mesh_.elements() - 1;
+    result.element = end == 0 ? 0 : system_->mesh_.elements() - 1;
     result.held = end == 0 ? 0 : 2;
     result.by_joint.fill(Vector::Zero());
-    if (system_.has_joint() && result.element + 1 == system_.joint_) {
+    if (system_->has_joint() && result.element + 1 == system_->joint_) {
       result.mass = at_joint->left.mass;
       result.by_joint = at_joint->left.mass_b;
-    } else if (system_.has_joint() && result.element == system_.joint_) {
+    } else if (system_->has_joint() && result.element == system_->joint_) {
       result.mass = at_joint->right.mass;
       result.by_joint = at_joint->right.mass_a;
     } else {
-      result.mass = system_.end_inertia_[static_cast<std::size_t>(end)].mass;
+      result.mass = system_->end_inertia_[static_cast<std::size_t>(end)].mass;
       for (auto& row : result.mass) {
-        for (double& entry : row) entry *= system_.model_.section.rhoA;
+        for (double& entry : row) entry *= system_->model_.section.rhoA;
       }
     }
     return result;
   }
 
-  const BeamSystem& system_;
+  const BeamSystem* system_;
   std::array<DrivenPoint<D>, 2> points_;
   std::array<End, 2> ends_;
 };
+
+template <int D>
+std::optional<typename BeamSystem<D>::Pull> BeamSystem<D>::solve_apart(double t, double* force) const {
+  std::optional<Pull> pull;
+  if (model_.driven()) pull.emplace(*this, nullptr, force, t);
+  solve_without_joint(*left_, *right_, force);
+  if (pull) pull->complete(force);
+  return pull;
+}
+
+template <int D>
+double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
+  Eigen::VectorXd exact = y;
+  impose(exact, t);
+  const double *q = exact.data(), *rate = q + coordinates_;
+  const Vector g = gravity(t);
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
+  left_->add_forces(q, rate, g, a.data());
+  right_->add_forces(q, rate, g, a.data());
+  solve_apart(t, a.data());
+  const auto solved = solve_rider(rider_motion(q, rate), g, a.data());
+  return solved ? solved->contact : 0;
+}
 
 template <int D>
 void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
@@ -295,10 +347,21 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       return;
     }
     dissipation += *friction;
+    if (driven) pull->complete(force);
   } else {
-    if (driven) pull.emplace(*this, nullptr, force, t);
-    solve_without_joint(*left_, *right_, force);
-    if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = gravity(t);
+    pull = solve_apart(t, force);
+    if (rider_) {
+      const auto at = rider_motion(q, rate);
+      const auto solved = solve_rider(at, g, force);
+      if (!solved) {
+        dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return;
+      }
+      force[nodal_] = solved->x;
+      dissipation += solved->dissipation;
+      if (driven) pull->add_rider(solved->force, at.s);
+    }
+    if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
   }
   if (model_.dissipates()) dydt[2 * coordinates_] = dissipation;
   if (driven) dydt[dydt.size() - 1] = pull->power(force);
@@ -316,10 +379,10 @@ std::unique_ptr<SecondOrderSystem> BeamSystem<D>::new_second_order() {
 }
 
 template <int D>
-std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> BeamSystem<D>::reactions(const Eigen::VectorXd& y, double t) {
+OuterForces<D> BeamSystem<D>::forces(const Eigen::VectorXd& y, double t) {
   second_order();
   const std::size_t evaluations = rhs_evaluations_;  // those of the integrator
-  auto forces = implicit_->reactions(y, t);
+  const OuterForces<D> forces = implicit_->forces(y, t);
   rhs_evaluations_ = evaluations;
   return forces;
 }
@@ -343,48 +406,59 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
     for_each_point(
         kinematics, table, false, moving.rest, motion, [&](const auto& point, const auto& at, const auto* rest) {
           const double wl = point.weight;
-          auto add_strain = [&]<StrainLaw Law>() {
-            const auto& section = model_.section;
-            const ElasticStress<Law, true, double, D> elastic(at.r_x, at.r_xx, section.stiffness);
-            seen.energy.axial += wl * elastic.axial;
-            seen.energy.bending += wl * elastic.bending;
-            if (rest == nullptr) return;
-            const RestStress<Law, true, double, D> from_rest(at.r_x, at.r_xx, *rest, section.stiffness,
-                                                             section.curvature_regularization);
+          const auto& section = model_.section;
+          const ElasticStress<double, D> elastic(at.r_x, at.r_xx, section.stiffness);
+          seen.energy.axial += wl * elastic.axial;
+          seen.energy.bending += wl * elastic.bending;
+          if (rest != nullptr) {
+            const RestStress<double, D> from_rest(at.r_x, at.r_xx, *rest, section.stiffness,
+                                                  section.curvature_regularization);
             seen.energy.axial += wl * from_rest.axial;
             seen.energy.bending += wl * from_rest.bending;
-          };
-          if (model_.strain_law == StrainLaw::green) {
-            add_strain.template operator()<StrainLaw::green>();
-          } else {
-            add_strain.template operator()<StrainLaw::engineering>();
           }
           seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
           seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
           seen.momentum += wl * rhoA * at.v;
+          seen.angular_momentum += wl * rhoA * moment_about_origin<D>(at.r, at.v);
+          seen.mass_moment += wl * rhoA * at.r;
+          if (seen.extremes) seen.extremes->add(model_.section, at, rest);
           const double stretch = at.r_x.norm();
           seen.beam_length += wl * stretch;
           // at a fixed reference point, which moves along the beam
           seen.beam_length_rate +=
               wl * at.r_x.dot(at.v_x + point.mesh_velocity * at.r_xx) / stretch + point.weight_rate * stretch;
         });
+    if (!seen.extremes) continue;
+    for (const double u : {0.0, 1.0}) {
+      const auto at = kinematics.at(u, rational_shape(kinematics.weights(), u));
+      if (moving.rest == nullptr) {
+        seen.extremes->add(model_.section, at, nullptr);
+        continue;
+      }
+      const double x = u == 0 ? q.x_a : q.x_b;
+      const int piece = moving.rest->piece_at(u == 0 ? x : (q.x_a + q.x_b) / 2);
+      const RestStrain<double> rest = moving.rest->at(x, piece);
+      seen.extremes->add(model_.section, at, &rest);
+    }
   }
 }
 
 template <int D>
-Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int points) const {
+Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int points, bool strains) const {
   Observation<D> seen;
+  if (strains) seen.extremes.emplace();
   observe_elements(chain(y), 0, mesh_.elements(), t, points, seen);
-  if (model_.joint) {
+  if (const auto mass = mass_motion(y)) {
     const double m = model_.joint->mass;
-    const Eigen::Index at = has_joint() ? Eigen::Index{node_size<D> * joint_} : nodal_;
-    const Vector v = y.segment<D>(coordinates_ + at);
-    seen.energy.kinetic += 0.5 * m * v.squaredNorm();
-    seen.energy.gravity -= m * gravity(t).dot(y.segment<D>(at));
-    seen.momentum += m * v;
+    seen.energy.kinetic += 0.5 * m * mass->v.squaredNorm();
+    seen.energy.gravity -= m * gravity(t).dot(mass->r);
+    seen.momentum += m * mass->v;
+    seen.angular_momentum += m * moment_about_origin<D>(mass->r, mass->v);
+    seen.mass_moment += m * mass->r;
   }
   if (model_.dissipates()) seen.energy.dissipated = y[2 * coordinates_];
   if (model_.driven()) seen.energy.supplied = y[y.size() - 1];
+  seen.energy.supplied += ramp_.until(t, {seen.mass_moment, seen.momentum});
   return seen;
 }
 

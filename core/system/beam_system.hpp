@@ -6,11 +6,14 @@
 
 #include "core/beam/support_motion.hpp"
 #include "core/dynamics/integrate.hpp"
-#include "core/joint/sliding_joint.hpp"
+#include "core/joint/at_support.hpp"
+#include "core/joint/rider.hpp"
 #include "core/length_control/event_type.hpp"
 #include "core/length_control/length_control.hpp"
 #include "core/system/constraints.hpp"
 #include "core/system/energy.hpp"
+#include "core/system/ramp_work.hpp"
+#include "core/system/strain_extremes.hpp"
 
 namespace vlbeam {
 
@@ -18,7 +21,6 @@ namespace vlbeam {
 template <int D>
 struct BeamModel {
   BeamSection section;
-  StrainLaw strain_law = StrainLaw::green;
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;
@@ -29,6 +31,7 @@ struct BeamModel {
   bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
   std::optional<SlidingJoint> joint;
   double separation_distance = 0;  ///< [m]
+  Impact at_support;               ///< where the mass may not leave
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
   std::shared_ptr<const RestCurve<D>> rest;  ///< null for a straight, unstrained rest shape
@@ -39,12 +42,6 @@ struct BeamModel {
   bool driven() const { return start_motion || end_motion; }
 };
 
-/// Share of gravity at time t: S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), three times continuously
-/// differentiable at both ends.
-double gravity_share(double t, double ramp);
-/// Its time derivative, 140 s^3 (1 - s)^3 / T_r [1/s].
-double gravity_share_rate(double t, double ramp);
-
 /// Gauss points an element of what is reported of a run, whatever the model's own are.
 inline constexpr int ledger_points = 25;
 
@@ -52,9 +49,21 @@ inline constexpr int ledger_points = 25;
 template <int D>
 struct Observation {
   Energy energy;
-  double beam_length = 0;                            ///< [m]
-  double beam_length_rate = 0;                       ///< [m/s]
-  Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [kg m/s]
+  double beam_length = 0;                                    ///< [m]
+  double beam_length_rate = 0;                               ///< [m/s]
+  Vec<double, D> momentum = Vec<double, D>::Zero();          ///< [kg m/s]
+  Vec<double, 3> angular_momentum = Vec<double, 3>::Zero();  ///< about the origin [kg m^2/s]
+  Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
+  std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
+};
+
+/// Forces between the beam and what it is connected to, at one instant.
+template <int D>
+struct OuterForces {
+  /// Generalized, with which the supports act on the first and the last node: position [N], slope [N m].
+  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> supports;
+  /// With which the beam acts on the sliding mass [N]; zero off the beam and without one.
+  Vec<double, D> on_mass = Vec<double, D>::Zero();
 };
 
 /// What happened to a beam system at an event.
@@ -66,6 +75,7 @@ struct EventRecord {
   MergedWeights merged;
   Energy jump;           ///< by a 25-point rule
   double discrete_jump;  ///< of the total, by the model's own rule
+  bool restored;         ///< false: energy and momenta were to be as before, and the energy is not
   Eigen::VectorXd
       momentum_jump;  ///< linear, then angular about the origin, by the model's own rule; not of a separation
   ChainState<D> before, after;
@@ -77,7 +87,8 @@ class ImplicitBeam;
 
 /// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
 /// State y = (q, q', dissipated, supplied): q holds the nodes (position and slope each) and then x_i of the joint and,
-/// where the joint is kinked, the slope behind it, or the free mass's position once it has left; the dissipated energy
+/// where the joint is kinked, the slope behind it, or x of a mass that rides inside an end element, or the free mass's
+/// position once it has left; the dissipated energy
 /// is there only where the model dissipates, the work of supports only where they move. What a support drives stands in
 /// the state too, but is read from its motion, wherever it counts.
 template <int D>
@@ -97,7 +108,10 @@ class BeamSystem final : public EventedOde {
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
   void sample(const Eigen::VectorXd& y, double t) override;
-  bool proceed(double t) override { return !on_step || on_step(t); }
+  bool proceed(const Eigen::VectorXd& y, double t) override {
+    if (ramp_.due(t)) ramp_.advance(t, moment(y, t));
+    return !on_step || on_step(t);
+  }
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
   std::function<void(const EventRecord<D>&)> on_event;
@@ -105,7 +119,7 @@ class BeamSystem final : public EventedOde {
 
   const BeamModel<D>& model() const { return model_; }
   /// Gravity at time t [m/s^2].
-  Vector gravity(double t) const { return model_.gravity * gravity_share(t, model_.gravity_ramp); }
+  Vector gravity(double t) const { return model_.gravity * smooth_ramp(t, model_.gravity_ramp).value; }
   Eigen::VectorXd initial_state() const { return initial_; }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
     second_order()->jacobian(y, t, dfdy, dfdt);
@@ -113,8 +127,8 @@ class BeamSystem final : public EventedOde {
   /// A view of the equations for whoever needs one for a moment: another call may factor another matrix in it.
   SecondOrderSystem* second_order();
   std::unique_ptr<SecondOrderSystem> new_second_order() override;
-  /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]).
-  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
+  /// By the accelerations that belong to the state.
+  OuterForces<D> forces(const Eigen::VectorXd& y, double t);
   /// Evaluations of the equations, as accelerations or as a residual.
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
   void count_evaluation() { ++rhs_evaluations_; }
@@ -122,6 +136,27 @@ class BeamSystem final : public EventedOde {
   /// Mesh and motion at state y.
   ChainState<D> chain(const Eigen::VectorXd& y) const;
   bool has_joint() const { return joint_ != no_joint; }
+  /// A mass inside the first or the last element.
+  struct Riding {
+    int element;
+    bool held;
+    double end;  ///< material coordinate of the beam's end there [m]
+    RiderElement curve;
+    RiderMass<D> mass;
+
+    bool at_end() const { return element > 0; }
+  };
+  /// Empty unless the mass rides inside an element.
+  const std::optional<Riding>& rider() const { return rider_; }
+  /// The mass is on the beam.
+  bool mass_on_beam() const { return has_joint() || rider_; }
+  /// Motion of the rider, of arrays like q and q' with x behind the nodes.
+  RiderMotion<double, D> rider_motion(const double* q, const double* rate) const {
+    const bool held = rider_->held;
+    return vlbeam::rider_motion<double, D>(rider_->curve, element_nodes<D>(q, rider_->element),
+                                           element_nodes<D>(rate, rider_->element), held ? rider_->end : q[nodal_],
+                                           held ? 0 : rate[nodal_]);
+  }
   int joint() const { return joint_; }
   /// The beam has two slopes at the joint.
   bool kinked() const { return has_joint() && model_.joint->kinked(); }
@@ -154,10 +189,14 @@ class BeamSystem final : public EventedOde {
   }
   /// Puts what the supports drive where it is at time t.
   void impose(Eigen::VectorXd& y, double t) const;
-  /// Position of the sliding mass, on the beam or off it; empty without one.
-  std::optional<Vector> mass_position(const Eigen::VectorXd& y) const;
-  /// Energies, momentum and length, summed with `points` Gauss points an element.
-  Observation<D> observe(const Eigen::VectorXd& y, double t, int points) const;
+  /// Where the sliding mass is, on the beam or off it, and how it moves.
+  struct MassMotion {
+    Vector r, v;
+  };
+  /// Empty without one.
+  std::optional<MassMotion> mass_motion(const Eigen::VectorXd& y) const;
+  /// Energies, momenta and length, summed with `points` Gauss points an element; strains only where they are asked for.
+  Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
   struct JointElements {
@@ -170,8 +209,37 @@ class BeamSystem final : public EventedOde {
   std::array<double*, 4> vectors_of(double* q, int k) const;
 
   void adopt(const ChainState<D>& chain);
+  /// Lengths of the last and the first element below which an end-merge is due [m]; 0 where none will be.
+  void set_end_limits();
   /// Gives elements at the joint whose transported weights are about to be lost new ones, by the least change.
   MergedWeights renew_weights(ChainState<D>& chain, double t) const;
+  /// What is due where a guard is positive.
+  struct Due {
+    EventType type;
+    Direction direction;
+  };
+  Due due(int guard) const;
+  Guards rider_guards(const Eigen::VectorXd& y, double t) const;
+  /// Generalized force of the support on the x of a held rider [N].
+  double contact_force(const Eigen::VectorXd& y, double t) const;
+  /// The mass hits a support: new velocities, and whether it is then held. Throws ComputationFailed where the run is to
+  /// stop.
+  void hit(ChainState<D>& chain, Eigen::VectorXd& y, double t);
+  /// Where a mass is that has just left a support [m].
+  double clear_of_end() const;
+  /// Solves M a = f of the nodes of a beam without a joint, in place; what moving supports do is in what it returns.
+  std::optional<Pull> solve_apart(double t, double* force) const;
+  /// What the rider does to a beam that would have the accelerations `a` without it; completes them.
+  std::optional<RiderSolution<D>> solve_rider(const RiderMotion<double, D>& at, const Vector& gravity,
+                                              double* a) const {
+    return solve_with_rider<D>(rider_->mass, *model_.joint, at, element_nodes<D>(a, rider_->element),
+                               at.remainder - gravity, 0, rider_->held, true, a);
+  }
+  /// The elements at the joint, if there is one.
+  std::optional<JointElements> elements_at(const Eigen::VectorXd& y, double t) const {
+    if (!has_joint()) return std::nullopt;
+    return joint_elements(y.data(), y.data() + coordinates_, t);
+  }
   JointElements joint_elements(const double* q, const double* rate, double t) const;
   JointMotion<D> joint_motion(const double* q, const double* rate, double t) const;
   /// Coordinates (or rates, or forces) of element k in an array like q.
@@ -179,7 +247,9 @@ class BeamSystem final : public EventedOde {
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
   /// matrix is singular. `elements` is null without a joint.
   bool solve_mass(const JointElements* elements, const double* q, double* p) const;
-  void multiply_mass(const JointElements* elements, const double* rate, double* out) const;
+  void multiply_mass(const JointElements* elements, const double* q, const double* rate, double* out) const;
+  /// Adds what a force (or momentum) on the rider is of its element's nodes and of x.
+  void push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const;
   /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
   Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
   /// Replaces the rates in `y`, a state of the mesh made from `before`, by the projection of the old velocity field.
@@ -192,12 +262,19 @@ class BeamSystem final : public EventedOde {
   /// fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
   void restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const;
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
+  typename RampWork<D>::Moment moment(const Eigen::VectorXd& y, double t) const {
+    const Observation<D> seen = observe(y, t, model_.quadrature_points);
+    return {seen.mass_moment, seen.momentum};
+  }
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;
 
   BeamModel<D> model_;
   Mesh mesh_;
   int joint_ = no_joint;
+  std::optional<Riding> rider_;
+  std::array<double, 2> end_limit_{};  ///< [m], of the last and of the first element
+  double cut_limit_ = 0;               ///< distance of a rider from the end at which it gets a node [m]
   bool free_mass_ = false;
   Eigen::Index nodal_ = 0, coordinates_ = 0;
   Eigen::Index behind_ = 0;  ///< where q holds the slope behind the joint: the node's own, unless the joint is kinked
@@ -206,6 +283,7 @@ class BeamSystem final : public EventedOde {
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
+  RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;
   std::unique_ptr<ImplicitBeam<D>> implicit_;
 };

@@ -1,19 +1,10 @@
 #include "core/system/conserving_step.hpp"
 
 #include "core/element/discrete_gradient.hpp"
+#include "core/joint/rider_step.hpp"
 
 namespace vlbeam {
 namespace {
-
-/// Calls `function` with the strain law and whether the section bends as template arguments.
-template <class Function>
-auto with_law(StrainLaw strain_law, bool bends, const Function& function) {
-  auto measured = [&]<StrainLaw Law>() {
-    return bends ? function.template operator()<Law, true>() : function.template operator()<Law, false>();
-  };
-  return strain_law == StrainLaw::green ? measured.template operator()<StrainLaw::green>()
-                                        : measured.template operator()<StrainLaw::engineering>();
-}
 
 template <int D>
 NodalCubic<double, D> mean(const NodalCubic<double, D>& a, const NodalCubic<double, D>& b) {
@@ -59,26 +50,24 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
   r.setZero();
   double* out = r.data();
 
-  with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-    for (const auto& element : fixed_) {
-      const int k = element.index;
-      const auto e_rate0 = element_nodes<D>(v0.data(), k), e_rate1 = element_nodes<D>(v1.data(), k);
-      const auto force = mean_fixed_force<Law, Bending, D>(
-          element.basis, {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)}, mean(e_rate0, e_rate1),
-          model.section);
-      dissipation += force.dissipation;
-      const Vec<double, D> a_r = (e_rate1.r_a - e_rate0.r_a) / h, a_s = (e_rate1.s_a - e_rate0.s_a) / h,
-                           b_r = (e_rate1.r_b - e_rate0.r_b) / h, b_s = (e_rate1.s_b - e_rate0.s_b) / h;
-      auto inertia = [&](std::size_t i) -> Vec<double, D> {
-        const auto& m = element.inertia.mass[i];
-        return (a_r * m[0] + a_s * m[1] + b_r * m[2] + b_s * m[3] - law.gravity * element.inertia.load[i]) * rhoA;
-      };
-      position<D>(out, k) += inertia(0) + force.r_b;
-      slope<D>(out, k) += inertia(1) - force.s_a;
-      position<D>(out, k + 1) += inertia(2) - force.r_b;
-      slope<D>(out, k + 1) += inertia(3) - force.s_b;
-    }
-  });
+  for (const auto& element : fixed_) {
+    const int k = element.index;
+    const auto e_rate0 = element_nodes<D>(v0.data(), k), e_rate1 = element_nodes<D>(v1.data(), k);
+    const auto force =
+        mean_fixed_force<D>(element.basis, {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)},
+                            mean(e_rate0, e_rate1), model.section);
+    dissipation += force.dissipation;
+    const Vec<double, D> a_r = (e_rate1.r_a - e_rate0.r_a) / h, a_s = (e_rate1.s_a - e_rate0.s_a) / h,
+                         b_r = (e_rate1.r_b - e_rate0.r_b) / h, b_s = (e_rate1.s_b - e_rate0.s_b) / h;
+    auto inertia = [&](std::size_t i) -> Vec<double, D> {
+      const auto& m = element.inertia.mass[i];
+      return (a_r * m[0] + a_s * m[1] + b_r * m[2] + b_s * m[3] - law.gravity * element.inertia.load[i]) * rhoA;
+    };
+    position<D>(out, k) += inertia(0) + force.r_b;
+    slope<D>(out, k) += inertia(1) - force.s_a;
+    position<D>(out, k + 1) += inertia(2) - force.r_b;
+    slope<D>(out, k + 1) += inertia(3) - force.s_b;
+  }
 
   const Eigen::Index extra = node_size<D> * Eigen::Index{mesh.last() + 1};
   if (system_.has_joint()) {
@@ -94,20 +83,29 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
       r[extra] += part.end;
       dissipation += part.dissipation;
     };
-    with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-      const auto ju = static_cast<std::size_t>(j);
-      const double start = mesh.x[ju - 1], end = mesh.x[ju + 1];
-      add(j - 1, conserving_residual<MovingEnds::b, Law, Bending, D>(
-                     {coordinates(q0, j - 1, start, q0[extra]), coordinates(q1, j - 1, start, q1[extra])},
-                     {coordinates(v0, j - 1, 0, v0[extra]), coordinates(v1, j - 1, 0, v1[extra])}, h,
-                     mesh.weights[ju - 1], system_.left_table(), law));
-      add(j, conserving_residual<MovingEnds::a, Law, Bending, D>(
-                 {coordinates(q0, j, q0[extra], end), coordinates(q1, j, q1[extra], end)},
-                 {coordinates(v0, j, v0[extra], 0), coordinates(v1, j, v1[extra], 0)}, h, mesh.weights[ju],
-                 system_.right_table(), law));
-    });
+    const auto ju = static_cast<std::size_t>(j);
+    const double start = mesh.x[ju - 1], end = mesh.x[ju + 1];
+    add(j - 1, conserving_residual<MovingEnds::b, D>(
+                   {coordinates(q0, j - 1, start, q0[extra]), coordinates(q1, j - 1, start, q1[extra])},
+                   {coordinates(v0, j - 1, 0, v0[extra]), coordinates(v1, j - 1, 0, v1[extra])}, h,
+                   mesh.weights[ju - 1], system_.left_table(), law));
+    add(j,
+        conserving_residual<MovingEnds::a, D>({coordinates(q0, j, q0[extra], end), coordinates(q1, j, q1[extra], end)},
+                                              {coordinates(v0, j, v0[extra], 0), coordinates(v1, j, v1[extra], 0)}, h,
+                                              mesh.weights[ju], system_.right_table(), law));
     position<D>(out, j) +=
         model.joint->mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
+  } else if (const auto& rider = system_.rider()) {
+    const int k = rider->element;
+    const auto part =
+        conserving_rider<D>(rider->curve, {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)},
+                            {element_nodes<D>(v0.data(), k), element_nodes<D>(v1.data(), k)}, {q0[extra], q1[extra]},
+                            {v0[extra], v1[extra]}, h, model.joint->mass, law.gravity, rider->held);
+    position<D>(out, k) += part.nodes[0];
+    slope<D>(out, k) += part.nodes[1];
+    position<D>(out, k + 1) += part.nodes[2];
+    slope<D>(out, k + 1) += part.nodes[3];
+    r[extra] = part.x;
   } else if (model.joint) {
     r.segment<D>(extra) = model.joint->mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
   }

@@ -26,18 +26,6 @@ std::string text(double value) {
   return stream.str();
 }
 
-template <int D>
-MovingEquations<double, D> axis_equations(StrainLaw strain_law, const MovingCoordinates<double, D>& q,
-                                          const MovingCoordinates<double, D>& rate, const WeightFunction& weights,
-                                          const ShapeTabulation& table, const MovingLaw<D>& law) {
-  auto measured = [&]<StrainLaw Law>() {
-    return law.section.bends() ? moving_equations<Law, true, double, D>(q, rate, weights, table, law)
-                               : moving_equations<Law, false, double, D>(q, rate, weights, table, law);
-  };
-  return strain_law == StrainLaw::green ? measured.template operator()<StrainLaw::green>()
-                                        : measured.template operator()<StrainLaw::engineering>();
-}
-
 }  // namespace
 
 template <int D>
@@ -59,6 +47,7 @@ FlowingBeam<D>::FlowingBeam(const FlowingModel<D>& model)
   }
   residual_.resize(coordinates());
   prescribed_.setZero(coordinates());
+  ramp_ = RampWork<D>(model_.gravity, model_.gravity_ramp);
 }
 
 template <int D>
@@ -68,7 +57,8 @@ template <int D>
 void FlowingBeam<D>::check_model() const {
   if (elements() < 1) throw InvalidInput("/flow/nodes", "no motion", "the first and the last node need theirs");
   if (!model_.weights.empty() && static_cast<int>(model_.weights.size()) != elements()) {
-    throw InvalidInput("/beam/weights", std::to_string(model_.weights.size()) + " of them", "one an element, or none");
+    throw InvalidInput("/beam/weights", std::to_string(model_.weights.size()) + " of them",
+                       "there must be one an element, or none");
   }
   std::vector<Prescribed> nodes;
   model_.motion.at(0, nodes);
@@ -76,7 +66,7 @@ void FlowingBeam<D>::check_model() const {
     const double length = nodes[k + 1].value - nodes[k].value;
     if (length > 0) continue;
     throw InvalidInput("/flow/nodes", "element " + std::to_string(k) + " of length " + text(length) + " at t = 0",
-                       "material coordinates increase from node to node");
+                       "material coordinates must increase from node to node");
   }
 
   auto check_nodes = [&](const char* field, const auto& list, bool once) {
@@ -85,10 +75,11 @@ void FlowingBeam<D>::check_model() const {
       if (entry.node < 0 || entry.node > elements()) {
         throw InvalidInput(
             field, "node " + std::to_string(entry.node),
-            "a node of the beam, 0 to " + std::to_string(elements()) + ": beyond its ends there is none");
+            "it must be a node of the beam, 0 to " + std::to_string(elements()) + ": beyond its ends there is none");
       }
       const auto k = static_cast<std::size_t>(entry.node);
-      if (taken[k] && once) throw InvalidInput(field, "node " + std::to_string(entry.node) + " twice", "once a node");
+      if (taken[k] && once)
+        throw InvalidInput(field, "node " + std::to_string(entry.node) + " twice", "a node can stand there once");
       taken[k] = true;
     }
     return taken;
@@ -100,33 +91,36 @@ void FlowingBeam<D>::check_model() const {
   check_nodes("/loads", at_nodes, false);
 
   if (!model_.spin && (!model_.angles.empty() || model_.line_torque)) {
-    throw InvalidInput("/spin", "none", "a section that spins: angles or torques are given");
+    throw InvalidInput("/spin", "a missing key", "angles or torques are given, which a section that spins takes");
   }
   for (const auto& load : model_.loads) {
     if (!load.torque) continue;
-    if (!model_.spin) throw InvalidInput("/spin", "none", "a section that spins: a torque is given");
+    if (!model_.spin)
+      throw InvalidInput("/spin", "a missing key", "a torque is given, which a section that spins takes");
     if (!load.x && driven[static_cast<std::size_t>(load.node)]) {
       throw InvalidInput("/loads", "a torque at node " + std::to_string(load.node),
-                         "a torque where the angle is not prescribed already");
+                         "the angle there is prescribed already");
     }
   }
   if (model_.rotary.present()) {
     if (!(std::abs(model_.rotary.direction.norm() - 1) < 1e-9)) {
-      throw InvalidInput("/beam/rotary_inertia", "without direction", "a unit vector to go with it");
+      throw InvalidInput("/beam/rotary_inertia", "without direction", "it needs a unit vector");
     }
     if (model_.formulation == Formulation::virtual_work) {
-      throw InvalidInput("/beam/rotary_inertia", "with virtual-work", "\"none\", or the variational formulation");
+      throw InvalidInput("/beam/rotary_inertia", "with virtual-work",
+                         "it must be \"none\", or the formulation variational");
     }
     const bool unequal = std::ranges::any_of(model_.weights, [](const auto& of) { return of.w != unit_weights; });
     if (model_.transport == WeightTransport::transported && unequal) {
-      throw InvalidInput("/beam/rotary_inertia", "with transported weights", "\"none\", or frozen or unit weights");
+      throw InvalidInput("/beam/rotary_inertia", "with transported weights",
+                         "it must be \"none\", or the weights frozen or unit");
     }
   }
   for (const DrivenAngle& angle : model_.angles) {
     const double rate = angle.theta(0).rate, first = model_.angles.front().theta(0).rate;
     if (rate == first) continue;
     throw InvalidInput("/spin/drives", "spins of " + text(first) + " and " + text(rate) + " rad/s",
-                       "one spin: a shaft driven at two places at different rates winds up without bound");
+                       "it must be one: a shaft driven at two places at different rates winds up without bound");
   }
 }
 
@@ -145,7 +139,7 @@ void FlowingBeam<D>::adopt_supports() {
     if (same(support.free_position) && same(support.free_slope)) continue;  // the same in any frame
     if (oriented && (support.frame - frame_).norm() > 1e-12) {
       throw InvalidInput("/supports", "slides or clamps of two directions",
-                         "those of one beam to share one direction, that of rotary inertia, too");
+                         "those of one beam must share one direction, that of rotary inertia, too");
     }
     oriented = true;
     frame_ = support.frame;
@@ -186,8 +180,8 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
   const MovingLaw<D> moving = law(t);
   for (int k = 0; k < elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    elements_[i] = axis_equations<D>(model_.strain_law, axis_of(q, k, &Prescribed::value),
-                                     axis_of(rate, k, &Prescribed::rate), weights(k), tables_[i], moving);
+    elements_[i] = moving_equations<double, D>(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
+                                               weights(k), tables_[i], moving);
   }
   if (model_.rotary.present()) {
     rotary_.clear();
@@ -460,8 +454,29 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
 }
 
 template <int D>
+FlowReactions<D> FlowingBeam<D>::reactions(const Eigen::VectorXd& y, double t) {
+  const std::size_t evaluations = rhs_evaluations_;  // those of the integrator
+  Eigen::VectorXd dydt(y.size());
+  rhs(y, dydt, t);
+  rhs_evaluations_ = evaluations;
+  // what M a lacks of the forces that are known
+  const Eigen::Index n = coordinates();
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(n), force = known;
+  add_loads(y.data(), y.data() + n, t, known.data());
+  add_inflow(y.data(), y.data() + n, known.data());
+  add_residual(dydt.data() + n, force.data());
+  force -= known;
+  FlowReactions<D> result;
+  for (const NodeSupport<D>& held : model_.supports) {
+    result.supports.push_back(force.segment<node_size<D>>(Eigen::Index{node_size<D>} * held.node));
+  }
+  for (const DrivenAngle& driven : model_.angles) result.torques.push_back(force[angle(driven.node)]);
+  return result;
+}
+
+template <int D>
 FlowLedger<D> FlowingBeam<D>::ledger(const Eigen::VectorXd& y) const {
-  if (!model_.ledger) throw InvalidInput("/ledger", "false", "true: the state holds no ledger otherwise");
+  if (!model_.ledger) throw InvalidInput("/ledger", "false", "it must be true: the state holds no ledger otherwise");
   const double* entry = y.data() + 2 * coordinates();
   return {.mass = entry[mass_entry],
           .ends = entry[ends_entry],
@@ -482,7 +497,8 @@ void FlowingBeam<D>::jacobian(const Eigen::VectorXd& /*y*/, double /*t*/, Eigen:
 template <int D>
 std::unique_ptr<SecondOrderSystem> FlowingBeam<D>::new_second_order() {
   if (model_.ledger) {
-    throw InvalidInput("/ledger", "true", "false with an implicit method: it integrates the motion alone");
+    throw InvalidInput("/ledger", "true",
+                       "it must be false with an implicit method, which integrates the motion alone");
   }
   return std::make_unique<ImplicitFlow<D>>(*this);
 }
@@ -531,7 +547,7 @@ void FlowingBeam<D>::check_motion(double until) const {
     throw InvalidInput("/flow/nodes",
                        "a motion by which element " + std::to_string(tangle->element) +
                            " has no length left at t = " + text(tangle->t) + " s",
-                       "material coordinates increase from node to node until the end, t = " + text(until) + " s");
+                       "material coordinates must increase from node to node until the end, t = " + text(until) + " s");
   }
   constexpr int instants = 2000;
   std::vector<Prescribed> nodes;
@@ -540,9 +556,9 @@ void FlowingBeam<D>::check_motion(double until) const {
       const double t = until * i / instants, x = load.x(t), slack = 1e-9 * reference_length_;
       model_.motion.at(t, nodes);
       if (x >= nodes.front().value - slack && x <= nodes.back().value + slack) continue;
-      throw InvalidInput(
-          "/loads", "one at the material coordinate " + text(x) + " m at t = " + text(t) + " s",
-          "a point of the beam, " + text(nodes.front().value) + " to " + text(nodes.back().value) + " m at that time");
+      throw InvalidInput("/loads", "one at the material coordinate " + text(x) + " m at t = " + text(t) + " s",
+                         "it must be a point of the beam, " + text(nodes.front().value) + " to " +
+                             text(nodes.back().value) + " m at that time");
     }
   }
 }
@@ -569,30 +585,30 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
   const double* q = y.data();
   const double* rate = q + coordinates();
   model_.motion.at(t, nodes_);
-  auto elastic = [&](const PointMotion<double, D>& at) {
-    auto energies = [](const auto& stress) { return std::array<double, 2>{stress.axial, stress.bending}; };
-    const Stiffness& k = model_.section.stiffness;
-    return model_.strain_law == StrainLaw::green
-               ? energies(ElasticStress<StrainLaw::green, true, double, D>(at.r_x, at.r_xx, k))
-               : energies(ElasticStress<StrainLaw::engineering, true, double, D>(at.r_x, at.r_xx, k));
-  };
+  const Vector gravity = model_.gravity * smooth_ramp(t, model_.gravity_ramp).value;
   for (int k = 0; k < elements(); ++k) {
     const MovingKinematics<double, D> kinematics(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
                                                  model_.transport, weights(k));
     for (const auto& [u, w] : tables_[static_cast<std::size_t>(k)].rule) {
       const PointMotion<double, D> at = kinematics.at(u, rational_shape(kinematics.weights(), u));
       const double length = w * kinematics.length(), mass = length * model_.section.rhoA;
-      const auto [axial, bending] = elastic(at);
+      const ElasticStress<double, D> elastic(at.r_x, at.r_xx, model_.section.stiffness);
       seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm() +
                              0.5 * length * model_.rotary.rhoJ * model_.rotary.across(at.v_x).squaredNorm();
-      seen.energy.axial += length * axial;
-      seen.energy.bending += length * bending;
-      seen.energy.gravity -= mass * model_.gravity.dot(at.r);
+      seen.energy.axial += length * elastic.axial;
+      seen.energy.bending += length * elastic.bending;
+      seen.energy.gravity -= mass * gravity.dot(at.r);
       seen.mass += mass;
       seen.momentum += mass * at.v;
+      seen.angular_momentum += mass * moment_about_origin<D>(at.r, at.v);
+      seen.mass_moment += mass * at.r;
+      seen.extremes.add(model_.section, at, nullptr);
       const double stretch = at.r_x.norm();
       seen.beam_length += length * stretch;
       seen.beam_length_rate += length * at.r_x.dot(at.v_x) / stretch;
+    }
+    for (const double u : {0.0, 1.0}) {
+      seen.extremes.add(model_.section, kinematics.at(u, rational_shape(kinematics.weights(), u)), nullptr);
     }
     if (!spin_) continue;
     const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value),
@@ -617,7 +633,7 @@ Vec<double, D> FlowingBeam<D>::position_at(const Eigen::VectorXd& y, double t, d
   const double slack = 1e-9 * reference_length_;
   if (x < nodes_.front().value - slack || x > nodes_.back().value + slack) {
     throw InvalidInput("/x", text(x),
-                       "a material coordinate of the beam, " + text(nodes_.front().value) + " to " +
+                       "it must be a material coordinate of the beam, " + text(nodes_.front().value) + " to " +
                            text(nodes_.back().value) + " at t = " + text(t));
   }
   int k = 0;

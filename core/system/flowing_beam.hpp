@@ -12,7 +12,9 @@
 #include "core/element/driven_tangent.hpp"
 #include "core/element/rotary_inertia.hpp"
 #include "core/system/energy.hpp"
+#include "core/system/ramp_work.hpp"
 #include "core/system/spin_chain.hpp"
+#include "core/system/strain_extremes.hpp"
 
 namespace vlbeam {
 
@@ -46,7 +48,6 @@ struct FlowingModel {
   std::optional<SpinSection> spin;  ///< without it there is no angle at all
   AngleField angle_field = AngleField::linear;
   RotaryInertia<D> rotary = {};  ///< needs the variational formulation and frozen weights
-  StrainLaw strain_law = StrainLaw::green;
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;
@@ -81,11 +82,22 @@ struct FlowLedger {
 template <int D>
 struct FlowObservation {
   Energy energy;
-  double mass = 0;                                   ///< between the end nodes [kg]
-  double beam_length = 0;                            ///< of the deformed axis [m]
-  double beam_length_rate = 0;                       ///< [m/s], by stretching and by inflow
-  double spin_momentum = 0;                          ///< about the axis [N m s]
-  Vec<double, D> momentum = Vec<double, D>::Zero();  ///< [N s]
+  double mass = 0;                                           ///< between the end nodes [kg]
+  double beam_length = 0;                                    ///< of the deformed axis [m]
+  double beam_length_rate = 0;                               ///< [m/s], by stretching and by inflow
+  double spin_momentum = 0;                                  ///< about the axis [N m s]
+  Vec<double, D> momentum = Vec<double, D>::Zero();          ///< [N s]
+  Vec<double, 3> angular_momentum = Vec<double, 3>::Zero();  ///< of the axis about the origin [N m s]
+  Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
+  StrainExtremes extremes;                                   ///< at the points of the rule and the elements' ends
+};
+
+/// Forces and torques from outside the beam that hold it, at one instant.
+template <int D>
+struct FlowReactions {
+  /// Generalized, on each node that a support holds, in the order of the model: position [N], slope [N m].
+  std::vector<Eigen::Matrix<double, node_size<D>, 1>> supports;
+  std::vector<double> torques;  ///< about the axis, on each driven angle [N m]
 };
 
 template <int D>
@@ -121,7 +133,13 @@ class FlowingBeam final : public EventedOde {
   void sample(const Eigen::VectorXd& y, double t) override {
     if (on_sample) on_sample(y, t);
   }
-  bool proceed(double t) override { return !on_step || on_step(t); }
+  bool proceed(const Eigen::VectorXd& y, double t) override {
+    if (ramp_.due(t)) {
+      const FlowObservation<D> seen = observe(y, t);
+      ramp_.advance(t, {seen.mass_moment, seen.momentum});
+    }
+    return !on_step || on_step(t);
+  }
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
   std::function<bool(double t)> on_step;
@@ -144,6 +162,12 @@ class FlowingBeam final : public EventedOde {
   /// Energies, mass and momenta by the model's own points.
   FlowObservation<D> observe(const Eigen::VectorXd& y, double t) const;
   FlowLedger<D> ledger(const Eigen::VectorXd& y) const;
+  /// By the accelerations that belong to the state.
+  FlowReactions<D> reactions(const Eigen::VectorXd& y, double t);
+  /// Work that gravity has done by growing, until a time no earlier than the last step's [J].
+  double ramp_work(double t, const FlowObservation<D>& seen) const {
+    return ramp_.until(t, {seen.mass_moment, seen.momentum});
+  }
   /// Material coordinates of the nodes at time t.
   std::vector<Prescribed> nodes_at(double t) const;
   /// Position of the material point x at time t, which must lie between the end nodes.
@@ -201,6 +225,7 @@ class FlowingBeam final : public EventedOde {
   ChainMass<D> mass_;
   Eigen::VectorXd prescribed_;  // accelerations: zero but for driven angles
   Eigen::VectorXd residual_;    // of the ledger
+  RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0;
 };
 

@@ -6,15 +6,6 @@
 namespace vlbeam {
 namespace {
 
-template <class Function>
-auto with_law(StrainLaw strain_law, bool bends, const Function& function) {
-  auto measured = [&]<StrainLaw Law>() {
-    return bends ? function.template operator()<Law, true>() : function.template operator()<Law, false>();
-  };
-  return strain_law == StrainLaw::green ? measured.template operator()<StrainLaw::green>()
-                                        : measured.template operator()<StrainLaw::engineering>();
-}
-
 /// Coordinates of one of the two elements at the joint, from the nodal array and the joint's entry.
 template <MovingEnds Ends, int D>
 MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint, double other) {
@@ -94,6 +85,24 @@ Eigen::Index ImplicitBeam<D>::multipliers() const {
 template <int D>
 Eigen::Index ImplicitBeam<D>::coordinates() const {
   return system_.coordinates() + B * cut() - (system_.kinked() ? D : 0) + multipliers();
+}
+
+template <int D>
+std::vector<FieldRun> ImplicitBeam<D>::fields() const {
+  refresh();
+  std::vector<FieldRun> runs{{Field::position, 0, D, B, nodes()}, {Field::slope, D, D, B, nodes()}};
+  if (system_.has_joint() || system_.rider()) {
+    runs.push_back({Field::mark, after_nodes()});
+  } else if (system_.model().joint) {
+    runs.push_back({Field::mass, after_nodes(), D});
+  }
+  Eigen::Index at = coordinates() - multipliers();
+  for (const auto& constraint : constraints_) {
+    const bool place = !constraint.direction.template head<D>().isZero(0);
+    runs.push_back({place ? Field::multiplier : Field::slope_multiplier, at++});
+  }
+  if (slope_conditions_.count() > 0) runs.push_back({Field::slope_multiplier, at, slope_conditions_.count()});
+  return runs;
 }
 
 template <int D>
@@ -200,11 +209,9 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     const auto law = system_.moving_law(t);
     auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
                                     const ShapeTabulation& table) {
-      const auto part = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-        return moving_residual<Ends, Law, Bending, double, D>(
-            element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
-            element_of<Ends, D>(a.data(), node, a[extra], 0), weights, table, law, &dissipation);
-      });
+      const auto part = moving_residual<Ends, double, D>(
+          element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
+          element_of<Ends, D>(a.data(), node, a[extra], 0), weights, table, law, &dissipation);
       position<D>(r.data(), node) += part.nodes[0];
       slope<D>(r.data(), node) += part.nodes[1];
       position<D>(r.data(), node + 1) += part.nodes[2];
@@ -221,6 +228,16 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
       r[extra] -= friction.force;
       dissipation += friction.dissipation;
     }
+  } else if (const auto& rider = system_.rider()) {
+    const auto part =
+        rider_residual<double, D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
+                                  a[extra], *model.joint, gravity, rider->held);
+    position<D>(r.data(), rider->element) += part.nodes[0];
+    slope<D>(r.data(), rider->element) += part.nodes[1];
+    position<D>(r.data(), rider->element + 1) += part.nodes[2];
+    slope<D>(r.data(), rider->element + 1) += part.nodes[3];
+    r[extra] = part.x;
+    dissipation += part.dissipation;
   } else if (model.joint) {
     r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
   }
@@ -344,35 +361,42 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   system_.left().add_tangent(q.data(), v.data(), by_v, by_a, diagonal, upper, lower);
   system_.right().add_tangent(q.data() + Eigen::Index{B} * shift, v.data() + Eigen::Index{B} * shift, by_v, by_a,
                               diagonal + shift, upper + shift, lower + shift);
+  const Eigen::Index extra = after_nodes();
+  constexpr int N = 4 * D + 1;
+  // adds the tangent of an element at `node` to blocks and to the border of x
+  auto add_element = [&](auto& border, int node, const Eigen::Matrix<double, N, N>& matrix) {
+    const auto k = static_cast<std::size_t>(node), reach = static_cast<std::size_t>(node - border.first);
+    tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
+    tangent_.upper[k] += matrix.template block<B, B>(0, B);
+    tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
+    tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
+    for (int end = 0; end < 2; ++end) {
+      border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, N - 1);
+      border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(N - 1, end * B).transpose();
+    }
+    tangent_.corner(0, 0) += matrix(N - 1, N - 1);
+  };
   if (system_.has_joint()) {
     const int j = system_.joint();
     const auto ju = static_cast<std::size_t>(j);
     const auto law = system_.moving_law(t);
-    const Eigen::Index extra = after_nodes();
     auto& border = tangent_.add_border(j - 1);
     auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
                                     const ShapeTabulation& table) {
-      constexpr int N = 4 * D + 1;
-      const auto matrix = with_law(model.strain_law, model.section.bends(), [&]<StrainLaw Law, bool Bending>() {
-        return moving_tangent<Ends, Law, Bending, D>(
-            element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
-            element_of<Ends, D>(a.data(), node, a[extra], 0), by_v, by_a, weights, table, law);
-      });
-      const auto k = static_cast<std::size_t>(node), reach = static_cast<std::size_t>(node - (j - 1));
-      tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
-      tangent_.upper[k] += matrix.template block<B, B>(0, B);
-      tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
-      tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
-      for (int end = 0; end < 2; ++end) {
-        border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, N - 1);
-        border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(N - 1, end * B).transpose();
-      }
-      tangent_.corner(0, 0) += matrix(N - 1, N - 1);
+      add_element(
+          border, node,
+          moving_tangent<Ends, D>(element_of<Ends, D>(q.data(), node, q[extra], far_end),
+                                  element_of<Ends, D>(v.data(), node, v[extra], 0),
+                                  element_of<Ends, D>(a.data(), node, a[extra], 0), by_v, by_a, weights, table, law));
     };
     add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
     add.template operator()<MovingEnds::a>(j + shift, mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
     tangent_.diagonal[ju].template topLeftCorner<D, D>().diagonal().array() += by_a * model.joint->mass;
     if (model.joint->friction) add_friction_tangent(q, v, a, t, by_v, by_a);
+  } else if (const auto& rider = system_.rider()) {
+    add_element(tangent_.add_border(rider->element), rider->element,
+                rider_tangent<D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
+                                 a[extra], *model.joint, system_.gravity(t), rider->held, by_v, by_a));
   } else if (model.joint) {
     for (int c = 0; c < D; ++c) tangent_.add_border(0);
     tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
@@ -429,8 +453,10 @@ void ImplicitBeam<D>::constrain_tangent() {
     keep.template bottomRightCorner<D, D>() =
         support.frame * support.free_slope.matrix().asDiagonal() * support.frame.transpose();
     const auto k = static_cast<std::size_t>(node);
-    const double scale = tangent_.diagonal[k].diagonal().cwiseAbs().maxCoeff();
-    tangent_.diagonal[k] = keep * tangent_.diagonal[k] * keep + scale * (Block::Identity() - keep);
+    NodeVector size;  // of what is fixed: slopes have another unit
+    size.template head<D>().setConstant(tangent_.diagonal[k].diagonal().template head<D>().cwiseAbs().maxCoeff());
+    size.template tail<D>().setConstant(tangent_.diagonal[k].diagonal().template tail<D>().cwiseAbs().maxCoeff());
+    tangent_.diagonal[k] = keep * tangent_.diagonal[k] * keep + size.asDiagonal() * (Block::Identity() - keep);
     if (k == 0) {
       tangent_.upper[0] = keep * tangent_.upper[0];
       tangent_.lower[1] = tangent_.lower[1] * keep;
@@ -511,13 +537,24 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
 }
 
 template <int D>
-std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> ImplicitBeam<D>::reactions(const Eigen::VectorXd& y, double t) {
+OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   Eigen::VectorXd q, v, a;
   expand(y, q, v);
   acceleration(q, v, t, a);
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  return {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
+  OuterForces<D> forces{{free_.head<B>(), free_.segment<B>(after_nodes() - B)}};
+  if (!system_.mass_on_beam()) return forces;
+  Vec<double, D> acceleration;
+  if (const auto& rider = system_.rider()) {
+    const auto at = system_.rider_motion(q.data(), v.data());
+    acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
+                   at.r_x * a[after_nodes()] + at.remainder;
+  } else {
+    acceleration = position<D>(a.data(), system_.joint());  // its node moves with the mass
+  }
+  forces.on_mass = system_.model().joint->mass * (acceleration - system_.gravity(t));
+  return forces;
 }
 
 template class ImplicitBeam<2>;

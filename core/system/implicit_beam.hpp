@@ -18,7 +18,7 @@ namespace vlbeam {
 /// node is there twice, behind each other, tied by 2 D constraints (where the beam is kinked there, by D and the
 /// conditions on the slopes); supports are constraints too, and the reactions stand at the end of the coordinates. The
 /// border then holds the joint's material coordinate (or the free mass's position) and the multipliers.
-/// A kinked joint is always cut; with eliminated constraints only residuals, hence reactions, are then to be had.
+/// A kinked joint is always cut; with eliminated constraints only residuals, hence forces, are then to be had.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
@@ -27,6 +27,7 @@ class ImplicitBeam final : public SecondOrderSystem {
 
   Eigen::Index coordinates() const override;
   Eigen::Index multipliers() const override;
+  std::vector<FieldRun> fields() const override;
   void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
   void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override;
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
@@ -52,9 +53,8 @@ class ImplicitBeam final : public SecondOrderSystem {
                              const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override;
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
 
-  /// Generalized forces with which the supports act on the first and the last node (position [N], slope [N m]), at a
-  /// state y and time t.
-  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> reactions(const Eigen::VectorXd& y, double t);
+  /// By the accelerations that belong to a state y at time t.
+  OuterForces<D> forces(const Eigen::VectorXd& y, double t);
 
  private:
   static constexpr int B = node_size<D>;

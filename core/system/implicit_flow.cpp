@@ -7,20 +7,6 @@
 namespace vlbeam {
 namespace {
 
-template <int D>
-Eigen::Matrix<double, 4 * D, 4 * D> axis_tangent(StrainLaw strain_law, const MovingCoordinates<double, D>& q,
-                                                 const MovingCoordinates<double, D>& rate,
-                                                 const MovingCoordinates<double, D>& a, const TangentWeights& by,
-                                                 const WeightFunction& weights, const ShapeTabulation& table,
-                                                 const MovingLaw<D>& law) {
-  auto measured = [&]<StrainLaw Law>() {
-    return law.section.bends() ? driven_tangent<Law, true, D>(q, rate, a, by, weights, table, law)
-                               : driven_tangent<Law, false, D>(q, rate, a, by, weights, table, law);
-  };
-  return strain_law == StrainLaw::green ? measured.template operator()<StrainLaw::green>()
-                                        : measured.template operator()<StrainLaw::engineering>();
-}
-
 /// The angles of one element enter linearly: the residual of unit ones is the tangent.
 Eigen::Matrix4d angle_tangent(const SpinChain& chain, const SpinChain::Coordinates& q,
                               const SpinChain::Coordinates& rate, const SpinChain::Coordinates& a,
@@ -38,6 +24,16 @@ Eigen::Matrix4d angle_tangent(const SpinChain& chain, const SpinChain::Coordinat
 }
 
 }  // namespace
+
+template <int D>
+std::vector<FieldRun> ImplicitFlow<D>::fields() const {
+  std::vector<FieldRun> runs{{Field::position, 0, D, B, beam_.nodes()}, {Field::slope, D, D, B, beam_.nodes()}};
+  if (!beam_.spin_) return runs;
+  const Eigen::Index per_node = beam_.spin_->per_node();
+  runs.push_back({Field::angle, beam_.angle(0), 1, per_node, beam_.nodes()});
+  if (per_node == 2) runs.push_back({Field::twist, beam_.angle(0) + 1, 1, per_node, beam_.nodes()});
+  return runs;
+}
 
 template <int D>
 void ImplicitFlow<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
@@ -91,10 +87,9 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   if (spin) angles_.reset(beam_.nodes());
   for (int k = 0; k < beam_.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    auto axis = axis_tangent<D>(beam_.model_.strain_law, beam_.axis_of(q.data(), k, &Prescribed::value),
-                                beam_.axis_of(v.data(), k, &Prescribed::rate),
-                                beam_.axis_of(a.data(), k, &Prescribed::acceleration), by, beam_.weights(k),
-                                beam_.tables_[i], law);
+    auto axis = driven_tangent<D>(
+        beam_.axis_of(q.data(), k, &Prescribed::value), beam_.axis_of(v.data(), k, &Prescribed::rate),
+        beam_.axis_of(a.data(), k, &Prescribed::acceleration), by, beam_.weights(k), beam_.tables_[i], law);
     const auto& nodes = beam_.nodes_;
     if (const auto& rotary = beam_.model_.rotary; rotary.present()) {
       axis += RotaryElement(nodes[i], nodes[i + 1], beam_.tables_[i]).tangent(rotary, by);
@@ -185,8 +180,10 @@ void ImplicitFlow<D>::constrain() {
   for (const auto& [node, support] : beam_.model_.supports) {
     const Block keep = kept(node);
     const auto k = static_cast<std::size_t>(node);
-    const double scale = axis_.diagonal[k].diagonal().cwiseAbs().maxCoeff();
-    axis_.diagonal[k] = keep * axis_.diagonal[k] * keep + scale * (Block::Identity() - keep);
+    NodeVector size;  // of what is fixed: slopes have another unit
+    size.template head<D>().setConstant(axis_.diagonal[k].diagonal().template head<D>().cwiseAbs().maxCoeff());
+    size.template tail<D>().setConstant(axis_.diagonal[k].diagonal().template tail<D>().cwiseAbs().maxCoeff());
+    axis_.diagonal[k] = keep * axis_.diagonal[k] * keep + size.asDiagonal() * (Block::Identity() - keep);
     if (k > 0) {
       axis_.lower[k] = keep * axis_.lower[k];
       axis_.upper[k - 1] = axis_.upper[k - 1] * keep;

@@ -15,6 +15,7 @@ class ImplicitFlow final : public SecondOrderSystem {
   explicit ImplicitFlow(FlowingBeam<D>& beam) : beam_(beam), work_(2 * beam.nodes()) {}
 
   Eigen::Index coordinates() const override { return beam_.coordinates(); }
+  std::vector<FieldRun> fields() const override;
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
@@ -38,6 +39,7 @@ class ImplicitFlow final : public SecondOrderSystem {
  private:
   static constexpr int B = node_size<D>;
   using Block = Eigen::Matrix<double, B, B>;
+  using NodeVector = Eigen::Matrix<double, B, 1>;
 
   /// Both matrices before supports and driven angles.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,

@@ -61,7 +61,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
     weightless_.resize(y.size());
     system_.rhs(y, weightless_, 0);
     system_.rhs(y, dfdt, ramp);
-    dfdt = gravity_share_rate(t, ramp) * (dfdt - weightless_);
+    dfdt = smooth_ramp(t, ramp).rate * (dfdt - weightless_);
   }
 }
 

@@ -44,9 +44,9 @@ void SpinChain::scatter(int k, const std::array<double, 4>& entries, double* val
 
 SpinChain::Equations SpinChain::equations(const Coordinates& q, const Coordinates& rate) const {
   if (field_ == AngleField::hermite) {
-    return moving_equations<StrainLaw::green, false, double, 1>(q, rate, {}, table_, law_);
+    return moving_equations<double, 1>(q, rate, {}, table_, law_);
   }
-  return spin_equations(angles_of(q), angles_of(rate), law_.formulation, section_).of_one_field();
+  return spin_equations(angles_of(q), angles_of(rate), law_.formulation, section_);
 }
 
 void SpinChain::evaluate(const double* q, const double* rate, const Nodes& nodes) {

@@ -42,6 +42,13 @@ Eigen::VectorXd steady_state(FlowingBeam<D>& beam, const Eigen::VectorXd& guess,
   const Eigen::Index n = beam.coordinates();
   Eigen::VectorXd q = guess.head(n), r(n);
   const Eigen::VectorXd v = guess.segment(n, n), a = Eigen::VectorXd::Zero(n);
+  const std::vector<FieldRun> fields = flow.fields();
+  const auto nodes = beam.nodes_at(t);
+  const double length = nodes.back().value - nodes.front().value;
+  FieldNorms natural;  // sizes below which a field's rounding is no error
+  natural.fill(1);
+  natural[static_cast<std::size_t>(Field::position)] = length;
+  natural[static_cast<std::size_t>(Field::twist)] = 1 / length;
   double last = 1;
   for (int i = 0;; ++i) {
     flow.residual(q, v, a, t, r);
@@ -50,9 +57,13 @@ Eigen::VectorXd steady_state(FlowingBeam<D>& beam, const Eigen::VectorXd& guess,
     }
     flow.solve(r);
     q -= r;
-    const double correction = r.lpNorm<Eigen::Infinity>() / std::max(1.0, q.lpNorm<Eigen::Infinity>());
+    const FieldNorms corrections = field_norms(fields, r), sizes = field_norms(fields, q);
+    double correction = 0;
+    for (std::size_t f = 0; f < field_count; ++f) {
+      correction = std::max(correction, corrections[f] / std::max(sizes[f], natural[f]));
+    }
     if (correction <= converged || (correction < 1e-10 && correction >= last)) break;
-    if (!std::isfinite(correction) || i == most_iterations) {
+    if (!r.allFinite() || i == most_iterations) {
       throw ComputationFailed("no steady state: Newton's method does not converge", t);
     }
     last = correction;

@@ -18,7 +18,13 @@ template <int D>
 bool BeamSystem<D>::solve_mass(const JointElements* elements, const double* q, double* p) const {
   if (elements == nullptr) {
     solve_without_joint(*left_, *right_, p);
-    return true;
+    if (!rider_) return true;
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(coordinates_);
+    const auto solved =
+        solve_with_rider<D>(rider_->mass, *model_.joint, rider_motion(q, at_rest.data()),
+                            element_nodes<D>(p, rider_->element), Vector::Zero(), p[nodal_], rider_->held, false, p);
+    if (solved) p[nodal_] = solved->x;
+    return solved.has_value();
   }
   const JointMotion<D> at_rest{joint_slopes(q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero()};
   return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, at_rest, p, p + nodal_)
@@ -26,10 +32,15 @@ bool BeamSystem<D>::solve_mass(const JointElements* elements, const double* q, d
 }
 
 template <int D>
-void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* rate, double* out) const {
+void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* q, const double* rate,
+                                  double* out) const {
   std::fill(out, out + coordinates_, 0.0);
   left_->add_inertia(rate, out);
   right_->add_inertia(rate, out);
+  if (rider_) {
+    const auto at = rider_motion(q, rate);
+    push_rider(at, model_.joint->mass * at.v, out);
+  }
   if (elements == nullptr) return;
   auto add = [&](const MovingEquations<double, D>& eq, const std::array<Vector, 4>& border, double corner, int k) {
     const auto e = element_of(rate, k);
@@ -49,6 +60,16 @@ void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* r
   add(elements->left, elements->left.mass_b, elements->left.mass_bb, joint_ - 1);
   add(elements->right, elements->right.mass_a, elements->right.mass_aa, joint_);
   position<D>(out, joint_) += model_.joint->mass * position<D>(rate, joint_);
+}
+
+template <int D>
+void BeamSystem<D>::push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const {
+  const int k = rider_->element;
+  position<D>(out, k) += at.s[0] * force;
+  slope<D>(out, k) += at.s[1] * force;
+  position<D>(out, k + 1) += at.s[2] * force;
+  slope<D>(out, k + 1) += at.s[3] * force;
+  if (!rider_->held) out[nodal_] += at.r_x.dot(force);
 }
 
 template <int D>
@@ -82,8 +103,15 @@ template <int D>
 void BeamSystem<D>::project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y,
                                        double t) const {
   Eigen::VectorXd correction = excess_momentum(before, chain(y), first, last);
-  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
-  if (solve_mass(&elements, y.data(), correction.data())) y.segment(coordinates_, coordinates_) += correction;
+  if (rider_ && before.joint != no_joint) {  // a node moves as its element does not
+    const auto at = rider_motion(y.data(), y.data() + coordinates_);
+    const Vector was = position<D>(before.rate.data(), before.joint);
+    push_rider(at, model_.joint->mass * (was - at.v), correction.data());
+  }
+  const auto elements = elements_at(y, t);
+  if (solve_mass(elements ? &*elements : nullptr, y.data(), correction.data())) {
+    y.segment(coordinates_, coordinates_) += correction;
+  }
 }
 
 template <int D>
@@ -107,33 +135,40 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements* elements, cons
       }
     }
     if (mode >= D && kinked()) rotate(behind_);
-    multiply_mass(elements, rigid.data(), momenta.col(mode).data());
+    multiply_mass(elements, y.data(), rigid.data(), momenta.col(mode).data());
   }
   return momenta;
 }
 
 template <int D>
 Eigen::VectorXd BeamSystem<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
-  return rigid_momenta(&elements, y).transpose() * y.segment(coordinates_, coordinates_);
+  const auto elements = elements_at(y, t);
+  return rigid_momenta(elements ? &*elements : nullptr, y).transpose() * y.segment(coordinates_, coordinates_);
 }
 
 template <int D>
 void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const {
-  const JointElements elements = joint_elements(y.data(), y.data() + coordinates_, t);
+  const auto at_joint = elements_at(y, t);
+  const JointElements* elements = at_joint ? &*at_joint : nullptr;
   auto rate = y.segment(coordinates_, coordinates_);
   // momenta of the rigid motions, and of these motions what the supports leave
-  const Eigen::MatrixXd rigid = rigid_momenta(&elements, y);
+  const Eigen::MatrixXd rigid = rigid_momenta(elements, y);
   Eigen::MatrixXd motion = rigid;
   for (Eigen::Index mode = 0; mode < motion.cols(); ++mode) {
-    if (!solve_mass(&elements, y.data(), motion.col(mode).data())) return;
+    if (!solve_mass(elements, y.data(), motion.col(mode).data())) return;
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> metric(rigid.transpose() * motion);
-  rate += motion * metric.solve(momenta - rigid.transpose() * rate);
+  // turning has another unit: pivots, and with them the rounding, must not depend on it
+  Eigen::VectorXd unit = Eigen::VectorXd::Ones(rigid.cols());
+  unit.tail(rigid.cols() - D).setConstant(std::ldexp(1.0, -std::ilogb(mesh_.length())));
+  const Eigen::FullPivLU<Eigen::MatrixXd> metric(unit.asDiagonal() * (rigid.transpose() * motion) * unit.asDiagonal());
+  const auto velocities_of = [&](const Eigen::VectorXd& of) -> Eigen::VectorXd {
+    return unit.cwiseProduct(metric.solve(unit.cwiseProduct(of)));
+  };
+  rate += motion * velocities_of(momenta - rigid.transpose() * rate);
 
-  const Eigen::VectorXd fluctuation = rate - motion * metric.solve(momenta);
+  const Eigen::VectorXd fluctuation = rate - motion * velocities_of(momenta);
   Eigen::VectorXd of_fluctuation(coordinates_);
-  multiply_mass(&elements, fluctuation.data(), of_fluctuation.data());
+  multiply_mass(elements, y.data(), fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);
   if (!(twice_kinetic > 0)) return;
   // T(v + s w) = T(v) + (s + s^2/2) w.M w, for w is orthogonal to what else there is
@@ -144,14 +179,16 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
 }
 
 template bool BeamSystem<2>::solve_mass(const JointElements*, const double*, double*) const;
-template void BeamSystem<2>::multiply_mass(const JointElements*, const double*, double*) const;
+template void BeamSystem<2>::multiply_mass(const JointElements*, const double*, const double*, double*) const;
+template void BeamSystem<2>::push_rider(const RiderMotion<double, 2>&, const Vec<double, 2>&, double*) const;
 template Eigen::VectorXd BeamSystem<2>::excess_momentum(const ChainState<2>&, const ChainState<2>&, int, int) const;
 template void BeamSystem<2>::project_velocities(const ChainState<2>&, int, int, Eigen::VectorXd&, double) const;
 template Eigen::MatrixXd BeamSystem<2>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<2>::momenta(const Eigen::VectorXd&, double) const;
 template void BeamSystem<2>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 template bool BeamSystem<3>::solve_mass(const JointElements*, const double*, double*) const;
-template void BeamSystem<3>::multiply_mass(const JointElements*, const double*, double*) const;
+template void BeamSystem<3>::multiply_mass(const JointElements*, const double*, const double*, double*) const;
+template void BeamSystem<3>::push_rider(const RiderMotion<double, 3>&, const Vec<double, 3>&, double*) const;
 template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, const ChainState<3>&, int, int) const;
 template void BeamSystem<3>::project_velocities(const ChainState<3>&, int, int, Eigen::VectorXd&, double) const;
 template Eigen::MatrixXd BeamSystem<3>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;

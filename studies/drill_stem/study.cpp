@@ -95,7 +95,6 @@ std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples)
   IntegrationOptions options;
   options.type = IntegratorType::generalized_alpha;
   options.generalized_alpha.step = stem.duration / steps;
-  options.generalized_alpha.newton_tolerance = 1e-14;
   SolverCounters counters;
   double t = 0;
   Eigen::VectorXd y = at_rest(beam, stem);

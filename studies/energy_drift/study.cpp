@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
@@ -61,8 +62,8 @@ StudyReport run(const StudyContext& context) {
   Table table{.name = "drift",
               .caption =
                   "Largest drift of the total energy between length-control events over the largest kinetic "
-                  "energy, slope of the drift [J/s], sum of the jumps at the events [J], change of the total "
-                  "energy in all over the largest kinetic energy",
+                  "energy, slope of the drift [J/s], sum of the jumps at the events [J], largest change of "
+                  "the total energy, events included, over the largest kinetic energy; the last two by a 25-point rule",
               .columns = {"case", "integrator", "steps", "drift", "slope", "events", "jumps", "change"}};
   Table history{.name = "history",
                 .caption = "|E - E_0| without the jumps, over the largest kinetic energy",
@@ -80,13 +81,14 @@ StudyReport run(const StudyContext& context) {
         drift = std::max(drift, now);
         history.rows.push_back({name, sample.t, now});
       }
-      for (const Event& event : result.events) jumps += event.discrete_jump;
-      const double change =
-          std::abs(result.samples.back().discrete_total - result.samples.front().discrete_total) / result.max_kinetic;
+      for (const Event& event : result.events) jumps += event.energy_jump.total();
+      const double change = energy_change(result);
       table.rows.push_back({name, to_string(scene.integrator.type), result.solver.steps, drift, slope_of(result),
                             result.events.size(), jumps, change});
       report.measured["drift_" + name] = drift;
       report.measured["change_" + name] = change;
+      report.measured["event_jump_" + name] = event_energy(result).largest / result.max_kinetic;
+      report.measured["slope_" + name] = slope_of(result);
       report.measured["steps_" + name] = static_cast<double>(result.solver.steps);
       item.results = {{"steps", result.solver.steps},
                       {"rejected", result.solver.rejected},

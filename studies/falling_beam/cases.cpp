@@ -55,7 +55,8 @@ Json results_of(const RunResult& result) {
 bool Wanted::fits(const Scene& scene) const {
   return (!elements || *elements == scene.beam.elements) && (!element || *element == scene.beam.element) &&
          (!clamp || *clamp == scene.start.clamp) && (!points || *points == quadrature_points(scene)) &&
-         (!tolerance || std::abs(*tolerance / scene.integrator.rtol - 1) < 1e-6);
+         (!tolerance || std::abs(*tolerance / scene.integrator.rtol - 1) < 1e-6) &&
+         (!hysteresis || *hysteresis == scene.length_control.hysteresis);
 }
 
 std::vector<const Run*> Runs::select(std::string_view sweep, const Wanted& wanted) const {

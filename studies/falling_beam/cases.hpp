@@ -30,6 +30,7 @@ struct Wanted {
   std::optional<ClampType> clamp = {};
   std::optional<int> points = {};
   std::optional<double> tolerance = {};
+  std::optional<double> hysteresis = {};
 
   bool fits(const Scene& scene) const;
 };

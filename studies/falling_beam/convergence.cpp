@@ -13,6 +13,7 @@ namespace {
 
 constexpr auto direction = ClampType::direction;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double reference_temporal_error = 1e-7;  // of runs at a tolerance of 1e-6, the study's table `temporal` [m]
 constexpr std::array elements_compared = {ElementKind::ale_rancf, ElementKind::ale_ancf};
 
 std::string short_name(ElementKind kind) { return kind == ElementKind::ale_rancf ? "rancf" : "ancf"; }
@@ -47,37 +48,29 @@ constexpr std::array quantities = {
     Quantity{"end_y", [](const Sample& s) { return s.end[1]; }},
 };
 
-/// Order and limit that the three finest meshes of the reference sweep show.
-std::vector<Json> reference_row(const Runs& runs, ElementKind kind, const Quantity& quantity, double t) {
-  std::vector<double> h;
-  std::vector<double> values;
+/// What the meshes of the reference sweep say about the limit of a quantity. No order is expected: merges happen at
+/// other times on other meshes.
+GridConvergence reference_convergence(const Runs& runs, ElementKind kind, const Quantity& quantity, double t) {
+  std::vector<double> meshes, values;
   for (const Run* run : runs.select("reference", {.element = kind})) {
-    h.push_back(1.0 / run->scene.beam.elements);
+    meshes.push_back(run->scene.beam.elements);
     values.push_back(quantity.of(*sample_at(*run->result, t)));
   }
-  std::vector<Json> row{to_string(kind), quantity.name};
-  const std::size_t n = values.size();
-  for (std::size_t i = n >= 3 ? n - 3 : 0; i < n; ++i) row.push_back(values[i]);
-  row.resize(5);
-  std::optional<SelfConvergence> limit;
-  if (n >= 3) limit = self_convergence({h[n - 3], h[n - 2], h[n - 1]}, {values[n - 3], values[n - 2], values[n - 1]});
-  row.push_back(limit ? Json(limit->order) : Json());
-  row.push_back(limit ? Json(limit->limit) : Json());
-  row.push_back(limit ? Json(limit->finest_error) : Json());
-  return row;
+  return grid_convergence("reference_" + std::string(quantity.name) + "_" + short_name(kind), meshes, values,
+                          {.floor = reference_temporal_error});
 }
 
 }  // namespace
 
 void add_reference(StudyReport& report, const Runs& runs, const Times& times, const Json& independent) {
-  Table table{.name = "reference",
-              .caption =
-                  "The reference at 0.5 s on its three finest meshes [m], with Richardson's limit where the "
-                  "differences shrink as an order makes them",
-              .columns = {"element", "quantity", "coarse", "middle", "fine", "order", "limit", "error_of_fine"}};
   double error = 0;
   for (const ElementKind kind : elements_compared) {
-    for (const Quantity& quantity : quantities) table.rows.push_back(reference_row(runs, kind, quantity, times.error));
+    for (const Quantity& quantity : quantities) {
+      if (runs.select("reference", {.element = kind}).empty()) continue;
+      report.grid_convergence.push_back(reference_convergence(runs, kind, quantity, times.error));
+      auto& worst = report.measured["reference_uncertainty"];
+      worst = std::max(worst, report.grid_convergence.back().uncertainty);
+    }
     const auto meshes = runs.select("reference", {.element = kind});
     if (meshes.size() < 2) continue;
     const Run& fine = *meshes.back();
@@ -85,7 +78,6 @@ void add_reference(StudyReport& report, const Runs& runs, const Times& times, co
     report.measured["reference_mesh_difference_" + short_name(kind)] = difference;
     error = std::max(error, difference);
   }
-  report.tables.push_back(table);
   const Run* rational = finest(runs, ElementKind::ale_rancf);
   const Run* polynomial = finest(runs, ElementKind::ale_ancf);
   if (!rational || !polynomial) return;
@@ -144,7 +136,10 @@ void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& ti
     }
     if (levels.empty()) continue;
     report.measured["finest_error_" + short_name(kind)] = found.back();
-    report.fits.push_back(fit_order("falling_beam_error_" + short_name(kind), levels, found));
+    // errors are known to what the reference is
+    const auto known_to = report.measured.find("reference_error");
+    report.fits.push_back(fit_order("falling_beam_error_" + short_name(kind), levels, found,
+                                    {.floor = known_to == report.measured.end() ? 0 : known_to->second}));
   }
   report.tables.push_back(errors);
 
@@ -197,6 +192,16 @@ void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& ti
     }
   }
   report.tables.push_back(separation);
+  std::vector<double> exits, exit_times;
+  for (const Run* run : runs.select("exit")) {
+    exits.push_back(run->scene.beam.elements);
+    exit_times.push_back(separation_time(*run->result));
+  }
+  if (!exits.empty()) {
+    report.grid_convergence.push_back(
+        grid_convergence("separation_time", exits, exit_times, {.floor = reference_temporal_error}));
+    report.measured["separation_time_uncertainty"] = report.grid_convergence.back().uncertainty;
+  }
 }
 
 void add_quadrature_convergence(StudyReport& report, const Runs& runs, const Times& times) {
@@ -241,6 +246,9 @@ void add_quadrature_convergence(StudyReport& report, const Runs& runs, const Tim
       if (points == quadrature_points(by_default)) {
         report.measured["quadrature_error_share_" + short_name(c.kind) + "_n" + std::to_string(c.elements)] =
             error / mesh;
+      }
+      if (run && counts.size() > 2 && points == counts[counts.size() - 2]) {
+        report.measured["quadrature_known_to_" + short_name(c.kind) + "_n" + std::to_string(c.elements)] = error / mesh;
       }
     }
     table.rows.push_back(row);
@@ -294,7 +302,7 @@ void add_digits(StudyReport& report, const Runs& runs, const Json& independent) 
   report.tables.push_back(table);
 }
 
-void add_ramped_twin(StudyReport& report, const Runs& runs, const Json& independent) {
+void add_ramped_twin(StudyReport& report, const Runs& runs, const Json& config, const Json& independent) {
   const Json& twin = independent.at("ramped_twin");
   Sample exact;
   exact.joint_position = twin.at("joint_position").get<double>();
@@ -317,7 +325,9 @@ void add_ramped_twin(StudyReport& report, const Runs& runs, const Json& independ
       table.rows.push_back(
           {run->scene.beam.elements, to_string(kind), number_or_null(errors.back()), run->result->events.size()});
     }
-    if (levels.size() >= 2) report.fits.push_back(fit_order("ramped_twin_" + short_name(kind), levels, errors));
+    const std::string name = "ramped_twin_" + short_name(kind);
+    if (levels.empty()) continue;
+    report.fits.push_back(fit_order(name, levels, errors, {.rule = level_rule_of(config, name)}));
   }
   report.measured["ramped_twin_events"] = events;
   report.tables.push_back(table);

@@ -14,6 +14,6 @@ void add_temporal_convergence(StudyReport& report, const Runs& runs, const Times
 
 /// Digits of another program on the same meshes, and the order of the smooth, ramped twin.
 void add_digits(StudyReport& report, const Runs& runs, const Json& independent);
-void add_ramped_twin(StudyReport& report, const Runs& runs, const Json& independent);
+void add_ramped_twin(StudyReport& report, const Runs& runs, const Json& config, const Json& independent);
 
 }  // namespace vlbeam::falling_beam

@@ -31,7 +31,7 @@ StudyReport run(const StudyContext& context) {
   add_quadrature_convergence(report, runs, times);
   add_temporal_convergence(report, runs, times);
   add_digits(report, runs, independent);
-  add_ramped_twin(report, runs, independent);
+  add_ramped_twin(report, runs, context.config, independent);
   add_figures(report, runs, context);
   return report;
 }

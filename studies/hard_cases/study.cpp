@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/length_control/chain_motion.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
 #include "core/system/mass_condition.hpp"
@@ -63,6 +64,9 @@ double condition_of(const Scene& scene, const Configuration& shape, const std::o
     if (k > 0) chain.mesh.weights.push_back({shape.weights[k - 1], shape.x[k - 1], shape.x[k]});
     if (joint_position && shape.x[k] == *joint_position) chain.joint = static_cast<int>(k);
   }
+  if (joint_position && chain.joint == no_joint) {  // it rides inside an element
+    chain.rider = {element_at(chain.mesh, *joint_position), *joint_position, 0, false};
+  }
   chain.rate.assign(chain.q.size(), 0);
   BeamSystem<2> system(build_model<2>(scene), chain);
   return mass_condition(system, system.initial_state());
@@ -105,6 +109,28 @@ double shortest_tangent(const RunResult& result) {
   return shortest;
 }
 
+double apart(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// How two runs differ at their ends, over how far each of joint, end and mass has come in the first of them at most:
+/// the worst of the three.
+double relative_difference(const RunResult& a, const RunResult& b) {
+  const Sample &first = a.samples.front(), &last = a.samples.back(), &other = b.samples.back();
+  double end = 0, mass = 0, joint = 0;
+  for (const Sample& sample : a.samples) {
+    end = std::max(end, apart(sample.end, first.end));
+    if (!sample.mass_position || !first.mass_position) continue;
+    mass = std::max(mass, apart(*sample.mass_position, *first.mass_position));
+    joint = std::max(joint, std::abs(*sample.joint_position - *first.joint_position));
+  }
+  double worst = end > 0 ? apart(last.end, other.end) / end : 0;
+  if (last.mass_position.has_value() != other.mass_position.has_value()) return nan;
+  if (last.mass_position && mass > 0) {
+    worst = std::max({worst, apart(*last.mass_position, *other.mass_position) / mass,
+                      std::abs(*last.joint_position - *other.joint_position) / joint});
+  }
+  return worst;
+}
+
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 StudyReport run(const StudyContext& context) {
@@ -114,12 +140,16 @@ StudyReport run(const StudyContext& context) {
       [](const Case& item) { return item.judged ? 1 : 10; });
 
   StudyReport report;
-  Table table{.name = "cases",
-              .caption =
-                  "what became of each case: error at the end against the first of two certifying integrators, "
-                  "whose difference is the reference's own error; energy error over the largest kinetic energy",
-              .columns = {"case", "variant", "value", "integrator", "outcome", "error", "reference_error",
-                          "energy_error", "events", "smallest_step", "condition", "shortest_tangent"}};
+  Table table{
+      .name = "cases",
+      .caption =
+          "what became of each case: error at the end against the first of two certifying integrators, "
+          "whose difference is the reference's own error; the same over how far joint, end and mass have come "
+          "at most, the worst of the three; error of the energy over the largest kinetic energy: by the model's "
+          "own points, and by a 25-point rule",
+      .columns = {"case", "variant", "value", "integrator", "outcome", "error", "reference_error", "relative_error",
+                  "relative_reference_error", "energy_error", "energy_change", "events", "smallest_step", "condition",
+                  "shortest_tangent"}};
   Table expectations{.name = "expectations",
                      .caption = "what was expected of each case before it was run",
                      .columns = {"case", "expectation"}};
@@ -150,6 +180,9 @@ StudyReport run(const StudyContext& context) {
     const double own = certified ? position_error(references[1]->samples.back(), references[0]->samples.back()) : nan;
     const double error =
         certified && !failed ? position_error(result.samples.back(), references[0]->samples.back()) : nan;
+    const double relative_own = certified ? relative_difference(*references[0], *references[1]) : nan;
+    const double relative = certified && !failed ? relative_difference(*references[0], result) : nan;
+    const double change = energy_change(result);
     const double energy = energy_error(result), condition = worst_condition(item.scene, result);
     const std::string outcome =
         failed ? "failed at " + number_text(std::round(1e4 * result.failure_time) / 1e4) + " s: " + result.failure
@@ -157,7 +190,10 @@ StudyReport run(const StudyContext& context) {
     row.results = {{"outcome", outcome},
                    {"error", number(error)},
                    {"reference_error", number(own)},
+                   {"relative_error", number(relative)},
+                   {"relative_reference_error", number(relative_own)},
                    {"energy_error", number(energy)},
+                   {"energy_change", number(change)},
                    {"events", result.events.size()},
                    {"steps", result.solver.steps},
                    {"rejected", result.solver.rejected},
@@ -165,12 +201,18 @@ StudyReport run(const StudyContext& context) {
                    {"condition", number(condition)},
                    {"shortest_tangent", number(shortest_tangent(result))}};
     table.rows.push_back({item.group, item.variant, item.value, to_string(item.scene.integrator.type), outcome,
-                          number(error), number(own), number(energy), result.events.size(), result.solver.smallest_step,
-                          number(condition), number(shortest_tangent(result))});
+                          number(error), number(own), number(relative), number(relative_own), number(energy),
+                          number(change), result.events.size(), result.solver.smallest_step, number(condition),
+                          number(shortest_tangent(result))});
     report.measured["finished/" + key] = failed ? 0 : 1;
     report.measured["events/" + key] = static_cast<double>(result.events.size());
-    const std::pair<const char*, double> numbers[] = {
-        {"error/", error}, {"reference_error/", own}, {"energy/", energy}, {"condition/", condition}};
+    const std::pair<const char*, double> numbers[] = {{"error/", error},
+                                                      {"reference_error/", own},
+                                                      {"relative_error/", relative},
+                                                      {"relative_reference_error/", relative_own},
+                                                      {"energy/", energy},
+                                                      {"energy_change/", change},
+                                                      {"condition/", condition}};
     for (const auto& [name, value] : numbers) {
       if (std::isfinite(value)) report.measured[name + key] = value;
     }

@@ -1,16 +1,31 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
 namespace vlbeam {
 
-/// The whole text of a file; "-" is standard input. Throws InvalidInput if it cannot be read.
+/// The whole text of a file; "-" is standard input. Throws InvalidInput if it cannot be read, or is beyond any size a
+/// scene or a report has.
 std::string read_text(const std::filesystem::path& path);
 
-/// Writes a file so that it appears only once it is whole: into a temporary file beside it, then renamed.
-/// "-" is standard output. Throws std::runtime_error if it cannot be written, and leaves nothing behind.
+/// Takes a text piece by piece. Throws std::runtime_error where it cannot be written.
+using TextSink = std::function<void(std::string_view)>;
+
+/// Writes what `content` sends to its sink into a file, which appears, or changes, only once it is whole: nothing is
+/// left behind otherwise. Symbolic links are followed. What is no regular file (a device, a pipe) is written into; "-"
+/// is standard output. Throws std::runtime_error, with the system's reason.
+void write_file(const std::filesystem::path& path, const std::function<void(const TextSink&)>& content);
 void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// Throws InvalidInput, naming the `option` that asks for it, where write_file() could not write this file. Changes
+/// nothing.
+void check_writable(const std::string& option, const std::filesystem::path& path);
+
+/// Whether two names, of files that need not be there, lead to the same place. Devices without memory, like /dev/null,
+/// are never the same.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace vlbeam

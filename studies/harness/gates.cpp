@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iomanip>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -68,18 +69,27 @@ double quantity(const Json& report, const std::string& name) {
 void judge_bounds(const Fields& gate, const Json& report, GateVerdict& verdict) {
   const std::string name = gate.text("quantity");
   verdict.value = quantity(report, name);
+  double u = 0;
+  if (gate.has("uncertainty")) {
+    const Json& given = gate.at("uncertainty");
+    u = given.is_string() ? std::abs(quantity(report, given.get<std::string>())) : gate.number("uncertainty");
+    verdict.uncertainty = u;
+  } else if (verdict.kind == GateKind::self) {
+    throw InvalidInput(gate.where() + "/uncertainty", "a missing key",
+                       "self-convergence is judged with its uncertainty");
+  }
   bool holds = true;
   const auto bound = [&](const std::string& text, bool kept) {
     verdict.bound += (verdict.bound.empty() ? "" : ", ") + text;
     holds = holds && kept;
   };
   // Comparisons with NaN are false: what is not there fails.
-  if (gate.has("max")) bound("<= " + number_text(gate.number("max")), verdict.value <= gate.number("max"));
-  if (gate.has("min")) bound(">= " + number_text(gate.number("min")), verdict.value >= gate.number("min"));
+  if (gate.has("max")) bound("<= " + number_text(gate.number("max")), verdict.value + u <= gate.number("max"));
+  if (gate.has("min")) bound(">= " + number_text(gate.number("min")), verdict.value - u >= gate.number("min"));
   if (gate.has("equals")) {
     const double tolerance = gate.has("tolerance") ? gate.number("tolerance") : 0;
     bound("= " + number_text(gate.number("equals")) + (tolerance > 0 ? " ± " + number_text(tolerance) : ""),
-          std::abs(verdict.value - gate.number("equals")) <= tolerance);
+          std::abs(verdict.value - gate.number("equals")) + u <= tolerance);
   } else if (gate.has("tolerance")) {
     throw InvalidInput(gate.where() + "/tolerance", "a tolerance", "it belongs to \"equals\"");
   }
@@ -89,21 +99,11 @@ void judge_bounds(const Fields& gate, const Json& report, GateVerdict& verdict) 
   verdict.passed = holds && std::isfinite(verdict.value);
   if (!std::isfinite(verdict.value)) {
     verdict.failure = "the report holds no number \"" + name + "\"";
+  } else if (std::isnan(u)) {
+    verdict.failure = "the report holds no number for its uncertainty";
   } else if (!holds) {
-    verdict.failure = number_text(verdict.value) + " is not " + verdict.bound;
+    verdict.failure = number_text(verdict.value) + (u > 0 ? " ± " + number_text(u) : "") + " is not " + verdict.bound;
   }
-}
-
-OrderFit fit_from_json(const Json& json) {
-  OrderFit fit;
-  fit.quantity = json.value("quantity", "");
-  for (const Json& level : json.at("levels")) fit.levels.push_back(number_or_nan(level));
-  for (const Json& error : json.at("errors")) fit.errors.push_back(number_or_nan(error));
-  for (const Json& order : json.at("pairwise_orders")) fit.pairwise_orders.push_back(number_or_nan(order));
-  fit.used = json.at("used").get<std::size_t>();
-  fit.fitted = json.at("fitted").get<std::size_t>();
-  fit.slope = number_or_nan(json.at("slope"));
-  return fit;
 }
 
 void judge_order(const Fields& gate, const Json& report, GateVerdict& verdict) {
@@ -121,10 +121,29 @@ void judge_order(const Fields& gate, const Json& report, GateVerdict& verdict) {
     if (json.value("quantity", "") != name) continue;
     const OrderFit fit = fit_from_json(json);
     verdict.value = fit.slope;
+    verdict.uncertainty = fit.slope_uncertainty;
     verdict.failure = broken_order_rule(fit, rule);
     verdict.passed = verdict.failure.empty();
     return;
   }
+}
+
+GateKind kind_of(const Fields& gate) {
+  const auto kind = from_string<GateKind>(gate.text("kind"));
+  if (!kind) {
+    throw InvalidInput(gate.where() + "/kind", excerpt(gate.at("kind")),
+                       "it must be one of exact, independent, self, guard");
+  }
+  return *kind;
+}
+
+/// Evidence has a reason for its bound; a guard says what it guards.
+std::string reason_of(const Fields& gate) {
+  const bool guard = kind_of(gate) == GateKind::guard;
+  if (gate.has(guard ? "reason" : "guards")) {
+    throw InvalidInput(gate.where(), "this gate", "a guard has \"guards\", any other gate \"reason\"");
+  }
+  return gate.text(guard ? "guards" : "reason");
 }
 
 bool applies(const Fields& gate, const Json& report) {
@@ -151,6 +170,7 @@ std::vector<GateVerdict> evaluate_gates(const Json& gates, const Json& report) {
   const std::string status = report.value("status", "");
   if (status != "completed") {
     verdicts.push_back({.name = "status",
+                        .kind = GateKind::exact,
                         .value = nan,
                         .bound = "completed",
                         .reason = "numbers of a study that did not complete prove nothing",
@@ -159,8 +179,9 @@ std::vector<GateVerdict> evaluate_gates(const Json& gates, const Json& report) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Fields gate(list[i], "/gates/" + std::to_string(i),
-                      {"name", "reason", "profiles", "quantity", "max", "min", "equals", "tolerance", "fit", "order"});
-    GateVerdict verdict{.name = gate.text("name"), .reason = gate.text("reason")};
+                      {"name", "kind", "reason", "guards", "profiles", "quantity", "max", "min", "equals", "tolerance",
+                       "uncertainty", "fit", "order"});
+    GateVerdict verdict{.name = gate.text("name"), .kind = kind_of(gate), .reason = reason_of(gate)};
     if (!names.insert(verdict.name).second) {
       throw InvalidInput(gate.where() + "/name", "\"" + verdict.name + "\"", "two gates need two names");
     }
@@ -181,14 +202,32 @@ Json gates_to_json(const std::vector<GateVerdict>& verdicts) {
   Json list = Json::array();
   for (const GateVerdict& verdict : verdicts) {
     Json gate = {{"name", verdict.name},
+                 {"kind", to_string(verdict.kind)},
                  {"value", std::isfinite(verdict.value) ? Json(verdict.value) : Json()},
                  {"bound", verdict.bound},
-                 {"reason", verdict.reason},
+                 {verdict.kind == GateKind::guard ? "guards" : "reason", verdict.reason},
                  {"passed", verdict.passed}};
+    if (verdict.uncertainty > 0) gate["uncertainty"] = verdict.uncertainty;
     if (!verdict.passed) gate["failure"] = verdict.failure;
     list.push_back(gate);
   }
   return list;
+}
+
+Json kinds_to_json(const std::vector<GateVerdict>& verdicts) {
+  Json counts = Json::object();
+  for (const auto& kind : names(GateKind{})) {
+    counts[std::string(kind.name)] = std::ranges::count(verdicts, kind.value, &GateVerdict::kind);
+  }
+  return counts;
+}
+
+std::string kinds_text(const std::vector<GateVerdict>& verdicts) {
+  const auto count = [&](GateKind kind) {
+    return std::to_string(std::ranges::count(verdicts, kind, &GateVerdict::kind)) + " ";
+  };
+  return count(GateKind::exact) + "exact, " + count(GateKind::independent) + "independent, " + count(GateKind::self) +
+         "self; " + count(GateKind::guard) + "guards, which are no evidence";
 }
 
 std::string gates_text(const std::string& title, const std::vector<GateVerdict>& verdicts) {
@@ -199,23 +238,18 @@ std::string gates_text(const std::string& title, const std::vector<GateVerdict>&
   for (const GateVerdict& verdict : verdicts) width = std::max(width, verdict.name.size());
   for (const GateVerdict& verdict : verdicts) {
     text << (verdict.passed ? "  passed  " : "  FAILED  ") << verdict.name
-         << std::string(width - verdict.name.size() + 2, ' ');
+         << std::string(width - verdict.name.size() + 2, ' ') << std::left << std::setw(13) << to_string(verdict.kind);
     if (verdict.passed) {
-      text << verdict.value << "  (" << verdict.bound << ")\n";
+      text << verdict.value;
+      if (verdict.uncertainty > 0) text << " ± " << verdict.uncertainty;
+      text << "  (" << verdict.bound << ")\n";
     } else {
       text << verdict.failure << "  (" << verdict.reason << ")\n";
     }
   }
   const auto failed = std::ranges::count_if(verdicts, [](const GateVerdict& verdict) { return !verdict.passed; });
-  text << "  " << verdicts.size() << " gates evaluated, " << failed << " failed\n";
+  text << "  " << verdicts.size() << " gates evaluated, " << failed << " failed: " << kinds_text(verdicts) << '\n';
   return text.str();
-}
-
-Json fit_to_json(const OrderFit& fit) {
-  return {{"quantity", fit.quantity}, {"levels", fit.levels},
-          {"errors", fit.errors},     {"pairwise_orders", fit.pairwise_orders},
-          {"slope", fit.slope},       {"used", fit.used},
-          {"fitted", fit.fitted}};
 }
 
 }  // namespace vlbeam

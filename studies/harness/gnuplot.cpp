@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -16,6 +19,14 @@ std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
   return result + "'";
+}
+
+bool ends_as_svg(const std::filesystem::path& file) {
+  constexpr std::string_view end = "</svg>";
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const auto last = text.find_last_not_of(" \n");
+  return last != std::string::npos && std::string_view(text).substr(0, last + 1).ends_with(end);
 }
 
 }  // namespace
@@ -32,7 +43,7 @@ void draw_figure(const std::filesystem::path& script, const std::filesystem::pat
   const ProcessResult gnuplot = run_process({"gnuplot", "-e", assignments, script.string()});
 
   std::error_code error;
-  const bool drawn = fs::file_size(temporary, error) > 0 && !error;
+  const bool drawn = ends_as_svg(temporary);  // gnuplot's exit code tells nothing of a full disk
   // gnuplot takes a missing or empty data file for a warning.
   const bool skipped = gnuplot.error.find("Skipping data file") != std::string::npos;
   if (gnuplot.exit_code != 0 || !drawn || skipped) {

@@ -96,6 +96,26 @@ double ledger_gap(const RunResult& result, double t) {
   return gap / result.max_kinetic;
 }
 
+EventEnergy event_energy(const RunResult& result) {
+  EventEnergy found;
+  for (const Event& event : result.events) {
+    if (event.type != EventType::segment_merge) continue;
+    const double jump = std::abs(event.energy_jump.total());
+    found.largest = std::max(found.largest, jump);
+    found.sum += jump;
+  }
+  return found;
+}
+
+double energy_change(const RunResult& result) {
+  double largest = 0;
+  for (const Sample& sample : result.samples) {
+    const double change = sample.energy.total() - sample.energy.supplied - result.samples.front().energy.total();
+    largest = std::max(largest, std::abs(change));
+  }
+  return largest / result.max_kinetic;
+}
+
 std::array<double, 2> point_at(const Configuration& shape, double x) {
   const auto next = std::upper_bound(shape.x.begin() + 1, shape.x.end() - 1, x);
   const auto k = static_cast<std::size_t>(next - shape.x.begin()) - 1;

@@ -45,6 +45,18 @@ double energy_without_jumps(const RunResult& result, const Sample& sample);
 /// Largest |E - E_0 - jumps| over the samples up to time t, by the 25-point rule, over the largest kinetic energy.
 double ledger_gap(const RunResult& result, double t);
 
+/// What length control did to the total energy over a whole run, by the 25-point rule: finer than any rule of a model,
+/// so that it does not see what `conservative` velocities restore by construction.
+struct EventEnergy {
+  double largest = 0;  ///< largest |jump| at one event [J]
+  double sum = 0;      ///< of the jumps' magnitudes [J]
+};
+EventEnergy event_energy(const RunResult& result);
+
+/// Largest change of the total energy over the samples by the 25-point rule, dissipation and what was supplied counted
+/// in, events included, over the largest kinetic energy.
+double energy_change(const RunResult& result);
+
 /// The stretch of material coordinates an event changes.
 struct Stretch {
   double begin = 0;

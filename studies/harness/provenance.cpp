@@ -7,20 +7,10 @@
 #include <ctime>
 #include <string>
 
-#include "studies/harness/subprocess.hpp"
+#include <vlbeam_commit.hpp>
 
 namespace vlbeam {
 namespace {
-
-/// HEAD of the source tree, "-dirty" where it has local changes, "unknown" outside git.
-std::string commit() {
-  const ProcessResult head = run_process({"git", "-C", VLBEAM_SOURCE_DIR, "rev-parse", "HEAD"});
-  if (head.exit_code != 0) return "unknown";
-  const ProcessResult changes =
-      run_process({"git", "-C", VLBEAM_SOURCE_DIR, "status", "--porcelain", "--untracked-files=no"});
-  const bool dirty = changes.exit_code != 0 || !changes.output.empty();
-  return head.output.substr(0, head.output.find('\n')) + (dirty ? "-dirty" : "");
-}
 
 std::string host() {
   std::array<char, 256> name{};
@@ -40,7 +30,7 @@ std::string utc_now() {
 
 Json provenance() {
   return {{"program", "vlbeam " VLBEAM_VERSION},
-          {"commit", commit()},
+          {"commit", VLBEAM_COMMIT},
           {"compiler", VLBEAM_COMPILER},
           {"flags", VLBEAM_FLAGS},
           {"host", host()},

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/scene/options.hpp"
-#include "studies/harness/gates.hpp"
 
 namespace vlbeam {
 namespace {
@@ -51,6 +50,8 @@ Json report_to_json(const StudyReport& report, const ReportFiles& files, const s
   }
   Json fits = Json::array();
   for (const OrderFit& fit : report.fits) fits.push_back(fit_to_json(fit));
+  Json convergence = Json::array();
+  for (const GridConvergence& found : report.grid_convergence) convergence.push_back(grid_convergence_to_json(found));
   Json tables = Json::array();
   for (const Table& table : report.tables) {
     if (table.timing) continue;
@@ -74,6 +75,8 @@ Json report_to_json(const StudyReport& report, const ReportFiles& files, const s
   json["measured"] = report.measured;
   json["cases"] = cases;
   json["fits"] = fits;
+  if (!convergence.empty()) json["grid_convergence"] = convergence;
+  json["gate_kinds"] = Json::object();
   json["gates"] = Json::array();
   json["tables"] = tables;
   json["figures"] = figures;

@@ -44,6 +44,7 @@ struct StudyReport {
   std::vector<StudyCase> cases;
   std::map<std::string, double> measured;  ///< the numbers gates look at, by name
   std::vector<OrderFit> fits;
+  std::vector<GridConvergence> grid_convergence;  ///< limits of what is published, and their uncertainties
   std::vector<Table> tables;
   std::vector<Figure> figures;
   Json timing = Json::object();  ///< wall times

@@ -1,116 +1,168 @@
 #include "studies/harness/run_report.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <functional>
+#include <map>
+#include <numeric>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "core/scene/build.hpp"
-#include "core/scene/build_flow.hpp"
+#include "core/scene/energy_ledger.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
+#include "studies/harness/messages.hpp"
+#include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {
 
-Json components(const Point& point, int dimension) {
-  Json array = Json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) array.push_back(point[i]);
-  return array;
+/// A text that goes on to its sink whenever enough of it is there.
+class Writer {
+ public:
+  explicit Writer(const TextSink& sink) : sink_(sink) { text_.reserve(2 * enough); }
+  ~Writer() = default;
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  Writer& operator<<(std::string_view text) {
+    text_ += text;
+    if (text_.size() > enough) flush();
+    return *this;
+  }
+  /// As short as it can be without losing a digit.
+  Writer& operator<<(double value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    return *this << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
+  }
+  /// A value, indented as what stands at this depth.
+  void pretty(const Json& value, std::size_t depth) {
+    append_pretty(value, depth, text_);
+    *this << "";
+  }
+  void flush() {
+    sink_(text_);
+    text_.clear();
+  }
+
+ private:
+  static constexpr std::size_t enough = 1 << 16;
+
+  const TextSink& sink_;
+  std::string text_;
+};
+
+/// A number of a report: of a type that reads back as one of floating point.
+void write_number(double value, Writer& out) {
+  if (!std::isfinite(value)) {
+    out << "null";
+  } else if (value == std::trunc(value) && std::abs(value) < 1e15) {
+    out << value << ".0";
+  } else {
+    out << value;
+  }
 }
 
-template <class T>
-Json column(const std::vector<T>& rows, const std::function<Json(const T&)>& cell) {
-  Json array = Json::array();
-  for (const T& row : rows) array.push_back(cell(row));
-  return array;
+std::vector<std::string> segments_of(const std::string& path) {
+  std::vector<std::string> segments;
+  std::istringstream parts(path);
+  for (std::string segment; std::getline(parts, segment, '/');) segments.push_back(segment);
+  return segments;
 }
 
-/// The energies by name.
-const std::vector<std::pair<const char*, double (*)(const Energy&)>>& energies() {
-  static const std::vector<std::pair<const char*, double (*)(const Energy&)>> table = {
-      {"kinetic", [](const Energy& e) { return e.kinetic; }},
-      {"axial", [](const Energy& e) { return e.axial; }},
-      {"bending", [](const Energy& e) { return e.bending; }},
-      {"torsion", [](const Energy& e) { return e.torsion; }},
-      {"gravity", [](const Energy& e) { return e.gravity; }},
-      {"dissipated", [](const Energy& e) { return e.dissipated; }},
-      {"total", [](const Energy& e) { return e.total(); }}};
-  return table;
-}
-
-bool moves_supports(const Scene& scene) { return scene.start.motion || scene.end.motion; }
-
-/// What a beam that spins, flows or bears loads adds to its samples.
-Json flow_samples(const Scene& scene, const std::vector<Sample>& rows) {
-  const int d = scene.dimension;
-  const auto of = [&rows](const std::function<Json(const FlowSample&)>& cell) {
-    return column<Sample>(rows, [&cell](const Sample& s) { return cell(*s.flow); });
+void write_column(const SampleQuantity& quantity, const std::vector<Sample>& samples, Writer& out) {
+  const std::size_t count = quantity.columns.size(), dimension = quantity.dimension;
+  std::vector<double> values(count);
+  const auto write_vector = [&](std::size_t first) {
+    for (std::size_t i = 0; i < dimension; ++i) {
+      out << (i == 0 ? "[" : ",");
+      write_number(values[first + i], out);
+    }
+    out << "]";
   };
-  Json json = {{"mass", of([](const FlowSample& s) -> Json { return s.mass; })}};
-  if (scene.spin) {
-    json["end_angles"] = of([](const FlowSample& s) -> Json { return *s.end_angles; });
-    json["spin_momentum"] = of([](const FlowSample& s) -> Json { return s.spin_momentum; });
+  out << "[";
+  for (const Sample& sample : samples) {
+    if (&sample != &samples.front()) out << ",";
+    if (!quantity.values(sample, values.data())) {
+      out << "null";
+    } else if (quantity.shape == SampleShape::number) {
+      write_number(values.front(), out);
+    } else if (quantity.shape == SampleShape::vector) {
+      write_vector(0);
+    } else {
+      for (std::size_t first = 0; first < count; first += dimension) {
+        out << (first == 0 ? "[" : ",");
+        write_vector(first);
+      }
+      out << "]";
+    }
   }
-  if (!scene.loads.empty()) {
-    json["loads"] = of(
-        [d](const FlowSample& s) { return column<Point>(s.loads, [d](const Point& p) { return components(p, d); }); });
-  }
-  if (keeps_ledger(scene)) {
-    const auto entry = [&of](double FlowSample::Ledger::*member) {
-      return of([member](const FlowSample& s) -> Json { return (*s.ledger).*member; });
-    };
-    json["ledger"] = {{"mass", entry(&FlowSample::Ledger::mass)},
-                      {"ends", entry(&FlowSample::Ledger::ends)},
-                      {"loads", entry(&FlowSample::Ledger::loads)},
-                      {"mesh", entry(&FlowSample::Ledger::mesh)}};
-  }
-  return json;
+  out << "]";
 }
 
-Json samples(const Scene& scene, const std::vector<Sample>& rows) {
-  const int d = scene.dimension;
-  const auto of = [&rows](const std::function<Json(const Sample&)>& cell) { return column<Sample>(rows, cell); };
-  Json energy;
-  for (const auto& [name, value] : energies()) {
-    energy[name] = of([value = value](const Sample& s) -> Json { return value(s.energy); });
+/// The samples as columns: an object of arrays, and of parts whose path goes deeper.
+void write_samples(const std::vector<SampleQuantity>& quantities, const std::vector<Sample>& samples, Writer& out) {
+  constexpr std::size_t depth = 1;  // of /samples
+  std::vector<std::string> open;
+  bool first = true;  // of the innermost object that is open
+  const auto line = [&](std::size_t level) {
+    out << (first ? "\n" : ",\n") << std::string(2 * (depth + 1 + level), ' ');
+    first = false;
+  };
+  const auto close_to = [&](std::size_t level) {
+    for (; open.size() > level; open.pop_back()) {
+      out << (first ? "}" : "\n" + std::string(2 * (depth + open.size()), ' ') + "}");
+      first = false;
+    }
+  };
+  out << "{";
+  for (const SampleQuantity& quantity : quantities) {
+    std::vector<std::string> path = segments_of(quantity.path);
+    const std::string name = path.back();
+    if (!quantity.columns.empty()) path.pop_back();
+    close_to(static_cast<std::size_t>(std::ranges::mismatch(open, path).in1 - open.begin()));
+    while (open.size() < path.size()) {
+      line(open.size());
+      out << "\"" << path[open.size()] << "\": {";
+      open.push_back(path[open.size()]);
+      first = true;
+    }
+    if (quantity.columns.empty()) continue;
+    line(open.size());
+    out << "\"" << name << "\": ";
+    write_column(quantity, samples, out);
   }
-  if (moves_supports(scene)) energy["supplied"] = of([](const Sample& s) -> Json { return s.energy.supplied; });
-  energy["discrete_total"] = of([](const Sample& s) -> Json { return s.discrete_total; });
-  Json reactions = Json::object();
-  const std::array<std::pair<const char*, SupportType>, 2> ends{{{"start", scene.start.type}, {"end", scene.end.type}}};
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (flows(scene) || ends[i].second == SupportType::free) continue;
-    reactions[ends[i].first] = {
-        {"position", of([d, i](const Sample& s) { return components(s.reactions[i].position, d); })},
-        {"slope", of([d, i](const Sample& s) { return components(s.reactions[i].slope, d); })}};
-  }
-  Json json = {
-      {"t", of([](const Sample& s) -> Json { return s.t; })},
-      {"joint_position", of([](const Sample& s) { return s.joint_position ? Json(*s.joint_position) : Json(); })},
-      {"mass_position",
-       of([d](const Sample& s) { return s.mass_position ? components(*s.mass_position, d) : Json(); })},
-      {"end", of([d](const Sample& s) { return components(s.end, d); })},
-      {"beam_length", of([](const Sample& s) -> Json { return s.beam_length; })},
-      {"beam_length_rate", of([](const Sample& s) -> Json { return s.beam_length_rate; })},
-      {"energy", energy},
-      {"momentum", of([d](const Sample& s) { return components(s.momentum, d); })},
-      {"reactions", reactions}};
-  if (flows(scene)) json["flow"] = flow_samples(scene, rows);
-  return json;
+  close_to(0);
+  out << "\n" << std::string(2 * depth, ' ') << "}";
+}
+
+Json components(const Point& point, int dimension) {
+  return Json(std::vector<double>(point.begin(), point.begin() + dimension));
 }
 
 Json configuration(const Configuration& shape, int d) {
   const auto points = [d](const std::vector<Point>& list) {
-    return column<Point>(list, [d](const Point& p) { return components(p, d); });
+    Json array = Json::array();
+    for (const Point& point : list) array.push_back(components(point, d));
+    return array;
   };
   Json json = {
       {"t", shape.t}, {"x", shape.x}, {"r", points(shape.r)}, {"r_x", points(shape.r_x)}, {"weights", shape.weights}};
   if (!shape.angles.empty()) json["angles"] = shape.angles;
-  if (shape.kink) json["kink"] = {{"node", shape.kink->node}, {"r_x", components(shape.kink->r_x, d)}};
+  json["x_rate"] = shape.rates.x;
+  json["v"] = points(shape.rates.v);
+  json["r_x_rate"] = points(shape.rates.r_x);
+  if (!shape.angles.empty()) json["spins"] = shape.rates.spins;
+  if (shape.kink) {
+    json["kink"] = {{"node", shape.kink->node},
+                    {"r_x", components(shape.kink->r_x, d)},
+                    {"r_x_rate", components(shape.kink->r_x_rate, d)}};
+  }
   return json;
 }
 
@@ -126,113 +178,209 @@ Json event(const Event& e) {
             {"bending", e.energy_jump.bending},
             {"gravity", e.energy_jump.gravity},
             {"discrete_total", e.discrete_jump}}},
-          {"momentum_jumps", e.momentum_jump}};
+          {"momentum_jumps", e.momentum_jump},
+          {"energy_restored", e.restored}};
+}
+
+Json ledger_json(const EnergyLedger& ledger) {
+  return {{"change", ledger.change},           {"supplied", ledger.supplied},
+          {"dissipated", ledger.dissipated},   {"at_events", ledger.at_events},
+          {"event_jumps", ledger.event_jumps}, {"at_contacts", ledger.at_contacts},
+          {"unexplained", ledger.unexplained}, {"largest_unexplained", ledger.largest_unexplained}};
+}
+
+Json warnings_json(const std::vector<Warning>& warnings) {
+  Json array = Json::array();
+  for (const Warning& warning : warnings) {
+    array.push_back({{"kind", to_string(warning.kind)}, {"message", warning.message}, {"remedy", warning.remedy}});
+  }
+  return array;
+}
+
+Json solver(const RunResult& result) {
+  const SolverCounters& s = result.solver;
+  return {{"steps", s.steps},
+          {"rejected", s.rejected},
+          {"rhs_evaluations", s.rhs_evaluations},
+          {"smallest_step", s.smallest_step},
+          {"newton_iterations", s.newton.iterations},
+          {"tangents", s.newton.tangents},
+          {"longest_newton_iteration", s.newton.longest},
+          {"constraint_residual",
+           {{"position", s.newton.constraints.position}, {"velocity", s.newton.constraints.velocity}}},
+          {"slope_residual", {{"position", result.slopes.position}, {"velocity", result.slopes.velocity}}},
+          {"largest_kinetic_energy", result.max_kinetic},
+          {"largest_energy_drift", result.max_energy_drift}};
+}
+
+std::string short_number(double value, int digits = 6) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+std::string point_text(const Point& point, int dimension) {
+  std::string text;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
+    text += (i > 0 ? ", " : "(") + short_number(point[i], 8);
+  }
+  return text + ") m";
+}
+
+std::string beam_text(const Scene& scene) {
+  std::string text = std::to_string(scene.beam.elements) + " elements " + std::string(to_string(scene.beam.element)) +
+                     ", " + std::string(to_string(scene.formulation)) + ", " + short_number(beam_length(scene)) + " m";
+  if (scene.sliding_mass) text += "; " + short_number(scene.sliding_mass->mass) + " kg slides on it";
+  if (scene.spin) text += "; spins";
+  if (scene.flow) text += "; flows";
+  if (!scene.loads.empty()) text += "; bears " + std::to_string(scene.loads.size()) + " loads";
+  return text;
+}
+
+std::string integrator_text(const IntegratorSpec& integrator) {
+  const std::string type(to_string(integrator.type));
+  const bool fixed = has_fixed_step(integrator.type) && !integrator.adaptive;
+  return type + (fixed ? ", steps of " + number_text(integrator.step) + " s"
+                       : ", rtol " + number_text(integrator.rtol) + ", atol " + number_text(integrator.atol));
+}
+
+std::string events_text(const std::vector<Event>& events) {
+  std::map<std::string_view, int> counts;
+  for (const Event& event : events) ++counts[to_string(event.type)];
+  std::string text;
+  for (const auto& [type, count] : counts)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(type);
+  return text.empty() ? "none" : text;
+}
+
+/// How many steps there were and what made them as short as they are.
+std::string steps_text(const Scene& scene, const RunResult& result) {
+  const SolverCounters& s = result.solver;
+  std::string text = std::to_string(s.steps) + ", " + std::to_string(s.rejected) + " rejected, the shortest " +
+                     short_number(s.smallest_step, 3) + " s; limited by ";
+  if (!has_fixed_step(scene.integrator.type)) return text + "the error tolerance";
+  if (scene.integrator.type == IntegratorType::generalized_alpha && scene.integrator.adaptive) {
+    return text + "the error tolerance and the step given";
+  }
+  return text + "the step given" + (s.rejected > 0 ? " and, where rejected, by Newton's iteration" : "");
+}
+
+std::string ledger_text(const EnergyLedger& ledger) {
+  const auto joules = [](double energy) { return short_number(energy, 4) + " J"; };
+  if (std::isnan(ledger.unexplained)) {
+    return "changed by " + joules(ledger.change) + "; implicit methods keep no ledger of what crosses the ends";
+  }
+  return "changed by " + joules(ledger.change) + " = supplied " + joules(ledger.supplied) + ", at events " +
+         joules(ledger.at_events) + (ledger.at_contacts != 0 ? ", at contacts " + joules(ledger.at_contacts) : "") +
+         ", unexplained " + joules(ledger.unexplained) + " (at most " + joules(ledger.largest_unexplained) +
+         "); dissipated " + joules(ledger.dissipated);
 }
 
 }  // namespace
 
-Json run_report(const Scene& scene, const RunResult& result) {
+void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink) {
   const int d = scene.dimension;
-  Json report;
-  report["schema_version"] = "vlbeam.run/1";
-  report["status"] = to_string(result.status);
+  Writer out(sink);
+  bool first = true;
+  const auto key = [&](const char* name) {
+    out << (first ? "{\n  \"" : ",\n  \"") << name << "\": ";
+    first = false;
+  };
+  const auto value = [&](const char* name, const Json& json) {
+    key(name);
+    out.pretty(json, 1);
+  };
+  const auto list = [&](const char* name, const auto& entries, const auto& to_json) {
+    key(name);
+    out << "[";
+    for (const auto& entry : entries) {
+      out << (&entry == &entries.front() ? "\n    " : ",\n    ");
+      out.pretty(to_json(entry), 2);
+    }
+    out << (entries.empty() ? "]" : "\n  ]");
+  };
+  value("schema_version", "vlbeam.run/1");
+  value("status", to_string(result.status));
   if (result.status == RunStatus::failed) {
-    report["failure"] = {{"message", result.failure}, {"t", result.failure_time}};
+    value("failure", {{"message", result.failure}, {"t", result.failure_time}});
   }
-  report["scene"] = scene_to_json(scene);
-  report["samples"] = samples(scene, result.samples);
-  report["configurations"] =
-      column<Configuration>(result.configurations, [d](const Configuration& c) { return configuration(c, d); });
-  report["events"] = column<Event>(result.events, event);
-  report["solver"] = {{"steps", result.solver.steps},
-                      {"rejected", result.solver.rejected},
-                      {"rhs_evaluations", result.solver.rhs_evaluations},
-                      {"smallest_step", result.solver.smallest_step},
-                      {"newton_iterations", result.solver.newton.iterations},
-                      {"tangents", result.solver.newton.tangents},
-                      {"longest_newton_iteration", result.solver.newton.longest},
-                      {"constraint_residual",
-                       {{"position", result.solver.newton.constraints.position},
-                        {"velocity", result.solver.newton.constraints.velocity}}},
-                      {"slope_residual", {{"position", result.slopes.position}, {"velocity", result.slopes.velocity}}},
-                      {"largest_kinetic_energy", result.max_kinetic},
-                      {"largest_energy_drift", result.max_energy_drift}};
-  return report;
+  value("warnings", warnings_json(result.warnings));
+  value("scene", scene_to_json(scene));
+  key("samples");
+  write_samples(sample_quantities(scene), result.samples, out);
+  list("configurations", result.configurations, [d](const Configuration& c) { return configuration(c, d); });
+  list("events", result.events, event);
+  value("energy_ledger", ledger_json(energy_ledger(result)));
+  value("solver", solver(result));
+  for (const auto& item : more.items()) value(item.key().c_str(), item.value());
+  out << "\n}\n";
+  out.flush();
 }
 
 Json run_timing(const RunTiming& timing) {
   return {{"motion", timing.motion}, {"length_control", timing.length_control}};
 }
 
-std::string samples_csv(const Scene& scene, const RunResult& result) {
-  static constexpr std::array axes{"x", "y", "z"};
-  const auto d = static_cast<std::size_t>(scene.dimension);
-  std::string text = "t,joint_position";
-  for (const char* vector : {"mass", "end"}) {
-    for (std::size_t i = 0; i < d; ++i) text += std::string(",") + vector + "_" + axes[i];
-  }
-  text += ",beam_length,beam_length_rate";
-  for (const auto& [name, value] : energies()) text += std::string(",energy_") + name;
-  for (std::size_t i = 0; i < d; ++i) text += std::string(",momentum_") + axes[i];
-  if (moves_supports(scene)) text += ",energy_supplied";
-  if (flows(scene)) text += ",mass";
-  if (scene.spin) text += ",angle_start,angle_end";
-  const std::size_t loads = flows(scene) && !result.samples.empty() ? result.samples.front().flow->loads.size() : 0;
-  for (std::size_t k = 0; k < loads; ++k) {
-    for (std::size_t i = 0; i < d; ++i) text += ",load" + std::to_string(k) + "_" + axes[i];
-  }
-  text += '\n';
-
-  for (const Sample& s : result.samples) {
-    const auto cell = [&text](double value) { text += "," + (std::isfinite(value) ? number_text(value) : ""); };
-    text += number_text(s.t) + ",";
-    if (s.joint_position) text += number_text(*s.joint_position);
-    for (std::size_t i = 0; i < d; ++i) text += s.mass_position ? "," + number_text((*s.mass_position)[i]) : ",";
-    for (std::size_t i = 0; i < d; ++i) cell(s.end[i]);
-    cell(s.beam_length);
-    cell(s.beam_length_rate);
-    for (const auto& [name, value] : energies()) cell(value(s.energy));
-    for (std::size_t i = 0; i < d; ++i) cell(s.momentum[i]);
-    if (moves_supports(scene)) cell(s.energy.supplied);
-    if (s.flow) {
-      cell(s.flow->mass);
-      if (s.flow->end_angles) std::ranges::for_each(*s.flow->end_angles, cell);
-      for (const Point& load : s.flow->loads) std::for_each_n(load.begin(), d, cell);
+void write_samples_csv(const Scene& scene, const RunResult& result, const TextSink& sink) {
+  const std::vector<SampleQuantity> quantities = sample_quantities(scene);
+  Writer out(sink);
+  bool first = true;
+  std::size_t most = 0;
+  for (const SampleQuantity& quantity : quantities) {
+    most = std::max(most, quantity.columns.size());
+    for (const std::string& column : quantity.columns) {
+      out << (first ? "" : ",") << column << " [" << quantity.unit << "]";
+      first = false;
     }
-    text += '\n';
   }
-  return text;
+  out << "\n";
+  std::vector<double> values(most);
+  for (const Sample& sample : result.samples) {
+    first = true;
+    for (const SampleQuantity& quantity : quantities) {
+      const bool there = !quantity.columns.empty() && quantity.values(sample, values.data());
+      for (std::size_t i = 0; i < quantity.columns.size(); ++i) {
+        if (!first) out << ",";
+        first = false;
+        if (there && std::isfinite(values[i])) out << values[i];
+      }
+    }
+    out << "\n";
+  }
+  out.flush();
 }
 
 std::string run_summary(const Scene& scene, const RunResult& result) {
   std::ostringstream text;
-  text << (scene.title.empty() ? "Untitled scene" : scene.title) << '\n'
-       << "  status          " << to_string(result.status);
-  if (result.status == RunStatus::failed) text << " at t = " << result.failure_time << " s: " << result.failure;
-  text << '\n'
-       << "  beam            " << scene.beam.elements << " elements " << to_string(scene.beam.element) << ", "
-       << to_string(scene.formulation) << ", " << beam_length(scene) << " m\n";
+  text.precision(8);
+  const auto line = [&text](const char* name, const std::string& value) {
+    text << "  " << name << std::string(16 - std::string_view(name).size(), ' ') << value << '\n';
+  };
+  text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
+  line("status", std::string(to_string(result.status)) +
+                     (result.status == RunStatus::failed ? " at t = " + short_number(result.failure_time) + " s" : ""));
+  line("beam", beam_text(scene));
+  line("integrator", integrator_text(scene.integrator));
   if (!result.samples.empty()) {
     const Sample& last = result.samples.back();
-    const auto point = [&](const Point& p) {
-      std::ostringstream out;
-      out.precision(8);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(scene.dimension); ++i) out << (i > 0 ? ", " : "(") << p[i];
-      return out.str() + ")";
-    };
-    text.precision(8);
-    text << "  time reached    " << last.t << " s\n"
-         << "  end of beam     " << point(last.end) << " m\n";
-    if (last.joint_position) text << "  joint position  " << *last.joint_position << " m\n";
-    if (last.mass_position) text << "  mass position   " << point(*last.mass_position) << " m\n";
-    text << "  total energy    " << last.energy.total() << " J, at the start " << result.samples.front().energy.total()
-         << " J\n";
+    line("time reached", short_number(last.t, 8) + " s of " + short_number(scene.duration, 8) + " s");
+    line("end of beam", point_text(last.end, scene.dimension));
+    if (last.joint_position) line("joint position", short_number(*last.joint_position, 8) + " m");
+    if (last.mass_position) line("mass position", point_text(*last.mass_position, scene.dimension));
+    line("total energy", short_number(last.energy.total(), 8) + " J, at the start " +
+                             short_number(result.samples.front().energy.total(), 8) + " J, kinetic up to " +
+                             short_number(result.max_kinetic, 4) + " J");
+    line("energy ledger", ledger_text(energy_ledger(result)));
   }
-  text << "  events          " << result.events.size() << '\n'
-       << "  solver          " << result.solver.steps << " steps, " << result.solver.rejected << " rejected, "
-       << result.solver.rhs_evaluations << " right-hand sides\n"
-       << "  wall time       " << result.timing.motion << " s motion, " << result.timing.length_control
-       << " s length control\n";
+  line("events", events_text(result.events));
+  line("steps", steps_text(scene, result));
+  line("wall time", short_number(result.timing.motion, 3) + " s motion, " +
+                        short_number(result.timing.length_control, 3) + " s length control");
+  for (const Warning& warning : result.warnings) {
+    line("warning", warning.message);
+    line("", "try: " + warning.remedy);
+  }
   return text.str();
 }
 

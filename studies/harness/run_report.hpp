@@ -3,21 +3,23 @@
 #include <string>
 
 #include "core/scene/result.hpp"
+#include "studies/harness/files.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {
 
-/// The deterministic part of a run's report: status, scene, samples as columns, configurations, events, solver.
-/// Positions have as many components as the scene has dimensions.
-Json run_report(const Scene& scene, const RunResult& result);
+/// Writes the report of a run (`vlbeam schema run`), piece by piece: of many samples a text is far larger than they
+/// are. Positions have as many components as the scene has dimensions. `more` holds what is not the same whenever it is
+/// run, and stands at the end.
+void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink);
 
 /// Wall times of a run [s].
 Json run_timing(const RunTiming& timing);
 
-/// The samples as a table with one line of column names; empty cells where a quantity is not there.
-std::string samples_csv(const Scene& scene, const RunResult& result);
+/// Writes the samples as a table with one line of column names and units; empty cells where a quantity is not there.
+void write_samples_csv(const Scene& scene, const RunResult& result, const TextSink& sink);
 
-/// A few lines for a reader at the terminal.
+/// What was run and how it went, for a reader at the terminal.
 std::string run_summary(const Scene& scene, const RunResult& result);
 
 }  // namespace vlbeam

@@ -1,6 +1,8 @@
 #include "studies/harness/scene_json.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,7 +11,9 @@
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
+#include "studies/harness/files.hpp"
 
 namespace vlbeam {
 namespace {
@@ -48,6 +52,7 @@ class KeyTree {
   }
   template <class T>
   void list(const Option&, const std::vector<T>&) {}
+  void section(const Option&) {}
 
   const Json& tree() const { return tree_; }
 
@@ -80,17 +85,6 @@ std::string unknown_key_hint(const std::string& key, const Json& node, const std
   return "the nearest known key is \"" + *nearest + "\" (known here: " + quoted(known) + ")";
 }
 
-std::string escape(std::string key) {
-  const auto replace_all = [&key](char from, std::string_view to) {
-    for (std::size_t at = key.find(from); at != std::string::npos; at = key.find(from, at + to.size())) {
-      key.replace(at, 1, to);
-    }
-  };
-  replace_all('~', "~0");
-  replace_all('/', "~1");
-  return key;
-}
-
 /// A scene file whose lists are turned into objects with keys "at=start", so that the table's pointers reach
 /// everything. Refuses keys the table does not know. Remembers where things stood in the file, for error messages.
 class Canonical {
@@ -116,12 +110,14 @@ class Canonical {
   /// `here` is where we are by the table's pointers, `shown` by the file's.
   Json object(const Json& file, const Json& node, const std::string& here, const std::string& shown,
               const std::string& discriminator) {
-    if (!file.is_object()) throw InvalidInput(shown, excerpt(file), "it must be an object");
+    if (!file.is_object()) {
+      throw InvalidInput(shown.empty() ? "the top level" : shown, excerpt(file), "it must be an object");
+    }
     Json result = Json::object();
     for (const auto& item : file.items()) {
       const std::string& key = item.key();
-      const std::string at = here + "/" + escape(key);
-      const std::string at_shown = shown + "/" + escape(key);
+      const std::string at = here + "/" + escaped(key);
+      const std::string at_shown = shown + "/" + escaped(key);
       if (key == discriminator && !key.empty()) continue;
       if (!node.contains(key)) {
         throw InvalidInput(at_shown, "an unknown key", unknown_key_hint(key, node, discriminator));
@@ -211,6 +207,12 @@ class Reader {
     entries.assign(file != nullptr ? file->size() : 0, T{});
   }
 
+  void section(const Option& option) const {
+    if (!option.required || file_.find(option.pointer) != nullptr) return;
+    throw InvalidInput(std::string(option.pointer), "a missing key",
+                       "every scene needs this object: " + std::string(option.description));
+  }
+
  private:
   template <class T>
   static bool read(const Json& value, const Option& option, T& member) {
@@ -225,9 +227,11 @@ class Reader {
       if (value.is_string()) member = value.get<std::string>();
       return value.is_string();
     } else if constexpr (std::same_as<T, int>) {
-      // Out of int's range the value could wrap into the allowed one.
-      if (!value.is_number_integer() || !option.range.contains(value.get<double>())) return false;
-      member = value.get<int>();
+      if (!value.is_number()) return false;
+      const auto number = value.get<double>();  // 1e1 is a whole number, too
+      if (number != std::trunc(number) || std::abs(number) > std::numeric_limits<int>::max()) return false;
+      if (!option.range.contains(number)) return false;
+      member = static_cast<int>(number);
       return true;
     } else if constexpr (std::same_as<T, std::vector<double>>) {
       if (!value.is_array() || !all_numbers(value)) return false;
@@ -272,6 +276,7 @@ class Writer {
   }
   template <class T>
   void list(const Option&, const std::vector<T>&) {}
+  void section(const Option&) {}
 
   Json json() const { return with_lists(json_); }
 
@@ -334,9 +339,16 @@ Scene scene_with_every_part() {
 
 Scene scene_from_json(const Json& json) {
   Scene scene;
-  const Reader reader(json);
+  const bool automatic = json.is_object() && json.contains("integrator") && json.at("integrator") == "auto";
+  Json file = json;
+  if (automatic) file.erase("integrator");
+  const Reader reader(file);
   visit_options(reader, scene);
   try {
+    if (automatic) {
+      validate(scene);
+      scene.integrator = automatic_integrator(scene);
+    }
     validate(scene);
   } catch (const InvalidInput& error) {
     throw InvalidInput(reader.in_file(error.field), error.value, error.allowed);
@@ -346,12 +358,18 @@ Scene scene_from_json(const Json& json) {
 
 Scene parse_scene(std::string_view text) { return scene_from_json(parse_json(text)); }
 
+Scene read_scene(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  return naming_file(file, [&] { return parse_scene(text); });
+}
+
 Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
   filled.beam.quadrature_points = quadrature_points(scene);
   if (auto& mass = filled.sliding_mass; mass && !mass->separation_distance) {
     mass->separation_distance = separation_distance(scene);
   }
+  filled.length_control.end_merge = end_merge(scene);
   if (filled.spin) filled.spin->rate = initial_spin(scene);
   if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;

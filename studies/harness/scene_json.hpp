@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 #include "core/scene/scene.hpp"
@@ -11,6 +12,8 @@ namespace vlbeam {
 /// an unknown key comes with the nearest known one.
 Scene scene_from_json(const Json& json);
 Scene parse_scene(std::string_view text);
+/// Of a file, which its errors name; "-" is standard input.
+Scene read_scene(const std::filesystem::path& file);
 
 /// The scene as understood, every default filled in. Reads back as the same scene.
 Json scene_to_json(const Scene& scene);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scene/options.hpp"
+#include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
@@ -80,6 +81,13 @@ class SceneSchemaBuilder {
         {"type", "array"}, {"items", empty_object()}, {"description", option.description}};
   }
 
+  void section(const Option& option) {
+    const auto path = segments(option.pointer);
+    Json& description = object(path, path.size())["description"];
+    if (description.is_null()) description = option.description;
+    if (option.required) object(path, path.size() - 1)["required"].push_back(path.back());
+  }
+
   Json schema() const { return root_; }
 
  private:
@@ -150,7 +158,9 @@ class SceneSchemaBuilder {
 
   static Json& entry_of_list(Json& list, const std::string& key, const std::string& value) {
     Json& items = list["items"];
-    Json& choices = items["properties"][key]["enum"];
+    Json& entry = items["properties"][key];
+    entry["description"] = "which of them this is";
+    Json& choices = entry["enum"];
     if (std::find(choices.begin(), choices.end(), value) == choices.end()) choices.push_back(value);
     if (!items.contains("required")) items["required"] = {key};
     return items;
@@ -208,8 +218,6 @@ const Json number_or_null = {{"type", {"number", "null"}}};
 const Json text = {{"type", "string"}};
 const Json whole = {{"type", "integer"}, {"minimum", 0}};
 const Json point = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}};
-const Json point_or_null = {
-    {"type", {"array", "null"}}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}};
 const Json any_object = {{"type", "object"}};
 
 Json choice(const std::vector<std::string>& values) { return {{"enum", values}}; }
@@ -221,110 +229,228 @@ Json choice_of() {
   return choice(values);
 }
 
+/// What the parts of a run's samples are.
+std::string part_description(const std::string& part) {
+  static const std::map<std::string, std::string> parts = {
+      {"energy", "energies of beam and mass"},
+      {"contact", "between the sliding mass and the beam, by the accelerations that belong to the state"},
+      {"axial_strain", "over the whole beam, at 25 points an element and its ends"},
+      {"axial_force", "over the whole beam, along the axis"},
+      {"curvature", "over the whole beam"},
+      {"reactions", "of the supports, by the accelerations that belong to the state"},
+      {"flow", "what else there is to see of a beam that spins, flows or bears loads"},
+      {"ledger", "what has crossed the boundary; the change of energy is the sum of ends, loads and mesh"}};
+  const auto found = parts.find(part);
+  return found == parts.end() ? "of the support at this node" : found->second;
+}
+
+/// With a description, and the unit in brackets where there is one.
+Json described(const Json& schema, const std::string& description, const std::string& unit = "") {
+  Json result = schema;
+  result["description"] = description + (unit.empty() || unit == "-" ? "" : " [" + unit + "]");
+  return result;
+}
+
+/// A scene with everything that adds to the samples of a run.
+Scene scene_with_every_quantity() {
+  Scene scene = scene_with_every_part();
+  scene.gravity_ramp = 1;
+  scene.start.type = scene.end.type = SupportType::clamp;
+  scene.flow->nodes.front() = {.node = 1, .x = {}, .support = SupportType::slide};
+  return scene;
+}
+
+/// The samples of a run as columns, out of the table of quantities: those that every scene has are required.
+Json samples_schema() {
+  const auto needed = sample_quantities(Scene{});
+  const auto is_needed = [&needed](const std::string& path) {
+    return std::ranges::any_of(needed, [&path](const SampleQuantity& quantity) {
+      return quantity.path == path || quantity.path.starts_with(path + "/");
+    });
+  };
+  Json root = record(Json::object());
+  for (const SampleQuantity& quantity : sample_quantities(scene_with_every_quantity())) {
+    Json* object = &root;
+    std::string path;
+    const auto parts = segments("/" + quantity.path);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      path += (path.empty() ? "" : "/") + parts[i];
+      const bool numbered = parts[i].starts_with("node_");
+      Json& entry = (*object)[numbered ? "patternProperties" : "properties"][numbered ? "^node_[0-9]+$" : parts[i]];
+      if (is_needed(path)) {
+        Json& required = (*object)["required"];
+        if (std::find(required.begin(), required.end(), parts[i]) == required.end()) required.push_back(parts[i]);
+      }
+      const bool leaf = i + 1 == parts.size() && !quantity.columns.empty();
+      if (!leaf) {
+        if (entry.is_null()) entry = described(record(Json::object()), part_description(parts[i]));
+        object = &entry;
+        continue;
+      }
+      Json cell = number_or_null;
+      if (quantity.shape != SampleShape::number) cell = {{"type", {"array", "null"}}, {"items", number_or_null}};
+      if (quantity.shape == SampleShape::vectors) cell = array_of(cell);
+      entry = described(array_of(cell), quantity.description + "; one entry a sample", quantity.unit);
+    }
+  }
+  return described(root, "the observed quantities, each a column with one entry a sample");
+}
+
 }  // namespace
 
 Json scene_schema() {
   SceneSchemaBuilder builder;
   const Scene scene = scene_with_every_part();
   visit_options(builder, scene);
-  return with_head("vlbeam scene", builder.schema());
+  Json schema = builder.schema();
+  Json& integrator = schema["properties"]["integrator"];
+  const Json automatic = {
+      {"const", "auto"},
+      {"description", "generalized-alpha where it replaces at least 20 steps of dopri5, else dopri5"}};
+  integrator = {{"description", integrator.at("description")}, {"anyOf", {automatic, integrator}}};
+  return with_head("vlbeam scene", schema);
 }
 
 Json run_schema() {
-  const Json numbers = array_of(number_or_null);
-  const Json energy = record({{"kinetic", numbers},
-                              {"axial", numbers},
-                              {"bending", numbers},
-                              {"torsion", numbers},
-                              {"gravity", numbers},
-                              {"dissipated", numbers},
-                              {"supplied", numbers},
-                              {"total", numbers},
-                              {"discrete_total", numbers}},
-                             {"supplied"});
-  const Json reaction = record({{"position", array_of(point)}, {"slope", array_of(point)}});
-  const Json flow =
-      record({{"mass", numbers},
-              {"end_angles", array_of(array_of(number))},
-              {"spin_momentum", numbers},
-              {"loads", array_of(array_of(point))},
-              {"ledger", record({{"mass", numbers}, {"ends", numbers}, {"loads", numbers}, {"mesh", numbers}})}},
-             {"end_angles", "spin_momentum", "loads", "ledger"});
-  const Json samples = record({{"t", array_of(number)},
-                               {"joint_position", numbers},
-                               {"mass_position", array_of(point_or_null)},
-                               {"end", array_of(point)},
-                               {"beam_length", numbers},
-                               {"beam_length_rate", numbers},
-                               {"energy", energy},
-                               {"momentum", array_of(point)},
-                               {"reactions", record({{"start", reaction}, {"end", reaction}}, {"start", "end"})},
-                               {"flow", flow}},
-                              {"flow"});
-  const Json configuration = record({{"t", number},
-                                     {"x", array_of(number)},
-                                     {"r", array_of(point)},
-                                     {"r_x", array_of(point)},
-                                     {"weights", array_of(array_of(number))},
-                                     {"angles", array_of(number)},
-                                     {"kink", record({{"node", whole}, {"r_x", point}})}},
-                                    {"kink", "angles"});
-  const Json event = record({{"t", number},
-                             {"type", choice_of<EventType>()},
-                             {"joint_position", number},
-                             {"weights", array_of(number)},
-                             {"unit_fallback", {{"type", "boolean"}}},
-                             {"energy_jumps", record({{"kinetic", number_or_null},
-                                                      {"axial", number_or_null},
-                                                      {"bending", number_or_null},
-                                                      {"gravity", number_or_null},
-                                                      {"discrete_total", number_or_null}})},
-                             {"momentum_jumps", array_of(number)}});
-  const Json solver = record({{"steps", whole},
-                              {"rejected", whole},
-                              {"rhs_evaluations", whole},
-                              {"smallest_step", number_or_null},
-                              {"newton_iterations", whole},
-                              {"tangents", whole},
-                              {"longest_newton_iteration", array_of(number)},
-                              {"constraint_residual", record({{"position", number}, {"velocity", number}})},
-                              {"slope_residual", record({{"position", number}, {"velocity", number}})},
-                              {"largest_kinetic_energy", number_or_null},
-                              {"largest_energy_drift", number_or_null}});
+  const Json flag = {{"type", "boolean"}};
+  const Json kink = record({{"node", described(whole, "number of the node, from 0", "-")},
+                            {"r_x", described(point, "slope behind it", "-")},
+                            {"r_x_rate", described(point, "its rate", "1/s")}});
+  const Json configuration =
+      record({{"t", described(number, "time", "s")},
+              {"x", described(array_of(number), "material coordinates of the nodes", "m")},
+              {"r", described(array_of(point), "positions of the nodes", "m")},
+              {"r_x", described(array_of(point), "slopes at the nodes; at a kink that before it", "-")},
+              {"weights", described(array_of(array_of(number)), "the four rational weights of each element", "-")},
+              {"angles", described(array_of(number), "of the section about the axis, at the nodes; with spin", "rad")},
+              {"x_rate", described(array_of(number), "rates of the material coordinates", "m/s")},
+              {"v", described(array_of(point),
+                              "velocities of the material points at the nodes; a node itself moves with "
+                              "v + r_x x_rate",
+                              "m/s")},
+              {"r_x_rate", described(array_of(point), "rates of the slopes at the nodes", "1/s")},
+              {"spins", described(array_of(number), "rates of the angles; with spin", "rad/s")},
+              {"kink", described(kink, "where the beam may be kinked, at the sliding mass")}},
+             {"kink", "angles", "spins"});
+  const Json jumps = record(
+      {{"kinetic", described(number_or_null, "of kinetic energy", "J")},
+       {"axial", described(number_or_null, "of the strain energy of stretching", "J")},
+       {"bending", described(number_or_null, "of the strain energy of bending", "J")},
+       {"gravity", described(number_or_null, "of the potential energy", "J")},
+       {"discrete_total", described(number_or_null, "of the total, by the model's own quadrature points", "J")}});
+  const Json event =
+      record({{"t", described(number, "time", "s")},
+              {"type", described(choice_of<EventType>(), "what happened to the mesh")},
+              {"joint_position", described(number, "material coordinate of the sliding mass", "m")},
+              {"weights", described(array_of(number), "k_0, k_1, k_2 of the merged element, over the last", "-")},
+              {"unit_fallback", described(flag, "whether the fit found a weight <= 0 and unit weights were taken")},
+              {"energy_jumps", described(jumps, "after minus before, by a 25-point rule")},
+              {"momentum_jumps", described(array_of(number),
+                                           "linear [kg m/s], then angular about the origin [kg m^2/s]; none "
+                                           "where the mass leaves")},
+              {"energy_restored",
+               described(flag, "false where velocities are conservative and yet the total energy changed")}});
+  const auto residual = [](const std::string& of, const char* position, const char* velocity) {
+    return described(record({{"position", described(number, "largest", position)},
+                             {"velocity", described(number, "largest of its rate", velocity)}}),
+                     of);
+  };
+  const Json solver = record(
+      {{"steps", described(whole, "accepted steps", "-")},
+       {"rejected", described(whole, "steps that were repeated, shorter", "-")},
+       {"rhs_evaluations",
+        described(whole, "evaluations of the equations of motion, as accelerations or residual", "-")},
+       {"smallest_step", described(number_or_null, "of the accepted ones that no event cut short", "s")},
+       {"newton_iterations", described(whole, "of implicit methods", "-")},
+       {"tangents", described(whole, "factored by implicit methods", "-")},
+       {"longest_newton_iteration",
+        described(array_of(number), "corrections, one after the other, of the iteration that took most of them", "-")},
+       {"constraint_residual", residual("how far samples were from their constraints, with multipliers", "m", "m/s")},
+       {"slope_residual", residual("how far the slopes at a kinked mass were from what ties them", "-", "1/s")},
+       {"largest_kinetic_energy", described(number_or_null, "of all samples", "J")},
+       {"largest_energy_drift",
+        described(
+            number_or_null,
+            "of all samples: change of the total energy by the model's own points, less what is supplied and what "
+            "changes at events; null where the run keeps no ledger",
+            "J")}});
+  const Json ledger = record(
+      {{"change", described(number_or_null, "of the total energy, what is dissipated included", "J")},
+       {"supplied", described(number_or_null, "by moving supports, growing gravity, loads, and through the ends", "J")},
+       {"dissipated", described(number_or_null, "by damping and friction", "J")},
+       {"at_events", described(number_or_null, "sum of the jumps at length-control events", "J")},
+       {"event_jumps", described(number_or_null, "sum of their magnitudes", "J")},
+       {"at_contacts", described(number_or_null, "by impacts of the mass on supports", "J")},
+       {"unexplained",
+        described(number_or_null, "change - supplied - at_events - at_contacts, at the last sample", "J")},
+       {"largest_unexplained", described(number_or_null, "the same, largest magnitude of all samples", "J")}});
+  const Json warning = record({{"kind", described(choice_of<WarningKind>(), "what it is about")},
+                               {"message", described(text, "what has happened, with numbers")},
+                               {"remedy", described(text, "what to try")}});
   Json scene = scene_schema();
   scene.erase("$schema");
-  return with_head("vlbeam run report", record({{"schema_version", {{"const", "vlbeam.run/1"}}},
-                                                {"status", choice_of<RunStatus>()},
-                                                {"failure", record({{"message", text}, {"t", number}})},
-                                                {"scene", scene},
-                                                {"samples", samples},
-                                                {"configurations", array_of(configuration)},
-                                                {"events", array_of(event)},
-                                                {"solver", solver},
-                                                {"provenance", any_object},
-                                                {"timing", any_object}},
-                                               {"failure"}));
+  return with_head(
+      "vlbeam run report",
+      record(
+          {{"schema_version", described({{"const", "vlbeam.run/1"}}, "what this file is, and its version")},
+           {"status", described(choice_of<RunStatus>(),
+                                "how the run ended; separated: the mass left the beam, and "
+                                "the run went on to its end")},
+           {"failure",
+            described(record({{"message", described(text, "what went wrong")}, {"t", described(number, "when", "s")}}),
+                      "of a run that failed; what was computed until then is in the report")},
+           {"warnings", described(array_of(warning), "what the results do not show by themselves")},
+           {"scene", described(scene, "as understood, every default filled in")},
+           {"samples", samples_schema()},
+           {"configurations", described(array_of(configuration), "the whole shape at the times asked for")},
+           {"events", described(array_of(event), "changes of the mesh, located in time")},
+           {"energy_ledger", described(ledger,
+                                       "where energy came from and went, from the first sample to the last, by "
+                                       "a 25-point rule: change = supplied + at_events + at_contacts + unexplained")},
+           {"solver", described(solver, "what the integrator did")},
+           {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
+           {"timing", described(any_object, "wall times: motion, length_control [s]")}},
+          {"failure"}));
 }
 
 Json study_schema() {
   const Json profile = choice({"ci", "full"});
+  const Json gate_kind = choice({"exact", "independent", "self", "guard"});
   const Json cell = {{"type", {"number", "string", "boolean", "null"}}};
   const Json study_case =
       record({{"options", Json::object()}, {"results", Json::object()}, {"failure", text}}, {"failure"});
   const Json fit = record({{"quantity", text},
                            {"levels", array_of(number)},
                            {"errors", array_of(number_or_null)},
+                           {"errors_known_to", number},
+                           {"fitted_from", whole},
+                           {"fitted_to", whole},
                            {"pairwise_orders", array_of(number_or_null)},
+                           {"pair_uncertainties", array_of(number)},
                            {"slope", number_or_null},
-                           {"used", whole},
-                           {"fitted", whole}});
+                           {"slope_uncertainty", number_or_null},
+                           {"excluded", text},
+                           {"refusal", text}},
+                          {"excluded", "refusal"});
+  const Json grid_convergence = record({{"quantity", text},
+                                        {"levels", array_of(number)},
+                                        {"values", array_of(number_or_null)},
+                                        {"order", number_or_null},
+                                        {"limit", number_or_null},
+                                        {"safety_factor", number},
+                                        {"uncertainty", number_or_null},
+                                        {"refusal", text}},
+                                       {"refusal"});
   const Json gate = record({{"name", text},
+                            {"kind", gate_kind},
                             {"value", number_or_null},
+                            {"uncertainty", number},
                             {"bound", text},
                             {"reason", text},
+                            {"guards", text},
                             {"passed", {{"type", "boolean"}}},
                             {"failure", text}},
-                           {"failure"});
+                           {"uncertainty", "reason", "guards", "failure"});
   const Json table = record({{"name", text},
                              {"caption", text},
                              {"file", text},
@@ -332,41 +458,57 @@ Json study_schema() {
                              {"rows", array_of(array_of(cell))}},
                             {"rows"});
   const Json figure = record({{"name", text}, {"caption", text}, {"file", text}});
-  return with_head("vlbeam study report",
-                   record({{"schema_version", {{"const", "vlbeam.study/1"}}},
-                           {"study", text},
-                           {"profile", profile},
-                           {"status", choice({"completed", "failed", "interrupted"})},
-                           {"failure", text},
-                           {"measured", {{"type", "object"}, {"additionalProperties", number_or_null}}},
-                           {"cases", array_of(study_case)},
-                           {"fits", array_of(fit)},
-                           {"gates", array_of(gate)},
-                           {"tables", array_of(table)},
-                           {"figures", array_of(figure)}},
-                          {"failure"}));
+  return with_head(
+      "vlbeam study report",
+      record({{"schema_version", {{"const", "vlbeam.study/1"}}},
+              {"study", text},
+              {"profile", profile},
+              {"status", choice({"completed", "failed", "interrupted"})},
+              {"failure", text},
+              {"measured", {{"type", "object"}, {"additionalProperties", number_or_null}}},
+              {"cases", array_of(study_case)},
+              {"fits", array_of(fit)},
+              {"grid_convergence", array_of(grid_convergence)},
+              {"gate_kinds", record({{"exact", whole}, {"independent", whole}, {"self", whole}, {"guard", whole}},
+                                    {"exact", "independent", "self", "guard"})},
+              {"gates", array_of(gate)},
+              {"tables", array_of(table)},
+              {"figures", array_of(figure)}},
+             {"failure", "grid_convergence", "gate_kinds"}));
 }
 
 Json gates_schema() {
   const Json nonempty = {{"type", "string"}, {"minLength", 1}};
   const Json order =
       record({{"expected", number}, {"tolerance", number}, {"at_most", number}, {"finest_error", number}});
-  Json gate = record({{"name", nonempty},
-                      {"reason", nonempty},
-                      {"profiles", {{"type", "array"}, {"items", choice({"ci", "full"})}, {"minItems", 1}}},
-                      {"quantity", nonempty},
-                      {"max", number},
-                      {"min", number},
-                      {"equals", number},
-                      {"tolerance", {{"type", "number"}, {"minimum", 0}}},
-                      {"fit", nonempty},
-                      {"order", order}},
-                     {"profiles", "quantity", "max", "min", "equals", "tolerance", "fit", "order"});
+  Json gate = record(
+      {{"name", nonempty},
+       {"kind", choice({"exact", "independent", "self", "guard"})},
+       {"reason", nonempty},
+       {"guards", nonempty},
+       {"profiles", {{"type", "array"}, {"items", choice({"ci", "full"})}, {"minItems", 1}}},
+       {"quantity", nonempty},
+       {"max", number},
+       {"min", number},
+       {"equals", number},
+       {"tolerance", {{"type", "number"}, {"minimum", 0}}},
+       {"uncertainty", {{"type", {"number", "string"}}}},
+       {"fit", nonempty},
+       {"order", order}},
+      {"reason", "guards", "profiles", "quantity", "max", "min", "equals", "tolerance", "uncertainty", "fit", "order"});
   const auto needs = [](const char* key) { return Json{{"required", {key}}}; };
   gate["oneOf"] = Json::array({needs("quantity"), needs("fit")});
   gate["dependentSchemas"] = {{"quantity", {{"anyOf", Json::array({needs("max"), needs("min"), needs("equals")})}}},
                               {"fit", needs("order")},
                               {"tolerance", needs("equals")}};
+  // A guard says what it guards, evidence has a reason; a quantity of kind self has an uncertainty.
+  const auto is = [](const char* kind) { return Json{{"properties", {{"kind", {{"const", kind}}}}}}; };
+  const auto without = [](const char* key) { return Json{{"not", {{"required", {key}}}}}; };
+  gate["allOf"] =
+      Json::array({{{"if", is("guard")},
+                    {"then", {{"allOf", Json::array({needs("guards"), without("reason")})}}},
+                    {"else", {{"allOf", Json::array({needs("reason"), without("guards")})}}}},
+                   {{"if", is("self")}, {"then", {{"anyOf", Json::array({needs("fit"), needs("uncertainty")})}}}}});
   return with_head("vlbeam gates", record({{"schema", {{"const", "vlbeam.gates/1"}}}, {"gates", array_of(gate)}}));
 }
 

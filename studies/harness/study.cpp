@@ -1,6 +1,11 @@
 #include "studies/harness/study.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 
@@ -8,27 +13,15 @@
 #include "core/scene/names.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/interrupt.hpp"
+#include "studies/harness/messages.hpp"
 #include "studies/harness/provenance.hpp"
 
 namespace vlbeam {
 namespace {
 
-Json read_json(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
-  try {
-    return parse_json(text);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(path.string() + " " + error.field, error.value, error.allowed);
-  }
-}
-
 std::vector<GateVerdict> evaluate(const std::filesystem::path& gates_file, const Json& report) {
   const Json gates = read_json(gates_file);
-  try {
-    return evaluate_gates(gates, report);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(gates_file.string() + " " + error.field, error.value, error.allowed);
-  }
+  return naming_file(gates_file, [&] { return evaluate_gates(gates, report); });
 }
 
 /// Writes tables, then the figures drawn from them; says what went wrong with a figure.
@@ -47,6 +40,67 @@ std::string write_tables_and_figures(const StudyReport& report, const StudyConte
   return failures;
 }
 
+/// A folder in which a study's files wait until all of them are there.
+class Staging {
+ public:
+  Staging(const std::filesystem::path& out, const std::string& study)
+      : out_(out), folder_(out / ("." + study + "." + std::to_string(::getpid()) + ".part")) {
+    std::filesystem::create_directories(folder_);
+    remove_forsaken(study);
+  }
+  ~Staging() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Staging(const Staging&) = delete;
+  Staging& operator=(const Staging&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// Moves all files to where they belong, `last` after the others.
+  void publish(const std::filesystem::path& last) const {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      if (entry.is_regular_file() && entry.path() != last) files.push_back(entry.path());
+    }
+    files.push_back(last);
+    for (const fs::path& file : files) {
+      const fs::path target = out_ / file.lexically_relative(folder_);
+      fs::create_directories(target.parent_path());
+      fs::rename(file, target);
+    }
+  }
+
+ private:
+  /// What a killed process has left behind.
+  void remove_forsaken(const std::string& study) const {
+    namespace fs = std::filesystem;
+    const std::string start = "." + study + ".", end = ".part";
+    std::vector<fs::path> forsaken;
+    for (const auto& entry : fs::directory_iterator(out_)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(start) || !name.ends_with(end)) continue;
+      const int process = std::atoi(name.c_str() + start.size());
+      if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) forsaken.push_back(entry.path());
+    }
+    std::error_code ignored;
+    for (const fs::path& folder : forsaken) fs::remove_all(folder, ignored);
+  }
+
+  std::filesystem::path out_, folder_;
+};
+
+bool is_completed(const std::filesystem::path& report) {
+  std::error_code error;
+  if (!std::filesystem::exists(report, error)) return false;
+  try {
+    return read_json(report).value("status", "") == "completed";
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 ProgressCallback StudyContext::until_interrupted() {
@@ -62,17 +116,18 @@ RunResult StudyContext::simulate_to_the_end(const Scene& scene) {
   return result;
 }
 
-StudyVerdict run_study(const Study& study, Profile profile, const std::filesystem::path& out, int jobs,
-                       const std::filesystem::path& sources) {
+StudyVerdict run_study(const Study& study, const StudyRun& run) {
   StudyContext context;
   context.study = study.name;
-  context.profile = profile;
-  context.folder = sources / study.name;
-  context.jobs = study.measures_time ? 1 : jobs;
-  const std::string profile_name(to_string(profile));
+  context.profile = run.profile;
+  context.folder = run.sources / study.name;
+  context.jobs = study.measures_time ? 1 : run.jobs;
+  const std::string profile_name(to_string(run.profile));
   context.config = read_json(context.folder / ("study." + profile_name + ".json"));
   const std::filesystem::path gates_file = context.folder / "gates.json";
   evaluate(gates_file, Json::object());  // a typing error should show before the runs, not after
+  const ReportFiles files{.out = run.out, .study = study.name};
+  check_writable("--out", files.report());
 
   StudyReport report;
   StudyVerdict verdict{.status = "completed"};
@@ -85,24 +140,36 @@ StudyVerdict run_study(const Study& study, Profile profile, const std::filesyste
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::exception& error) {
-    fail(error.what());
+    fail(explained(error));
   }
+  if (interrupted()) return {.status = "interrupted"};
   const auto failed = std::ranges::count_if(report.cases, [](const StudyCase& c) { return !c.failure.empty(); });
   if (failed > 0) fail(std::to_string(failed) + " of " + std::to_string(report.cases.size()) + " cases failed");
 
-  const ReportFiles files{.out = out, .study = study.name};
-  if (const std::string problem = write_tables_and_figures(report, context, files); !problem.empty()) fail(problem);
-  if (interrupted()) verdict.status = "interrupted";
+  const Staging staging(run.out, study.name);
+  const ReportFiles staged{.out = staging.folder(), .study = study.name};
+  if (const std::string problem = write_tables_and_figures(report, context, staged); !problem.empty()) fail(problem);
+  if (interrupted()) return {.status = "interrupted"};
 
-  Json json = report_to_json(report, files, profile_name, verdict.status, verdict.failure);
+  Json json = report_to_json(report, staged, profile_name, verdict.status, verdict.failure);
   verdict.gates = evaluate(gates_file, json);
+  json["gate_kinds"] = kinds_to_json(verdict.gates);
   json["gates"] = gates_to_json(verdict.gates);
-  write_text(files.timing(), pretty({{"study", study.name},
-                                     {"profile", profile_name},
-                                     {"jobs", context.jobs},
-                                     {"provenance", provenance()},
-                                     {"timing", report.timing}}));
-  write_text(files.report(), pretty(json));
+  const std::filesystem::path beside = run.out / (study.name + ".failed.json");
+  if (verdict.status == "failed" && !run.force && is_completed(files.report())) {
+    write_text(beside, pretty(json));
+    verdict.report = beside;
+    return verdict;
+  }
+  write_text(staged.timing(), pretty({{"study", study.name},
+                                      {"profile", profile_name},
+                                      {"jobs", context.jobs},
+                                      {"provenance", provenance()},
+                                      {"timing", report.timing}}));
+  write_text(staged.report(), pretty(json));
+  staging.publish(staged.report());
+  std::filesystem::remove(beside);
+  verdict.report = files.report();
   return verdict;
 }
 
@@ -113,7 +180,5 @@ std::vector<GateVerdict> judge_report(const Json& report, const std::filesystem:
   }
   return evaluate(sources / report.at("study").get<std::string>() / "gates.json", report);
 }
-
-std::filesystem::path studies_folder() { return std::filesystem::path(VLBEAM_SOURCE_DIR) / "studies"; }
 
 }  // namespace vlbeam

@@ -50,23 +50,29 @@ struct Study {
   bool measures_time = false;  ///< runs on one thread, after the others
 };
 
+/// How a study is to be run.
+struct StudyRun {
+  Profile profile = Profile::full;
+  std::filesystem::path out;      ///< folder of the files written
+  std::filesystem::path sources;  ///< holds the study's folder
+  int jobs = 1;
+  bool force = false;  ///< a study that failed may replace an earlier completed one
+};
+
 /// What became of a study.
 struct StudyVerdict {
   std::string status;  ///< completed | failed | interrupted
   std::string failure = {};
   std::vector<GateVerdict> gates = {};
+  std::filesystem::path report = {};  ///< written
 };
 
-/// Runs a study and writes its files into `out`: tables, then figures, then the report. A computation that fails is
-/// reported; only data that is not understood throws (InvalidInput), and then no report is written.
-/// `sources` holds the study's folder.
-StudyVerdict run_study(const Study& study, Profile profile, const std::filesystem::path& out, int jobs,
-                       const std::filesystem::path& sources);
+/// Runs a study and writes its files: tables and figures, then the report, all of them once everything is there. A
+/// computation that fails is reported, beside an earlier completed report as NAME.failed.json; one that is interrupted
+/// leaves all files as they are. Only data that is not understood throws (InvalidInput), before anything is written.
+StudyVerdict run_study(const Study& study, const StudyRun& run);
 
 /// Judges a written report anew by the gates that stand in the study's folder now.
 std::vector<GateVerdict> judge_report(const Json& report, const std::filesystem::path& sources);
-
-/// The folder studies/ of the source tree this program was built from.
-std::filesystem::path studies_folder();
 
 }  // namespace vlbeam

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "studies/harness/messages.hpp"
+
 namespace vlbeam {
 
 /// What became of one case of a sweep.
@@ -47,7 +49,7 @@ auto sweep(const std::string& title, const std::vector<Case>& cases, int jobs, c
       outcomes[i].result.emplace(run(cases[i]));
       outcomes[i].failure.clear();
     } catch (const std::exception& error) {
-      outcomes[i].failure = error.what();
+      outcomes[i].failure = explained(error);
     }
     outcomes[i].seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   });

@@ -212,8 +212,9 @@ class Report {
         errors.push_back(std::abs(outcomes[i]->frequency[0] - exact(bends)));
         table.rows.push_back({name_of(cases[i]), cases[i].elements, errors.back()});
       }
-      if (levels.size() > 2)
-        report_.fits.push_back(fit_order(bends ? "beam_f1" : "string_f1", levels, errors, {.fitted = 3}));
+      const std::string name = bends ? "beam_f1" : "string_f1";
+      if (levels.empty()) continue;
+      report_.fits.push_back(fit_order(name, levels, errors, {.rule = level_rule_of(context_.config, name)}));
     }
     report_.tables.push_back(std::move(table));
   }

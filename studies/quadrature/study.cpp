@@ -28,7 +28,7 @@ Integral strain_energy(double ratio, bool skew, int points) {
   Integral sum{0, 0};
   for (const auto& [u, weight] : gauss_legendre(points)) {
     const auto r = curve.evaluate(u);
-    const ElasticStress<StrainLaw::green, true, double, 2> elastic(r[1], r[2], {1, 1});
+    const ElasticStress<double, 2> elastic(r[1], r[2], {1, 1});
     sum.axial += weight * elastic.axial;
     sum.bending += weight * elastic.bending;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
@@ -155,7 +156,6 @@ class Report {
       report_.measured["initial_bending_" + key_of(cases_[i])] = run.samples.front().energy.bending;
     }
     report_.tables.push_back(std::move(table));
-    // the reference's own error: what its coarser neighbour differs by, divided by 2^2 - 1
     if (const RunResult* coarser = find("asbuilt_n" + std::to_string(finest_ / 2)); coarser && reference_) {
       report_.measured["finest_difference"] =
           position_error(*coarser, *reference_, compared_at) / beam_length(cases_.front().scene);
@@ -167,7 +167,28 @@ class Report {
       levels.push_back(n);
       errors.push_back(found->second);
     }
-    if (levels.size() >= 2) report_.fits.push_back(fit_order("as-built, error at 0.4 s", levels, errors));
+    if (!levels.empty()) report_.fits.push_back(fit_order("as-built, error at 0.4 s", levels, errors));
+    add_limits();
+  }
+
+  /// What all meshes of each kind say about the position of the mass at 0.4 s.
+  void add_limits() {
+    for (const char* kind : {"asbuilt", "asbuilt_transported", "asbuilt_ancf", "paper"}) {
+      std::vector<double> meshes;
+      std::map<std::string, std::vector<double>> values;
+      for (int n = 4; n <= finest_; n *= 2) {
+        const RunResult* run = find(std::string(kind) + "_n" + std::to_string(n));
+        const Sample* sample = run ? sample_at(*run, compared_at) : nullptr;
+        if (!sample || !sample->joint_position || !sample->mass_position) continue;
+        meshes.push_back(n);
+        values["joint"].push_back(*sample->joint_position);
+        values["mass_x"].push_back((*sample->mass_position)[0]);
+        values["mass_y"].push_back((*sample->mass_position)[1]);
+      }
+      for (const auto& [name, of_meshes] : values) {
+        report_.grid_convergence.push_back(grid_convergence(std::string(kind) + "_" + name, meshes, of_meshes));
+      }
+    }
   }
 
   void add_figures() {

@@ -3,6 +3,7 @@
 #include "studies/harness/study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -324,6 +325,7 @@ class Report {
                      "limit (continuous for tangent, equal-stretch for free) and the largest such distance of all "
                      "samples [m], largest kink [degrees], drift of energy over the largest kinetic energy",
                  .columns = {"slopes", "element", "elements", "joint_position", "error_end", "error", "kink", "drift"}};
+    std::map<std::string, std::array<std::vector<double>, 2>> ends;
     for (const auto& [scene, result] : select("modes")) {
       const JointSlopes slopes = scene->sliding_mass->slopes;
       const bool beam = slopes == JointSlopes::continuous || slopes == JointSlopes::tangent;
@@ -352,12 +354,18 @@ class Report {
       errors.rows.push_back({to_string(slopes), to_string(scene->beam.element), scene->beam.elements, end, error_end,
                              error, kink, drift});
       const std::string key = mesh_key(*scene);
+      auto& [meshes, positions] = ends[key.substr(0, key.rfind("_n"))];
+      meshes.push_back(scene->beam.elements);
+      positions.push_back(end);
       report_.measured["joint_" + key] = end;
       report_.measured["error_" + key] = error;
       report_.measured["kink_" + key] = kink;
       report_.measured["slope_residual_" + key] = result->slopes.position;
       double& worst = report_.measured["drift_" + key_of(slopes)];
       worst = std::max(worst, drift);
+    }
+    for (auto& [key, found] : ends) {
+      report_.grid_convergence.push_back(grid_convergence("joint_" + key, std::move(found[0]), std::move(found[1])));
     }
     const Table pairs = pairs_of("modes", "modes_pairs", config.at("elements").get<std::vector<int>>());
     report_.tables.insert(report_.tables.end(), {histories, errors, pairs});

@@ -13,6 +13,10 @@
 namespace vlbeam {
 namespace {
 
+/// An eigenvalue of a chain of 64 elements, whose largest is some 1e4 times the first, is known to that many times eps,
+/// with a factor of ten for the matrices: f_1 l/c.
+constexpr double rounding_of_frequency = 1e-11;
+
 constexpr int D = 3;
 using Vector = Vec<double, D>;
 
@@ -100,7 +104,7 @@ class Report {
       }
     }
     report_.measured["error_against_formula"] = largest;
-    report_.fits.push_back(fit_order("mode1", levels, errors, {.fitted = 3}));
+    report_.fits.push_back(fit_order("mode1", levels, errors, {.rule = level_rule_of(context_.config, "mode1")}));
     report_.tables.push_back(std::move(table));
 
     // what the text says of its Table 3
@@ -131,12 +135,13 @@ class Report {
         report_.measured["cubic_mode" + std::to_string(mode) + "_n" + std::to_string(n)] = error;
       }
     }
-    for (const int n : {16, 32, 64}) {  // of mode 5: those below are exact to rounding too soon
+    for (const int n : context_.config.at("cubic").get<std::vector<int>>()) {
       const auto found = torsion(shaft_, length_, n, false, 0, Formulation::variational, AngleField::hermite);
       levels.push_back(n);
       errors.push_back(100 * (found.at(4) / exact(5) - 1));
     }
-    report_.fits.push_back(fit_order("cubic_mode5", levels, errors, {.fitted = 3}));
+    report_.fits.push_back(
+        fit_order("cubic_mode5", levels, errors, {.rule = level_rule_of(context_.config, "cubic_mode5")}));
     report_.tables.push_back(std::move(table));
   }
 
@@ -171,11 +176,9 @@ class Report {
             }
           }
           if (ratio == 0.5 && formulation.value == Formulation::variational) {
-            if (cubic) {  // 4 elements are too few for the order, 64 leave rounding
-              levels = {levels.begin() + 1, levels.begin() + 4};
-              errors = {errors.begin() + 1, errors.begin() + 4};
-            }
-            report_.fits.push_back(fit_order(cubic ? "flowing_cubic" : "flowing", levels, errors, {.fitted = 3}));
+            const std::string name = cubic ? "flowing_cubic" : "flowing";
+            report_.fits.push_back(fit_order(
+                name, levels, errors, {.floor = rounding_of_frequency, .rule = level_rule_of(context_.config, name)}));
           }
         }
       }

@@ -109,19 +109,29 @@ Table advice_table(const std::vector<Climb>& climbs, const Json& config, const s
   return table;
 }
 
-/// Observed orders where a problem asks for one: "order": {"integrator": ..., "steps": [...]}.
+/// Observed orders where a problem asks for one, {"order": {"integrator", "levels"}}: of all steps that were run to the
+/// end, but for what the rule `levels` leaves out.
 void fit_orders(StudyReport& report, const std::vector<Climb>& climbs, const Json& problems) {
   for (const Climb& climb : climbs) {
     const Ladder& ladder = climb.ladder;
     const Json order = problems.at(ladder.problem).value("order", Json::object());
     if (order.value("integrator", "") != ladder.integrator.name) continue;
-    const auto steps = order.at("steps").get<std::vector<double>>();
-    std::vector<double> errors;
-    for (const double step : steps) {
-      const auto rung = std::ranges::find(climb.rungs, step, &Rung::value);
-      errors.push_back(rung == climb.rungs.end() ? nan : climb.error(*rung));
+    std::vector<double> steps, errors;
+    for (const Rung& rung : climb.rungs) {
+      if (rung.ending != Ending::completed) continue;
+      steps.push_back(rung.value);
+      errors.push_back(climb.error(rung));
     }
-    report.fits.push_back(fit_order(ladder.problem + "/" + ladder.element, steps, errors, {.fitted = steps.size()}));
+    if (steps.empty()) continue;
+    const std::string name = ladder.problem + "/" + ladder.element;
+    const OrderFit fit =
+        fit_order(name, steps, errors,
+                  {.floor = climb.reference.error, .rule = level_rule_from_json(order.value("levels", Json()))});
+    if (!fit.pairwise_orders.empty()) {
+      report.measured["least_pair/" + name] = *std::ranges::min_element(fit.pairwise_orders);
+      report.measured["error_at_finest_step/" + name] = errors.back();
+    }
+    report.fits.push_back(fit);
   }
 }
 
@@ -143,7 +153,7 @@ GnuplotVariables style(const Json& config) {
 
 void compare_integrators(StudyReport& report, const StudyContext& context, const Json& references) {
   const Json& config = context.config;
-  const double cap = config.at("cap_seconds").get<double>();
+  const double cap = config.at("most_element_steps").get<double>();
   std::vector<Climb> climbs;
   for (const auto& [name, problem] : config.at("problems").items()) {
     for (const Json& element : problem.at("elements")) {
@@ -224,7 +234,7 @@ void compare_integrators(StudyReport& report, const StudyContext& context, const
     for (const Json& element : problem.at("elements")) {
       variables["elements"] += (variables["elements"].empty() ? "" : " ") + element.get<std::string>();
     }
-    variables["cap"] = number_text(cap);
+    variables["cap"] = number_text(config.at("shown_seconds").get<double>());
     variables["work"] = "evaluations";
     report.figures.push_back(
         {.name = "evaluations_" + name,

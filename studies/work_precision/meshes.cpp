@@ -47,7 +47,7 @@ std::vector<Json> row(const Measured& point, double cost) {
 
 void compare_meshes(StudyReport& report, const StudyContext& context, const State& converged) {
   const Json& config = context.config.at("meshes");
-  const double cap = context.config.at("cap_seconds").get<double>();
+  const double cap = context.config.at("most_element_steps").get<double>();
   std::vector<Climb> climbs;
   for (const Json& element : config.at("elements")) {
     for (const int n : config.at("counts").get<std::vector<int>>()) {
@@ -79,8 +79,16 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
       .name = "total_errors",
       .caption = "error at the end against the converged beam, and what mesh and integrator leave of it",
       .columns = {"element", "elements", "integrator", "setting", "total", "spatial", "temporal", "evaluations"}};
+  Table skipped{.name = "skipped",
+                .caption = "what is not shown, for its work reaches the cap or it fails",
+                .columns = {"element", "elements", "integrator", "setting", "ending"}};
   std::vector<Measured> points;
   for (const Climb& climb : climbs) {
+    for (const Rung& rung : climb.rungs) {
+      if (rung.ending == Ending::completed) continue;
+      skipped.rows.push_back({climb.ladder.element, climb.elements, climb.ladder.integrator.name,
+                              climb.ladder.integrator.setting(rung.value), to_string(rung.ending)});
+    }
     if (climb.exact) continue;
     const auto exact = std::ranges::find_if(climbs, [&](const Climb& other) {
       return other.exact && other.elements == climb.elements && other.ladder.element == climb.ladder.element;
@@ -138,6 +146,7 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
     advice.rows.push_back({wanted, text});
   }
   report.tables.push_back(errors);
+  report.tables.push_back(skipped);
   report.tables.push_back(cheap);
   report.tables.push_back(times);
   report.tables.push_back(front);

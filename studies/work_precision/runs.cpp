@@ -29,16 +29,17 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Rung run(const Scene& scene, const Integrator& integrator, double cap_seconds) {
+Rung run(const Scene& scene, const Integrator& integrator, double most_element_steps) {
   const double started = thread_seconds();
   const auto elapsed = [&] { return thread_seconds() - started; };
   const auto undisturbed = StudyContext::until_interrupted();
   Rung rung;
+  const double most_steps = std::min(integrator.most_steps, most_element_steps / scene.beam.elements);
   double steps = 0;
   const RunResult result = simulate(scene, [&](double t) {
     if (!undisturbed(t)) throw std::runtime_error("interrupted");
     rung.reached = t;
-    return ++steps <= integrator.most_steps && elapsed() <= cap_seconds;
+    return ++steps <= most_steps;
   });
   rung.seconds = elapsed();
   rung.ending = result.status == RunStatus::interrupted ? Ending::capped
@@ -67,7 +68,9 @@ std::vector<Integrator> read_integrators(const Json& config, const std::string& 
     const Json& values = entry.at(integrator.fixed_step ? "steps" : "tolerances");
     const std::string key = values.contains(problem) ? problem : "others";
     integrator.values = (values.is_object() ? values.at(key) : values).get<std::vector<double>>();
-    integrator.most_steps = entry.at("most_steps").get<double>();
+    const Json& most = entry.at("most_steps");
+    integrator.most_steps =
+        (most.is_object() ? most.at(most.contains(problem) ? problem : "others") : most).get<double>();
     if (entry.contains("fine")) {
       integrator.fine_below = entry.at("fine").at("below").get<double>();
       integrator.fine = entry.at("fine").at("integrator");
@@ -103,7 +106,7 @@ double position_error(const State& a, const State& b) {
   return error / beam_length_m;
 }
 
-std::vector<Rung> climb(const Ladder& ladder, double cap_seconds) {
+std::vector<Rung> climb(const Ladder& ladder, double most_element_steps) {
   std::vector<Rung> rungs;
   const Integrator& integrator = ladder.integrator;
   for (const double value : integrator.values) {
@@ -115,9 +118,9 @@ std::vector<Rung> climb(const Ladder& ladder, double cap_seconds) {
     Json json = merged(ladder.scene, {{"integrator", choice}});
     json["output"]["interval"] = json.at("duration");
     const Scene scene = scene_from_json(json);
-    Rung rung = run(scene, integrator, cap_seconds);
+    Rung rung = run(scene, integrator, most_element_steps);
     for (int again = 1; again < repeats && rung.seconds < short_run && rung.ending == Ending::completed; ++again) {
-      rung.seconds = std::min(rung.seconds, run(scene, integrator, cap_seconds).seconds);
+      rung.seconds = std::min(rung.seconds, run(scene, integrator, most_element_steps).seconds);
     }
     rung.value = value;
     rungs.push_back(rung);

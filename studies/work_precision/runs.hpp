@@ -65,9 +65,9 @@ struct Rung {
   double seconds = 0;  ///< processor time, the fastest of a few runs where these are short
 };
 
-/// Climbs until a run is capped: after `cap_seconds`, or after a number of steps that none of the runs worth
-/// showing needs, so that the same runs are capped on machines of another speed.
-std::vector<Rung> climb(const Ladder& ladder, double cap_seconds);
+/// Climbs until a run is capped: after the integrator's own number of steps, or after `most_element_steps`, steps times
+/// elements. Both are work, not time, so that the same runs are capped on machines of any speed.
+std::vector<Rung> climb(const Ladder& ladder, double most_element_steps);
 
 /// "3.2 ms"
 std::string milliseconds(double seconds);

@@ -21,7 +21,8 @@ Json report() {
 
 Json gate(Json rule) {
   rule["name"] = "gate";
-  rule["reason"] = "a test";
+  if (!rule.contains("kind")) rule["kind"] = "exact";
+  if (!rule.contains("guards")) rule["reason"] = "a test";
   return {{"schema", "vlbeam.gates/1"}, {"gates", Json::array({rule})}};
 }
 
@@ -91,6 +92,11 @@ TEST(Gates, AFileThatIsNotUnderstoodIsRefused) {
   refused({{"quantity", "drift"}, {"max", 1}, {"tolerance", 1}}, "/gates/0/tolerance");
   refused({{"quantity", "drift"}, {"max", 1}, {"profiles", {"fast"}}}, "/gates/0/profiles");
   refused({{"fit", "tip"}, {"order", {{"expected", 4}}}}, "/gates/0/order/tolerance");
+  refused({{"quantity", "drift"}, {"max", 1}, {"kind", "measured"}}, "/gates/0/kind");
+  refused({{"quantity", "drift"}, {"max", 1}, {"kind", "guard"}}, "/gates/0");
+  refused({{"quantity", "drift"}, {"max", 1}, {"guards", "it"}}, "/gates/0");
+  refused({{"quantity", "drift"}, {"max", 1}, {"kind", "self"}}, "/gates/0/uncertainty");
+  refused({{"quantity", "drift"}, {"max", 1}, {"uncertainty", true}}, "/gates/0/uncertainty");
 
   Json nameless = gate({{"quantity", "drift"}, {"max", 1}});
   nameless["gates"][0].erase("reason");
@@ -99,6 +105,29 @@ TEST(Gates, AFileThatIsNotUnderstoodIsRefused) {
   twice["gates"].push_back(twice["gates"][0]);
   EXPECT_THROW(evaluate_gates(twice, report()), InvalidInput);
   EXPECT_THROW(evaluate_gates(Json{{"gates", Json::array()}}, report()), InvalidInput);
+}
+
+TEST(Gates, BoundsHoldForTheValueWithItsUncertainty) {
+  EXPECT_TRUE(passes({{"quantity", "events"}, {"kind", "self"}, {"uncertainty", 1}, {"max", 19}}));
+  EXPECT_FALSE(passes({{"quantity", "events"}, {"kind", "self"}, {"uncertainty", 1.5}, {"max", 19}}));
+  EXPECT_FALSE(passes({{"quantity", "events"}, {"kind", "self"}, {"uncertainty", 1.5}, {"min", 17}}));
+  EXPECT_FALSE(
+      passes({{"quantity", "events"}, {"kind", "self"}, {"uncertainty", 1.5}, {"equals", 18}, {"tolerance", 1}}));
+  EXPECT_TRUE(passes({{"quantity", "events"}, {"kind", "self"}, {"uncertainty", "drift"}, {"max", 18.1}}));
+  EXPECT_FALSE(passes({{"quantity", "events"}, {"kind", "self"}, {"uncertainty", "drfit"}, {"max", 100}}));
+}
+
+TEST(Gates, KindsAreCounted) {
+  Json two = gate({{"quantity", "drift"}, {"max", 1}});
+  two["gates"].push_back(
+      {{"name", "b"}, {"kind", "guard"}, {"guards", "the drift"}, {"quantity", "drift"}, {"max", 1}});
+  const auto verdicts = evaluate_gates(two, report());
+  EXPECT_EQ(kinds_text(verdicts), "1 exact, 0 independent, 0 self; 1 guards, which are no evidence");
+  EXPECT_EQ(kinds_to_json(verdicts), (Json{{"exact", 1}, {"independent", 0}, {"self", 0}, {"guard", 1}}));
+  const Json json = gates_to_json(verdicts);
+  EXPECT_EQ(json[0].at("kind"), "exact");
+  EXPECT_EQ(json[1].at("guards"), "the drift");
+  EXPECT_FALSE(json[1].contains("reason"));
 }
 
 TEST(Gates, TextSaysHowManyWereEvaluated) {

@@ -30,10 +30,12 @@ TEST(Gnuplot, WhatGnuplotCannotDrawIsAnError) {
   folder.write("plot.gp", script);
   folder.write("broken.gp", "set output output\nplott x\n");
   folder.write("nothing.gp", "set terminal svg\n");
+  folder.write("cut.gp", "set print output\nprint '<svg>'\n");
   EXPECT_THROW(draw_figure(folder / "plot.gp", folder / "a.svg", {{"data", folder / "missing.csv"}}),
                std::runtime_error);
   EXPECT_THROW(draw_figure(folder / "broken.gp", folder / "a.svg"), std::runtime_error);
   EXPECT_THROW(draw_figure(folder / "nothing.gp", folder / "a.svg"), std::runtime_error);
+  EXPECT_THROW(draw_figure(folder / "cut.gp", folder / "a.svg"), std::runtime_error);
   EXPECT_THROW(draw_figure(folder / "missing.gp", folder / "a.svg"), std::runtime_error);
   EXPECT_EQ(folder.files().count("a.svg"), 0U);
 }

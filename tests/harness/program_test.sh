@@ -21,9 +21,12 @@ SCENE
 check "a run" 0 "$(exit_of "$vlbeam" run scene.json --report r.json --csv r.csv)"
 check "its report" 1 "$(grep -c '"status": "completed"' r.json)"
 check "its samples" 4 "$(wc -l < r.csv)"
-check "summary without --report" 0 "$(exit_of "$vlbeam" run scene.json)"
-check "summary says the status" 1 "$(grep -c 'status *completed' out.txt)"
-"$vlbeam" run - --report - < scene.json > piped.json
+check "summary on standard error" 0 "$(exit_of "$vlbeam" run scene.json)"
+check "summary says the status" 1 "$(grep -c 'status *completed' err.txt)"
+check "nothing on standard output" "" "$(cat out.txt)"
+check "no summary" "0" "$(exit_of "$vlbeam" run scene.json --quiet)"
+check "no summary" "" "$(cat out.txt err.txt)"
+"$vlbeam" run - --report - < scene.json > piped.json 2> err.txt
 check "standard input and output" 1 "$(grep -c '"status": "completed"' piped.json)"
 
 sed 's/"elements": 4/"elemnts": 4/' scene.json > bad.json
@@ -40,7 +43,7 @@ sed 's/"duration": 0.01/"duration": 1000/' scene.json > long.json
 sleep 0.5
 kill -INT $!
 wait $!
-check "an interrupted run" 3 $?
+check "an interrupted run" 130 $?
 check "its report" 1 "$(grep -c '"status": "interrupted"' long.out)"
 
 check "no command" 2 "$(exit_of "$vlbeam")"

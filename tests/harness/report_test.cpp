@@ -1,12 +1,16 @@
 #include "studies/harness/report.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
+#include <string>
 
-#include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "tests/harness/example_scene.hpp"
+#include "tests/harness/report_of.hpp"
 
 namespace vlbeam {
 namespace {
@@ -40,24 +44,39 @@ RunResult small_run() {
   on_beam.joint_position = 0.25;
   on_beam.mass_position = Point{0.25, 0, 0};
   on_beam.end = {1, -0.5, 0};
+  on_beam.joint = {3, {0.5, 2, 0}, 0.5, 2};
   on_beam.energy = {.kinetic = 1, .axial = 2, .bending = 3, .gravity = -4, .dissipated = 0.5};
   Sample left = on_beam;
   left.t = 0.005;
   left.joint_position.reset();
+  left.joint.reset();
   result.samples = {on_beam, left};
   result.status = RunStatus::separated;
   return result;
 }
 
+std::string csv_of(const Scene& scene, const RunResult& result) {
+  std::string text;
+  write_samples_csv(scene, result, [&text](std::string_view piece) { text += piece; });
+  return text;
+}
+
 TEST(RunReport, SamplesAreColumns) {
   const Scene scene = scene_from_json(example_scene());
-  const Json report = run_report(scene, small_run());
+  const Json report = report_of(scene, small_run(), {{"timing", {{"motion", 0.5}}}});
   EXPECT_EQ(report["status"], "separated");
   EXPECT_EQ(report["samples"]["t"], (Json{0.0, 0.005}));
+  EXPECT_TRUE(report["samples"]["t"][0].is_number_float());
   EXPECT_EQ(report["samples"]["joint_position"], (Json{0.25, nullptr}));
+  EXPECT_EQ(report["samples"]["mass_position"][0], (Json{0.25, 0.0}));
   EXPECT_EQ(report["samples"]["end"][0], (Json{1.0, -0.5})) << "a planar scene has two components";
   EXPECT_EQ(report["samples"]["energy"]["total"][0], 2.5);
+  EXPECT_EQ(report["samples"]["contact"]["force"], (Json{{0.5, 2.0}, nullptr}));
+  EXPECT_EQ(report["samples"]["joint_velocity"], (Json{3.0, nullptr}));
+  EXPECT_EQ(report["samples"]["reactions"]["start"]["position"].size(), 2U);
+  EXPECT_FALSE(report["samples"]["reactions"].contains("end"));
   EXPECT_EQ(report["scene"], scene_to_json(scene));
+  EXPECT_EQ(report["timing"]["motion"], 0.5);
   EXPECT_FALSE(report.contains("failure"));
 }
 
@@ -66,19 +85,43 @@ TEST(RunReport, AFailureSaysWhenAndWhat) {
   result.status = RunStatus::failed;
   result.failure = "step underflow";
   result.failure_time = 0.3;
-  const Json report = run_report(Scene{}, result);
+  const Json report = report_of(Scene{}, result);
   EXPECT_EQ(report["failure"], (Json{{"message", "step underflow"}, {"t", 0.3}}));
   EXPECT_EQ(report["samples"]["t"].size(), 2U) << "what was computed is kept";
+  EXPECT_EQ(report["samples"]["reactions"], Json::object()) << "nothing holds this beam";
 }
 
-TEST(SamplesCsv, HasOneLineASample) {
-  const std::string csv = samples_csv(scene_from_json(example_scene()), small_run());
-  EXPECT_EQ(csv,
-            "t,joint_position,mass_x,mass_y,end_x,end_y,beam_length,beam_length_rate,energy_kinetic,energy_axial,"
-            "energy_bending,"
-            "energy_torsion,energy_gravity,energy_dissipated,energy_total,momentum_x,momentum_y\n"
-            "0,0.25,0.25,0,1,-0.5,0,0,1,2,3,0,-4,0.5,2.5,0,0\n"
-            "0.005,,0.25,0,1,-0.5,0,0,1,2,3,0,-4,0.5,2.5,0,0\n");
+TEST(RunReport, WarningsSayWhatToTry) {
+  RunResult result = small_run();
+  result.warnings = {{WarningKind::energy_at_events, "much", "more elements"}};
+  EXPECT_EQ(report_of(Scene{}, result)["warnings"],
+            (Json{{{"kind", "energy-at-events"}, {"message", "much"}, {"remedy", "more elements"}}}));
+  EXPECT_THAT(run_summary(Scene{}, result), testing::ContainsRegex("warning +much\n +try: more elements"));
+}
+
+TEST(RunReport, ARunWithoutSamplesIsOneToo) {
+  RunResult result;
+  result.status = RunStatus::failed;
+  EXPECT_EQ(report_of(Scene{}, result)["samples"]["t"], Json::array());
+  EXPECT_FALSE(run_summary(Scene{}, result).empty());
+}
+
+TEST(SamplesCsv, HasOneLineASampleAndUnits) {
+  std::istringstream csv(csv_of(scene_from_json(example_scene()), small_run()));
+  std::string head, first, second, more;
+  std::getline(csv, head);
+  std::getline(csv, first);
+  std::getline(csv, second);
+  EXPECT_FALSE(std::getline(csv, more));
+  EXPECT_THAT(head, testing::StartsWith("t [s],joint_position [m],mass_x [m],mass_y [m],end_x [m],end_y [m],"
+                                        "beam_length [m],beam_length_rate [m/s],energy_kinetic [J],energy_axial [J],"
+                                        "energy_bending [J],energy_torsion [J],energy_gravity [J]"));
+  EXPECT_THAT(head, testing::HasSubstr(",contact_x [N],contact_y [N],contact_tangential [N],contact_normal [N],"));
+  EXPECT_THAT(first, testing::StartsWith("0,0.25,0.25,0,1,-0.5,0,0,1,2,3,0,-4,"));
+  EXPECT_THAT(second, testing::StartsWith("0.005,,0.25,0,1,-0.5,"));
+  for (const std::string& line : {first, second}) {
+    EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(head, ','));
+  }
 }
 
 }  // namespace

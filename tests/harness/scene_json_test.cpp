@@ -56,7 +56,7 @@ TEST(SceneJson, ReadsEveryKey) {
 }
 
 TEST(SceneJson, DefaultsMayBeLeftOut) {
-  const Scene scene = parse_scene("{}");
+  const Scene scene = parse_scene(R"({"beam": {}, "duration": 0.5})");
   EXPECT_FALSE(scene.sliding_mass.has_value());
   EXPECT_EQ(scene.beam.elements, Scene{}.beam.elements);
   EXPECT_EQ(scene_to_json(scene), scene_to_json(Scene{}));
@@ -71,7 +71,7 @@ TEST(SceneJson, EchoReadsBackAsTheSameScene) {
 
 TEST(SceneJson, EchoHoldsWhatTheFileLeftOut) {
   const Json echo = scene_to_json(parse_scene(R"({"sliding_mass": {"mass": 1, "position": 0.3},
-                                                  "beam": {"curve": {"end": [2, 0]}}})"));
+                                                  "beam": {"curve": {"end": [2, 0]}}, "duration": 1})"));
   EXPECT_EQ(echo["integrator"]["type"], "dopri5");
   EXPECT_EQ(echo["sliding_mass"]["separation_distance"], 2e-3);
   EXPECT_GE(echo["beam"]["quadrature_points"], 3) << "the element's default, not its placeholder 0";
@@ -86,6 +86,15 @@ TEST(SceneJson, SectionByStiffness) {
   EXPECT_EQ(scene.beam.section.type, Section::Type::stiffness);
   EXPECT_EQ(scene.beam.section.EA, 100);
   EXPECT_FALSE(scene_to_json(scene)["beam"]["material"].contains("density"));
+}
+
+TEST(SceneJson, AutoStandsForTheIntegratorThatTheEchoShows) {
+  Json json = {{"beam", {{"material", {{"youngs_modulus", 2.1e11}}}}}, {"duration", 0.5}, {"integrator", "auto"}};
+  EXPECT_EQ(scene_to_json(scene_from_json(json))["integrator"]["type"], "generalized-alpha");
+  json["beam"]["material"]["youngs_modulus"] = 2e7;
+  EXPECT_EQ(scene_to_json(scene_from_json(json))["integrator"]["type"], "dopri5");
+  json["integrator"] = "fast";
+  EXPECT_THROW(scene_from_json(json), InvalidInput);
 }
 
 TEST(SceneJson, MethodsOfFixedStepShareTheirOption) {
@@ -144,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"/gravity", "[0, null]"}, BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
                     BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""},
                     BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/beam/weights", "[1, 1, 1]"},
-                    BadScene{"/beam/elements", "20.0"}, BadScene{"/length_control/enabled", "1"},
+                    BadScene{"/beam/elements", "20.5"}, BadScene{"/length_control/enabled", "1"},
                     BadScene{"/integrator/locate_events", "\"no\""}, BadScene{"/supports", "{}"},
                     BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
                     BadScene{"/output/configurations", "0.5"}, BadScene{"/output/configurations", "[0, true]"}));
@@ -184,6 +193,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1})", "/beam/section/rhoA", "missing"},
         BadScene{"/supports/0", R"({"at": "start"})", "/supports/0/type", "missing"},
         BadScene{"/supports/0", R"({"type": "pin"})", "/supports/0/at", "missing"}));
+
+TEST(SceneJson, AWholeNumberMayBeWrittenInAnyWay) {
+  EXPECT_EQ(parse_scene(R"({"beam": {"elements": 1e1}, "duration": 1})").beam.elements, 10);
+  EXPECT_EQ(parse_scene(R"({"beam": {"elements": 10.0}, "duration": 1})").beam.elements, 10);
+}
+
+TEST(SceneJson, BeamAndDurationAreNeeded) {
+  EXPECT_EQ(error_of(parse_json(R"({"duration": 1})"))->field, "/beam");
+  EXPECT_EQ(error_of(parse_json(R"({"beam": {}})"))->field, "/duration");
+}
 
 TEST(SceneJson, WhatIsNotJsonIsRefused) {
   EXPECT_THROW(parse_scene(""), InvalidInput);

@@ -11,6 +11,7 @@ namespace {
 
 /// Counts the keys of an echoed scene that the schema does not describe.
 std::size_t undescribed(const Json& value, const Json& schema, const std::string& at) {
+  if (schema.contains("anyOf")) return undescribed(value, schema.at("anyOf").back(), at);
   std::size_t count = 0;
   for (const auto& item : value.items()) {
     if (value.is_array()) {
@@ -38,7 +39,7 @@ TEST(SceneSchema, ComesFromTheOptionTable) {
   EXPECT_EQ(at("/properties/beam/properties/element/enum"), (Json{"ALE-RANCF", "ALE-ANCF", "RANCF", "ANCF"}));
   EXPECT_EQ(at("/properties/sliding_mass/required"), (Json{"mass", "position"}));
   EXPECT_EQ(at("/properties/supports/items/properties/at/enum"), (Json{"start", "end"}));
-  EXPECT_EQ(at("/properties/integrator/properties/rtol/exclusiveMinimum"), 0.0);
+  EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/rtol/minimum"), 1e-14);
 }
 
 }  // namespace

@@ -44,7 +44,9 @@ example = {
     "output": {"interval": 0.005},
 }
 expect(scene, example, True, "the example")
-expect(scene, {}, True, "the empty scene")
+expect(scene, {"beam": {}, "duration": 1}, True, "the shortest scene")
+expect(scene, {"beam": {}}, False, "a scene without duration")
+expect(scene, {"duration": 1}, False, "a scene without beam")
 
 
 def changed(**changes):
@@ -75,6 +77,8 @@ expect(scene, changed(beam__elemnts=4), False, "an unknown key")
 expect(scene, changed(duration=0), False, "no duration")
 for method in ("adams-bashforth-moulton", "generalized-alpha"):
     expect(scene, changed(integrator={"type": method, "step": 1e-4}), True, "a fixed step")
+expect(scene, changed(integrator="auto"), True, "an integrator that the scene chooses")
+expect(scene, changed(integrator="fast"), False, "an integrator that is not known")
 expect(scene, changed(integrator={"type": "rosenbrock4", "step": 1e-4}), False, "the step of a method that chooses it")
 expect(scene, changed(integrator={"step": 1e-4}), False, "the step of the default method")
 expect(scene, changed(beam__elements=2.5), False, "half an element")
@@ -99,24 +103,68 @@ shaft = {
 }
 with tempfile.TemporaryDirectory() as folder:
     path = os.path.join(folder, "scene.json")
-    for written in (example, shaft):
+    ramped = {**example, "gravity_ramp": 0.005, "sliding_mass": {"mass": 1, "position": 0.3, "slopes": "free"},
+              "output": {"configurations": [0.01]}}
+    spatial = {"dimension": 3, "gravity": [0, 0, -1], "duration": 0.001, "output": {"configurations": [0]},
+               "beam": {"curve": {"start": [0, 0, 0], "end": [0, 1, 0]}, "elements": 4},
+               "supports": [{"at": "start", "type": "pin"}], "sliding_mass": {"mass": 1, "position": 0.3}}
+    held = {**shaft, "spin": {"drives": [{"node": 0, "angle": {"rate": 9}}]}, "loads": [],
+            "flow": {"nodes": [{"node": 0}, {"node": 2, "x": {"value": 0.5}, "support": "slide"},
+                               {"node": 4, "x": {"value": 1}}]}}
+    for written in (example, shaft, ramped, spatial, held):
         with open(path, "w") as file:
             json.dump(written, file)
         done = subprocess.run([program, "run", path, "--report", "-"], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
         report = json.loads(done.stdout)
         expect(run, report, True, "a run's report")
         expect(scene, report["scene"], True, "the echoed scene")
 
+
+
+def undescribed(schema, at):
+    """Where a property of a run's report has no description."""
+    for key, child in {**schema.get("properties", {}), **schema.get("patternProperties", {})}.items():
+        if not child.get("description") and "const" not in child:
+            yield f"{at}/{key}"
+        yield from undescribed(child, f"{at}/{key}")
+    if "items" in schema:
+        yield from undescribed(schema["items"], at + "/0")
+
+
+checks += 1
+missing = list(undescribed(run.schema, ""))
+assert not missing, f"no description: {missing}"
+
 for path in glob.glob(os.path.join(source, "studies/*/gates.json")):
     with open(path) as file:
-        expect(gates, json.load(file), True, path)
+        instance = json.load(file)
+    expect(gates, instance, True, path)
+    with open(os.path.join(os.path.dirname(path), "README.md")) as file:
+        excused = "no exact or independent gate" in file.read()
+    checks += 1
+    evidence = any(gate["kind"] in ("exact", "independent") for gate in instance["gates"])
+    assert evidence != excused, f"{path}: an exact or independent gate, or a sentence in the README why there is none"
 for path in glob.glob(os.path.join(source, "reports/*.json")):
     if not path.endswith(".timing.json"):
         with open(path) as file:
             expect(study, json.load(file), True, path)
-rule = {"name": "a", "reason": "b", "quantity": "c", "max": 1}
+rule = {"name": "a", "kind": "exact", "reason": "b", "quantity": "c", "max": 1}
+guard = {"name": "a", "kind": "guard", "guards": "b", "quantity": "c", "max": 1}
+order = {"expected": 2, "tolerance": 1, "at_most": 3, "finest_error": 1}
 expect(gates, {"schema": "vlbeam.gates/1", "gates": [rule]}, True, "a gate")
 expect(gates, {"schema": "vlbeam.gates/1", "gates": [{**rule, "fit": "d"}]}, False, "a gate on two things")
-expect(gates, {"schema": "vlbeam.gates/1", "gates": [{"name": "a", "reason": "b", "quantity": "c"}]}, False, "no bound")
+expect(gates, {"schema": "vlbeam.gates/1", "gates": [{k: rule[k] for k in rule if k != "max"}]}, False, "no bound")
+for one, valid, what in (
+    (guard, True, "a guard"),
+    ({**guard, "reason": "c"}, False, "a guard with a reason"),
+    ({**rule, "kind": "guard"}, False, "a guard that guards nothing"),
+    ({**rule, "guards": "c"}, False, "evidence that guards"),
+    ({**rule, "kind": "measured"}, False, "a kind there is not"),
+    ({**rule, "kind": "self"}, False, "self-convergence without uncertainty"),
+    ({**rule, "kind": "self", "uncertainty": "u"}, True, "self-convergence with its uncertainty"),
+    ({"name": "a", "kind": "self", "reason": "b", "fit": "c", "order": order}, True, "an order of its own errors"),
+):
+    expect(gates, {"schema": "vlbeam.gates/1", "gates": [one]}, valid, what)
 
 print(f"{checks} checks passed")

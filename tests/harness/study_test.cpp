@@ -48,15 +48,15 @@ class StudyFolder : public testing::Test {
   void gates(double finest) {
     folder_.write("studies/midpoint/gates.json",
                   R"({"schema": "vlbeam.gates/1", "gates": [
-                      {"name": "order", "fit": "error", "reason": "the midpoint rule is of second order",
+                      {"name": "order", "kind": "exact", "fit": "error", "reason": "the midpoint rule is of second order",
                        "order": {"expected": 2, "tolerance": 0.1, "at_most": 2.1, "finest_error": 1e-3}},
-                      {"name": "finest", "quantity": "finest", "reason": "test", "max": )" +
+                      {"name": "finest", "kind": "exact", "quantity": "finest", "reason": "test", "max": )" +
                       std::to_string(finest) + "}]}");
   }
 
   StudyVerdict run(StudyReport (*body)(const StudyContext&), int jobs = 2) const {
-    return run_study({.name = "midpoint", .title = "", .run = body}, Profile::ci, folder_ / "out", jobs,
-                     folder_ / "studies");
+    return run_study({.name = "midpoint", .title = "", .run = body},
+                     {.profile = Profile::ci, .out = folder_ / "out", .sources = folder_ / "studies", .jobs = jobs});
   }
   std::string text(const std::string& file) const { return read_text(folder_ / file); }
 
@@ -110,6 +110,33 @@ TEST_F(StudyFolder, AStudyThatBreaksDownIsReported) {
   const StudyVerdict verdict = run([](const StudyContext&) -> StudyReport { throw std::runtime_error("broke down"); });
   EXPECT_EQ(verdict.status, "failed");
   EXPECT_EQ(parse_json(text("out/midpoint.json"))["failure"], "broke down");
+}
+
+TEST_F(StudyFolder, AFailedStudyLeavesAnEarlierResult) {
+  run(midpoint_study);
+  const std::string report = text("out/midpoint.json"), table = text("out/midpoint_errors.csv");
+  const auto broken = [](const StudyContext& context) {
+    StudyReport half = midpoint_study(context);
+    half.tables[0].rows.clear();
+    half.cases[0].failure = "out of memory";
+    return half;
+  };
+  const StudyVerdict failed = run(broken);
+  EXPECT_EQ(failed.report.filename(), "midpoint.failed.json");
+  EXPECT_EQ(text("out/midpoint.json"), report);
+  EXPECT_EQ(text("out/midpoint_errors.csv"), table);
+  EXPECT_EQ(parse_json(text("out/midpoint.failed.json"))["status"], "failed");
+  run(midpoint_study);
+  EXPECT_EQ(folder_.files().count("out/midpoint.failed.json"), 0U) << "it no longer fails";
+  EXPECT_EQ(text("out/midpoint.json"), report);
+}
+
+TEST_F(StudyFolder, WhatAKilledProcessLeftIsRemoved) {
+  folder_.write("out/.midpoint.999999999.part/midpoint.json", "part");
+  folder_.write("out/.midpoint.1.part/midpoint.json", "of a process that runs");
+  run(midpoint_study);
+  EXPECT_EQ(folder_.files().count("out/.midpoint.999999999.part/midpoint.json"), 0U);
+  EXPECT_EQ(folder_.files().count("out/.midpoint.1.part/midpoint.json"), 1U);
 }
 
 TEST_F(StudyFolder, AFigureThatCannotBeDrawnFailsTheStudy) {

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/scene/simulate.hpp"
-#include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "tests/harness/report_of.hpp"
 
 namespace vlbeam {
 namespace {
@@ -40,12 +40,12 @@ TEST(SupportMotionScene, ReportsTheEnergySupplied) {
   double most = 0;
   for (const Sample& sample : result.samples) most = std::max(most, std::abs(sample.energy.supplied));
   EXPECT_GT(most, 1e-2 * result.max_kinetic);
-  const Json report = run_report(scene, result);
+  const Json report = report_of(scene, result);
   EXPECT_EQ(report["samples"]["energy"]["supplied"].size(), result.samples.size());
   Json still = shaken();
   still["supports"][1].erase("motion");
   const Scene resting = scene_from_json(still);
-  EXPECT_FALSE(run_report(resting, simulate(resting))["samples"]["energy"].contains("supplied"));
+  EXPECT_FALSE(report_of(resting, simulate(resting))["samples"]["energy"].contains("supplied"));
 }
 
 TEST(SupportMotionScene, ShakesTheConfiguredPoint) {

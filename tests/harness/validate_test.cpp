@@ -197,6 +197,27 @@ const Rule rules[] = {
        s.integrator.step = 1.01 * s.duration;
      }},
     {"/sliding_mass/separation_distance", [](Scene& s) { s.sliding_mass->separation_distance = 0; }},
+    {"/length_control/end_merge", [](Scene& s) { s.length_control.end_merge = 0.91; }},
+    {"/length_control/end_merge",
+     [](Scene& s) {
+       s.length_control.enabled = false;
+       s.length_control.end_merge = 0.5;
+     }},
+    {"/length_control/end_merge",
+     [](Scene& s) {
+       s.length_control.end_merge = 0;
+       s.sliding_mass->at_support = AtSupport::rest;
+     }},
+    {"/length_control/enabled",
+     [](Scene& s) {
+       s.length_control.enabled = false;
+       s.sliding_mass->at_support = AtSupport::rebound;
+     }},
+    {"/sliding_mass/restitution",
+     [](Scene& s) {
+       s.sliding_mass->at_support = AtSupport::rebound;
+       s.sliding_mass->restitution = 1.1;
+     }},
     {"/length_control/upper", [](Scene& s) { s.length_control.upper = 1.49; }},
     {"/length_control/upper", [](Scene& s) { s.length_control.upper = 2; }},
     {"/length_control/upper",
@@ -221,7 +242,7 @@ TEST(Validate, AcceptsTheExample) { EXPECT_NO_THROW(validate(example())); }
 TEST(Validate, AcceptsTheLimits) {
   Scene scene = example();
   scene.beam.elements = 2;
-  scene.length_control = {.enabled = true, .upper = 1.5, .hysteresis = 0};
+  scene.length_control = {.enabled = true, .upper = 1.5, .hysteresis = 0, .end_merge = {}};
   scene.output.configurations = {0, scene.duration};
   scene.beam.quadrature_points = 3;
   EXPECT_NO_THROW(validate(scene));

@@ -44,5 +44,18 @@ TEST(MeshMotion, NeedsTheEndsInOrder) {
   EXPECT_THROW(MeshMotion({{0, steadily(0, 0)}}), InvalidInput);
 }
 
+TEST(SmoothRamp, GrowsFromNothingToOne) {
+  EXPECT_EQ(smooth_ramp(0, 0).value, 1);
+  EXPECT_EQ(smooth_ramp(0, 2).value, 0);
+  EXPECT_EQ(smooth_ramp(2, 2).value, 1);
+  EXPECT_NEAR(smooth_ramp(0.6, 2).value, 0.126036, 1e-15);  // 0.3^4 (35 - 84 0.3 + 70 0.3^2 - 20 0.3^3)
+  EXPECT_LE(smooth_ramp(2e-3, 2).value, 35e-12);
+  EXPECT_LE(1 - smooth_ramp(2 - 2e-3, 2).value, 35e-12);
+  const double h = 1e-5;
+  const Prescribed at = smooth_ramp(0.6, 2), before = smooth_ramp(0.6 - h, 2), after = smooth_ramp(0.6 + h, 2);
+  EXPECT_NEAR(at.rate, (after.value - before.value) / (2 * h), 1e-9);
+  EXPECT_NEAR(at.acceleration, (after.rate - before.rate) / (2 * h), 1e-9);
+}
+
 }  // namespace
 }  // namespace vlbeam::test

@@ -17,7 +17,7 @@ TEST(Multipliers, GiveTheTrajectoryOfEliminatedConstraints) {
     scene.output.interval = 0.1;
     scene.integrator.type = IntegratorType::generalized_alpha;
     scene.integrator.step = 1e-3;
-    scene.integrator.newton_tolerance = 1e-13;
+    scene.integrator.newton_tolerance = 1e-12;
     const auto eliminated = simulate(scene);
     scene.constraints = Constraints::multipliers;
     const auto multipliers = simulate(scene);
@@ -59,7 +59,7 @@ TEST_P(KinkedMultipliers, TendToTheExplicitSolutionWithOrderTwo) {
       const auto exact = simulate(scene);
       EXPECT_GT(std::abs(*exact.samples.back().joint_position - 0.1), 1e-2) << "the mass must move";
       scene.integrator.type = IntegratorType::generalized_alpha;
-      scene.integrator.newton_tolerance = 1e-13;
+      scene.integrator.newton_tolerance = 1e-12;
       scene.constraints = Constraints::multipliers;
       std::array<double, 2> errors{};
       scene.integrator.step = 2.5e-4;
@@ -94,7 +94,7 @@ TEST(Multipliers, AreOfSecondOrder) {
   scene.duration = 0.2;
   scene.output.interval = 0.2;
   scene.integrator.type = IntegratorType::generalized_alpha;
-  scene.integrator.newton_tolerance = 1e-13;
+  scene.integrator.newton_tolerance = 1e-12;
   scene.constraints = Constraints::multipliers;
   std::array<Eigen::VectorXd, 4> multipliers;
   scene.integrator.step = 1e-3;
@@ -119,7 +119,7 @@ TEST(Multipliers, WorkInSpaceAndWithoutAJoint) {
   scene.duration = 0.2;
   scene.output.interval = 0.1;
   scene.integrator.type = IntegratorType::generalized_alpha;
-  scene.integrator.newton_tolerance = 1e-13;
+  scene.integrator.newton_tolerance = 1e-12;
   const auto eliminated = simulate(scene);
   scene.constraints = Constraints::multipliers;
   const auto multipliers = simulate(scene);

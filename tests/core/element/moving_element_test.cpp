@@ -138,9 +138,9 @@ TYPED_TEST(MovingElement, WithFixedEndsItIsTheFixedElement) {
     oracle.stored.x_a = this->q_[4 * D];
     oracle.stored.x_b = this->q_[4 * D + 1];
     const auto inertia = fixed_inertia(this->length(), oracle.stored.w, oracle.rule);
-    const auto force = fixed_force<StrainLaw::green, true, true, double, D>(
-        fixed_basis(this->length(), oracle.stored.w, oracle.rule), coordinates<double, D>(this->q_).e,
-        coordinates<double, D>(this->rate_).e, oracle.section);
+    const auto force = fixed_force<double, D>(fixed_basis(this->length(), oracle.stored.w, oracle.rule),
+                                              coordinates<double, D>(this->q_).e, coordinates<double, D>(this->rate_).e,
+                                              oracle.section);
     const Vec<double, D> expected[4] = {-force.r_b, force.s_a, force.r_b, force.s_b};
     for (const Formulation formulation : formulations) {
       const auto eq = this->equations(formulation, this->q_, this->rate_);

@@ -33,14 +33,14 @@ class RestCurves : public ElementUnderTest<Dimension> {
   RestCurve<dim> draw_rest_shape() {
     this->oracle_.rest = three_pieces<dim>(this->random_, this->q_);
     this->oracle_.section.curvature_regularization = regularization;
-    return {this->oracle_.rest, this->oracle_.law, regularization};
+    return {this->oracle_.rest, this->oracle_.section.stiffness.law, regularization};
   }
   MovingLaw<dim> law(Formulation formulation, const RestCurve<dim>& rest) const {
     return {this->oracle_.section, formulation, this->oracle_.transport, this->oracle_.gravity, &rest};
   }
   MovingEquations<double, dim> equations_with(const MovingLaw<dim>& law, const ElementColumn<double, dim>& rate) const {
-    return element_equations<dim>(this->oracle_.law, true, coordinates<double, dim>(this->q_),
-                                  coordinates<double, dim>(rate), this->oracle_.stored, this->oracle_.rule, law);
+    return element_equations<dim>(coordinates<double, dim>(this->q_), coordinates<double, dim>(rate),
+                                  this->oracle_.stored, this->oracle_.rule, law);
   }
 };
 TYPED_TEST_SUITE(RestCurves, Dimensions, DimensionNames);
@@ -74,7 +74,7 @@ TYPED_TEST(RestCurves, AnElementInItsRestShapeIsFreeOfStress) {
     oracle.section.curvature_regularization = this->regularization;
     oracle.gravity.setZero();
     oracle.rest = {{this->q_[4 * D], this->q_[4 * D + 1], coordinates<double, D>(this->q_).e, oracle.stored.w}};
-    const RestCurve<D> rest(oracle.rest, oracle.law, this->regularization);
+    const RestCurve<D> rest(oracle.rest, oracle.section.stiffness.law, this->regularization);
     const auto eq = this->equations_with(this->law(Formulation::variational, rest), ElementColumn<double, D>::Zero());
     for (const auto& force : eq.force) EXPECT_LE(force.norm(), 1e-13);
     EXPECT_NEAR(eq.force_a, 0, 1e-13);
@@ -94,7 +94,7 @@ TYPED_TEST(RestCurves, TangentIsTheDerivativeOfTheResidual) {
     const ShapeTabulation table(this->oracle_.rule, this->oracle_.stored.w);
     for (const Formulation formulation : formulations) {
       const auto law = this->law(formulation, rest);
-      const auto tangent = moving_tangent<MovingEnds::b, StrainLaw::green, true, D>(
+      const auto tangent = moving_tangent<MovingEnds::b, D>(
           coordinates<double, D>(state[0]), coordinates<double, D>(state[1]), coordinates<double, D>(state[2]), by_v,
           by_a, this->oracle_.stored, table, law);
       for (int j = 0; j < 4 * D + 1; ++j) {
@@ -103,8 +103,8 @@ TYPED_TEST(RestCurves, TangentIsTheDerivativeOfTheResidual) {
         auto moving = [&](std::size_t i) {
           return coordinates<Real, D>(in_motion<double, element_size<D>>(state[i], scale[i] * unit));
         };
-        const auto r = moving_residual<MovingEnds::b, StrainLaw::green, true, Real, D>(
-            moving(0), moving(1), moving(2), this->oracle_.stored, table, law);
+        const auto r =
+            moving_residual<MovingEnds::b, Real, D>(moving(0), moving(1), moving(2), this->oracle_.stored, table, law);
         Eigen::Matrix<double, 4 * D + 1, 1> expected;
         for (int i = 0; i < 4; ++i) {
           expected.template segment<D>(i * D) = rate_of<double, D>(r.nodes[static_cast<std::size_t>(i)]);

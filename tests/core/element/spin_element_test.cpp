@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/element/driven_tangent.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/random.hpp"
@@ -102,9 +103,12 @@ class SpinElement : public ::testing::Test {
     a_ = random_.vector<4>();
   }
   Eigen::Vector4d residual(Formulation formulation, const SpinSection& of = section) const {
-    const auto r = spin_equations(coordinates<double>(q_), coordinates<double>(rate_), formulation, of)
-                       .residual(coordinates<double>(a_));
-    return {r[0], r[1], r[2], r[3]};
+    const auto eq = spin_equations(coordinates<double>(q_), coordinates<double>(rate_), formulation, of);
+    auto one = [](double value) -> Vec<double, 1> { return Vec<double, 1>::Constant(value); };
+    const MovingCoordinates<double, 1> a{{one(a_[0]), one(0), one(a_[1]), one(0)}, a_[2], a_[3]};
+    const auto angles = nodal_residual(eq, a);
+    const auto guiding = guiding_forces(eq, a);
+    return {angles[0][0], angles[2][0], guiding[0], guiding[1]};
   }
 
   Random random_{7};

@@ -73,8 +73,7 @@ TYPED_TEST(LengthControlOf, AForwardEventPutsANodeBehindTheJointAndTakesOneAhead
       const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport};
       const auto before = smooth_chain<D>(shape, 1.5, this->random_);
       auto after = before;
-      const auto merged =
-          segment_and_merge(after, Direction::forward, this->control(policy), StrainLaw::green, this->law(transport));
+      const auto merged = segment_and_merge(after, Direction::forward, this->control(policy), this->law(transport));
       EXPECT_EQ(after.joint, 3);
       EXPECT_EQ(after.joint_rate, before.joint_rate);
       EXPECT_EQ(after.mesh.elements(), before.mesh.elements());
@@ -97,8 +96,7 @@ TYPED_TEST(LengthControlOf, TheMotionBehindTheJointIsWhatItWas) {
   const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = WeightTransport::transported};
   const auto before = smooth_chain<D>(shape, 1.5, this->random_);
   auto after = before;
-  segment_and_merge(after, Direction::forward, this->control(MergePolicy::point_fit), StrainLaw::green,
-                    this->law(shape.transport));
+  segment_and_merge(after, Direction::forward, this->control(MergePolicy::point_fit), this->law(shape.transport));
   for (double x = before.mesh.x[0]; x < before.mesh.x[2]; x += 0.013) {
     const auto a = point_motion(before, shape.transport, x), b = point_motion(after, shape.transport, x);
     EXPECT_LE((a.r - b.r).norm(), 1e-14);
@@ -111,10 +109,9 @@ TYPED_TEST(LengthControlOf, PointFitKeepsTheDeletedNodesPlace) {
   const ChainShape shape{.elements = 6, .joint = 2};
   const auto before = smooth_chain<D>(shape, 1.5, this->random_);
   auto fitted = before, unit = before;
-  const auto merged = segment_and_merge(fitted, Direction::forward, this->control(MergePolicy::point_fit),
-                                        StrainLaw::green, this->law(shape.transport));
-  segment_and_merge(unit, Direction::forward, this->control(MergePolicy::unit), StrainLaw::green,
-                    this->law(shape.transport));
+  const auto merged =
+      segment_and_merge(fitted, Direction::forward, this->control(MergePolicy::point_fit), this->law(shape.transport));
+  segment_and_merge(unit, Direction::forward, this->control(MergePolicy::unit), this->law(shape.transport));
   ASSERT_FALSE(merged.unit_fallback);
   const Vec<double, D> deleted = position<D>(before.q.data(), 3);
   auto miss = [&](const ChainState<D>& chain) {
@@ -134,8 +131,8 @@ TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
         auto backward = reversed(forward);
         const Vec<double, D> deleted = position<D>(forward.q.data(), 3);
         const double x_deleted = forward.mesh.x[3];
-        segment_and_merge(forward, Direction::forward, this->control(policy), StrainLaw::green, this->law(transport));
-        segment_and_merge(backward, Direction::backward, this->control(policy), StrainLaw::green, this->law(transport));
+        segment_and_merge(forward, Direction::forward, this->control(policy), this->law(transport));
+        segment_and_merge(backward, Direction::backward, this->control(policy), this->law(transport));
         auto mirror = reversed(backward);
         if (policy ==
             MergePolicy::point_fit) {  // the paper's norm prefers one end: other weights through the same point
@@ -170,6 +167,76 @@ TYPED_TEST(LengthControlOf, SeparationBringsBackTheUniformMesh) {
       EXPECT_LE((tip.v - was.v).norm(), 1e-13) << "and moves with its material point";
       separate(mirror, Direction::backward, this->control(policy), transport);
       expect_same(reversed(mirror), chain, 1e-12);
+    }
+  }
+}
+
+TYPED_TEST(LengthControlOf, AnEndMergeKeepsTheMotionBehindItsCutAndThePlaceOfTheMass) {
+  constexpr int D = TypeParam::value;
+  for (const WeightTransport transport : transports) {
+    for (const MergePolicy policy : policies) {
+      const ChainShape shape{.elements = 5, .joint = 4, .rational = true, .transport = transport};
+      auto chain = smooth_chain<D>(shape, 1.6, this->random_);
+      auto mirror = reversed(chain);
+      const auto before = chain;
+      const auto merged = merge_at_end(chain, Direction::forward, this->control(policy), this->law(transport));
+      EXPECT_EQ(chain.joint, no_joint);
+      ASSERT_TRUE(chain.rider.has_value());
+      EXPECT_EQ(chain.rider->element, 4);
+      EXPECT_EQ(chain.rider->x, before.mesh.x[4]);
+      EXPECT_EQ(chain.rider->rate, before.joint_rate);
+      for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
+        EXPECT_NEAR(chain.mesh.x[k], standard * static_cast<double>(k), 1e-15);
+      }
+      for (double x = 0.01; x < 4 * standard; x += 0.03) {
+        const auto is = point_motion(chain, transport, x), was = point_motion(before, transport, x);
+        EXPECT_LE((is.r - was.r).norm(), 1e-14);
+        if (transport == WeightTransport::transported || x < 3 * standard) {
+          EXPECT_LE((is.v - was.v).norm(), 1e-13);
+        }
+      }
+      if (policy == MergePolicy::point_fit && !merged.unit_fallback) {
+        EXPECT_LE((point_motion(chain, transport, chain.rider->x).r - position<D>(before.q.data(), 4)).norm(), 1e-14);
+      }
+      merge_at_end(mirror, Direction::backward, this->control(policy), this->law(transport));
+      auto image = reversed(mirror);
+      EXPECT_EQ(image.rider->element, 4);
+      EXPECT_NEAR(image.rider->x, chain.rider->x, 1e-15);
+      EXPECT_EQ(image.rider->rate, chain.rider->rate);
+      if (policy == MergePolicy::point_fit) image.mesh.weights[4] = chain.mesh.weights[4];
+      expect_same(image, chain, 1e-12);
+    }
+  }
+}
+
+TYPED_TEST(LengthControlOf, AnEndCutKeepsTheMotionAheadAndThatOfTheMass) {
+  constexpr int D = TypeParam::value;
+  for (const WeightTransport transport : transports) {
+    for (const MergePolicy policy : policies) {
+      const ChainShape shape{.elements = 5, .rational = true, .transport = transport, .rider = 4};
+      auto chain = random_chain<D>(shape, this->random_);
+      chain.rider->x = 4.49 * standard;
+      auto mirror = reversed(chain);
+      const auto before = chain;
+      cut_at_end(chain, this->control(policy), this->law(transport));
+      EXPECT_FALSE(chain.rider.has_value());
+      EXPECT_EQ(chain.joint, 4);
+      EXPECT_EQ(chain.mesh.x[4], before.rider->x);
+      EXPECT_EQ(chain.joint_rate, before.rider->rate);
+      const auto mass = point_motion(before, transport, before.rider->x);
+      EXPECT_LE((position<D>(chain.rate.data(), 4) - mass.v - before.rider->rate * mass.r_x).norm(), 1e-13);
+      EXPECT_LE((slope<D>(chain.rate.data(), 4) - mass.v_x - before.rider->rate * mass.r_xx).norm(), 1e-12);
+      for (double x = before.rider->x + 0.001; x < 5 * standard; x += 0.01) {
+        const auto is = point_motion(chain, transport, x), was = point_motion(before, transport, x);
+        EXPECT_LE((is.r - was.r).norm(), 1e-14);
+        if (transport == WeightTransport::transported) {
+          EXPECT_LE((is.v - was.v).norm(), 1e-12);
+        }
+      }
+      cut_at_end(mirror, this->control(policy), this->law(transport));
+      auto image = reversed(mirror);
+      if (policy == MergePolicy::point_fit) image.mesh.weights[3] = chain.mesh.weights[3];
+      expect_same(image, chain, 1e-12);
     }
   }
 }

@@ -15,7 +15,7 @@ BeamModel<D> model_of(const ChainShape& shape, Random& random) {
   model.transport = shape.transport;
   model.gravity = random.vector<D>(10);
   model.length_control.standard_length = shape.element_length;
-  if (shape.joint != no_joint) model.joint = SlidingJoint{0.4, shape.slopes};
+  if (shape.joint != no_joint || shape.rider >= 0) model.joint = SlidingJoint{0.4, shape.slopes};
   return model;
 }
 
@@ -38,11 +38,7 @@ Vec<double, 3> angular_momentum(const BeamSystem<D>& system, const Eigen::Vector
       sum += weight * (x_b - x_a) * model.section.rhoA * in_space(at.r).cross(in_space(at.v));
     }
   }
-  if (system.has_joint()) {
-    sum +=
-        model.joint->mass *
-        in_space(position<D>(chain.q.data(), chain.joint)).cross(in_space(position<D>(chain.rate.data(), chain.joint)));
-  }
+  if (const auto mass = system.mass_motion(y)) sum += model.joint->mass * in_space(mass->r).cross(in_space(mass->v));
   return sum;
 }
 

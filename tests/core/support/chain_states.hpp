@@ -16,6 +16,8 @@ struct ChainShape {
   WeightTransport transport = WeightTransport::frozen;
   double element_length = 0.2;
   JointSlopes slopes = JointSlopes::continuous;
+  int rider = -1;     ///< element inside which a mass rides, the first or the last
+  bool held = false;  ///< at the end of the beam
 };
 
 /// A random slope behind the joint, and its rate, as the joint's mode allows beside the one before it.
@@ -55,6 +57,11 @@ ChainState<D> random_chain(const ChainShape& shape, Random& random) {
     slope<D>(chain.q.data(), k) = along + random.vector<D>(0.1);
     position<D>(chain.rate.data(), k) = random.vector<D>();
     slope<D>(chain.rate.data(), k) = random.vector<D>();
+  }
+  if (shape.rider >= 0) {
+    const double u = shape.held ? (shape.rider > 0 ? 1 : 0) : random.uniform(0.2, 0.8);
+    const double rate = shape.held ? 0 : random.uniform(-1, 1);
+    chain.rider = {shape.rider, shape.element_length * (shape.rider + u), rate, shape.held};
   }
   if (shape.slopes != JointSlopes::continuous) {
     chain.kink = random_kink<D>(shape.slopes, slope<D>(chain.q.data(), shape.joint),
@@ -120,6 +127,7 @@ ChainState<D> reversed(const ChainState<D>& chain) {
   }
   if (chain.joint != no_joint) result.joint = n - chain.joint;
   result.joint_rate = -chain.joint_rate;
+  if (auto& rider = result.rider) rider = {n - 1 - rider->element, sum - rider->x, -rider->rate, rider->held};
   if (chain.kink) {
     auto at_joint = slope<D>(result.q.data(), result.joint), rate_at_joint = slope<D>(result.rate.data(), result.joint);
     result.kink = {at_joint, rate_at_joint};

@@ -6,14 +6,14 @@ namespace vlbeam::test {
 
 /// The element's equations of motion, strain law and bending chosen at run time.
 template <int D>
-MovingEquations<double, D> element_equations(StrainLaw law, bool bending, const MovingCoordinates<double, D>& q,
+MovingEquations<double, D> element_equations(const MovingCoordinates<double, D>& q,
                                              const MovingCoordinates<double, D>& rate, const WeightFunction& weights,
                                              const QuadratureRule& rule, const MovingLaw<D>& moving);
 
-extern template MovingEquations<double, 2> element_equations(StrainLaw, bool, const MovingCoordinates<double, 2>&,
+extern template MovingEquations<double, 2> element_equations(const MovingCoordinates<double, 2>&,
                                                              const MovingCoordinates<double, 2>&, const WeightFunction&,
                                                              const QuadratureRule&, const MovingLaw<2>&);
-extern template MovingEquations<double, 3> element_equations(StrainLaw, bool, const MovingCoordinates<double, 3>&,
+extern template MovingEquations<double, 3> element_equations(const MovingCoordinates<double, 3>&,
                                                              const MovingCoordinates<double, 3>&, const WeightFunction&,
                                                              const QuadratureRule&, const MovingLaw<3>&);
 

@@ -43,14 +43,14 @@ struct Definitions {
   Real strain(const Vector& r_x) const {
     using std::sqrt;
     const Real g = r_x.dot(r_x);
-    return o.law == StrainLaw::green ? Real((g - Real(1)) / Real(2)) : Real(sqrt(g) - Real(1));
+    return o.section.stiffness.green() ? Real((g - Real(1)) / Real(2)) : Real(sqrt(g) - Real(1));
   }
 
   /// kappa^2, by Lagrange's identity |a x b|^2 = a.a b.b - (a.b)^2.
   Real curvature_squared(const Vector& r_x, const Vector& r_xx) const {
     const Real g = r_x.dot(r_x), h = r_x.dot(r_xx);
     const Real area = g * r_xx.dot(r_xx) - h * h;
-    return o.law == StrainLaw::green ? Real(area / (g * g * g)) : Real(area / (g * g));
+    return o.section.stiffness.green() ? Real(area / (g * g * g)) : Real(area / (g * g));
   }
 
   /// Signed in the plane, regularized in space.
@@ -59,7 +59,7 @@ struct Definitions {
     const double regularization = o.section.curvature_regularization;
     if constexpr (D == 3) return sqrt(curvature_squared(r_x, r_xx) + Real(regularization * regularization));
     const Real g = r_x.dot(r_x), area = r_x[0] * r_xx[1] - r_x[1] * r_xx[0];
-    return o.law == StrainLaw::green ? Real(area / (g * sqrt(g))) : Real(area / g);
+    return o.section.stiffness.green() ? Real(area / (g * sqrt(g))) : Real(area / g);
   }
 
   Real energy_density(const std::array<Vector, 4>& r) const {

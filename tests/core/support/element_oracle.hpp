@@ -16,7 +16,6 @@ struct ElementOracle {
   using Column = ElementColumn<double, D>;
 
   BeamSection section;
-  StrainLaw law = StrainLaw::green;
   WeightTransport transport = WeightTransport::frozen;
   WeightFunction stored;
   QuadratureRule rule;

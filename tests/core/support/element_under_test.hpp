@@ -30,8 +30,7 @@ class ElementUnderTest : public ::testing::Test {
     q_ = random_element<dim>(random_);
     rate_ = random_.vector<element_size<dim>>();
     oracle_ = {};
-    oracle_.section = {1.3, {2.1, 0.7}, 0, 0};
-    oracle_.law = kind.law;
+    oracle_.section = {1.3, {2.1, 0.7, kind.law}, 0, 0};
     oracle_.transport = kind.transport;
     oracle_.rule = gauss_legendre(5);
     oracle_.gravity = random_.vector<dim>();
@@ -45,9 +44,10 @@ class ElementUnderTest : public ::testing::Test {
 
   MovingEquations<double, dim> equations(Formulation formulation, const Column& q, const Column& rate,
                                          bool bending = true) const {
-    return element_equations<dim>(oracle_.law, bending, coordinates<double, dim>(q), coordinates<double, dim>(rate),
-                                  oracle_.stored, oracle_.rule,
-                                  {oracle_.section, formulation, oracle_.transport, oracle_.gravity});
+    BeamSection section = oracle_.section;
+    if (!bending) section.stiffness.EI = 0;
+    return element_equations<dim>(coordinates<double, dim>(q), coordinates<double, dim>(rate), oracle_.stored,
+                                  oracle_.rule, {section, formulation, oracle_.transport, oracle_.gravity});
   }
   DenseEquations<dim> dense_equations(Formulation formulation, const Column& q, const Column& rate) const {
     return dense(equations(formulation, q, rate));

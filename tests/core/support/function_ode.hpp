@@ -43,7 +43,7 @@ class FunctionOde : public EventedOde {
     if (on_event) on_event(index, y);
   }
   void sample(const Eigen::VectorXd& y, double t) override { samples.push_back({t, y}); }
-  bool proceed(double t) override { return t < interrupt_at; }
+  bool proceed(const Eigen::VectorXd& /*y*/, double t) override { return t < interrupt_at; }
 
   std::function<double(const Eigen::VectorXd&y, double t)> guard, second_guard;
   std::function<void(int index, Eigen::VectorXd& y)> on_event;

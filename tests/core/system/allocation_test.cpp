@@ -50,13 +50,17 @@ namespace {
 
 template <int D>
 void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double damping,
-                          JointSlopes slopes = JointSlopes::continuous) {
+                          JointSlopes slopes = JointSlopes::continuous, int rider = -1) {
   Random random(12);
-  const ChainShape shape{
-      .elements = 9, .joint = joint, .rational = kind.rational, .transport = kind.transport, .slopes = slopes};
+  const ChainShape shape{.elements = 9,
+                         .joint = joint,
+                         .rational = kind.rational,
+                         .transport = kind.transport,
+                         .slopes = slopes,
+                         .rider = rider};
   auto model = model_of<D>(shape, random);
-  if (slopes != JointSlopes::continuous) model.joint->friction = AxialFriction{0.2};
-  model.strain_law = kind.law;
+  if (slopes != JointSlopes::continuous || rider >= 0) model.joint->friction = AxialFriction{0.2};
+  model.section.stiffness.law = kind.law;
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
   BeamSystem<D> system(model, random_chain<D>(shape, random));
@@ -88,6 +92,10 @@ TEST(RightHandSide, AllocatesNothing) {
     for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
       expect_no_allocation<2>(kind, 4, 0, slopes);
       expect_no_allocation<3>(kind, 4, 0, slopes);
+    }
+    for (const int rider : {0, 8}) {
+      expect_no_allocation<2>(kind, no_joint, 0, JointSlopes::continuous, rider);
+      expect_no_allocation<3>(kind, no_joint, 0, JointSlopes::continuous, rider);
     }
   }
 }

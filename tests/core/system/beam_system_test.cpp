@@ -67,8 +67,8 @@ Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<
   Eigen::VectorXd Q = Eigen::VectorXd::Zero(n);
   for (int k = 0; k < chain.mesh.elements(); ++k) {
     const MovingLaw<D> law{model.section, model.formulation, model.transport, model.gravity};
-    const auto eq = dense(element_equations<D>(model.strain_law, model.section.bends(), chain.coordinates(k),
-                                               chain.rates(k), chain.mesh.weights[static_cast<std::size_t>(k)],
+    const auto eq = dense(element_equations<D>(chain.coordinates(k), chain.rates(k),
+                                               chain.mesh.weights[static_cast<std::size_t>(k)],
                                                gauss_legendre(model.quadrature_points), law));
     std::vector<int> rows;
     for (int i = 0; i < 4 * D; ++i) rows.push_back(node_size<D> * k + i);
@@ -165,7 +165,7 @@ TYPED_TEST(BeamSystemOf, AKinkedJointsAccelerationsAreThoseOfADenseSolve) {
         const ChainShape shape{
             .elements = 4, .joint = joint, .rational = kind.rational, .transport = kind.transport, .slopes = slopes};
         auto model = model_of<D>(shape, this->random_);
-        model.strain_law = kind.law;
+        model.section.stiffness.law = kind.law;
         model.start = Support<D>::pin();
         auto chain = random_chain<D>(shape, this->random_);
         hold(model, chain);
@@ -249,7 +249,7 @@ TYPED_TEST(BeamSystemOf, AccelerationsAreThoseOfTheDenseSystemForAnyElement) {
         for (const double damping : {0.0, 0.05}) {
           const ChainShape shape{.elements = 7, .joint = 3, .rational = kind.rational, .transport = kind.transport};
           auto model = model_of<TypeParam::value>(shape, this->random_);
-          model.strain_law = kind.law;
+          model.section.stiffness.law = kind.law;
           model.formulation = formulation;
           model.section.stiffness.EI = EI;
           model.section.damping = damping;
@@ -329,15 +329,6 @@ TYPED_TEST(BeamSystemOf, GravityGrowsAsItsRamp) {
   auto weightless = model;
   weightless.gravity.setZero();
   EXPECT_EQ(this->accelerations(weightless, chain), none);
-}
-
-TEST(GravityShare, IsSmoothAtBothEnds) {
-  EXPECT_EQ(gravity_share(0, 0), 1);
-  EXPECT_EQ(gravity_share(0, 2), 0);
-  EXPECT_EQ(gravity_share(2, 2), 1);
-  EXPECT_NEAR(gravity_share(0.6, 2), 0.126036, 1e-15);  // 0.3^4 (35 - 84 0.3 + 70 0.3^2 - 20 0.3^3)
-  EXPECT_LE(gravity_share(2e-3, 2), 35e-12);
-  EXPECT_LE(1 - gravity_share(2 - 2e-3, 2), 35e-12);
 }
 
 }  // namespace

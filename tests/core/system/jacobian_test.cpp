@@ -16,7 +16,9 @@ TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
   constexpr int D = TypeParam::value;
   const std::vector<ChainShape> shapes{{.elements = 4, .joint = no_joint},
                                        {.elements = 5, .joint = 2, .rational = true},
-                                       {.elements = 5, .joint = 1, .transport = WeightTransport::transported}};
+                                       {.elements = 5, .joint = 1, .transport = WeightTransport::transported},
+                                       {.elements = 4, .rational = true, .rider = 3},
+                                       {.elements = 4, .rider = 0, .held = true}};
   unsigned seed = 21;
   for (const auto& shape : shapes) {
     for (const double damping : {0.0, 0.01}) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace vlbeam {
+
+/// What a coordinate is. Each kind has a norm of its own, so that no metre is compared with a radian.
+enum class Field {
+  position,          ///< [m]
+  slope,             ///< [-]
+  mark,              ///< material coordinate of a joint [m]
+  mass,              ///< position of a mass that has left the beam [m]
+  angle,             ///< [rad]
+  twist,             ///< [rad/m]
+  multiplier,        ///< of constraints on positions
+  slope_multiplier,  ///< of constraints on slopes
+};
+inline constexpr std::size_t field_count = 8;
+
+/// Coordinates of one kind: `count` groups of `width`, the first at `first`, each `stride` behind the last.
+struct FieldRun {
+  Field field;
+  Eigen::Index first, width = 1, stride = 1, count = 1;
+};
+
+using FieldNorms = std::array<double, field_count>;
+
+/// Calls f(run, index) for each coordinate of the runs.
+template <class Function>
+void for_each_coordinate(const std::vector<FieldRun>& runs, const Function& f) {
+  for (const FieldRun& run : runs) {
+    for (Eigen::Index k = 0, at = run.first; k < run.count; ++k, at += run.stride) {
+      for (Eigen::Index i = at; i < at + run.width; ++i) f(run.field, i);
+    }
+  }
+}
+
+/// Largest magnitude of each kind, of finite entries.
+inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::VectorXd& x) {
+  FieldNorms norms{};
+  for (const FieldRun& run : runs) {
+    double largest = norms[static_cast<std::size_t>(run.field)];
+    const double* at = x.data() + run.first;
+    for (Eigen::Index k = 0; k < run.count; ++k, at += run.stride) {
+      for (Eigen::Index i = 0; i < run.width; ++i) {
+        const double size = std::abs(at[i]);
+        largest = size > largest ? size : largest;
+      }
+    }
+    norms[static_cast<std::size_t>(run.field)] = largest;
+  }
+  return norms;
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "core/scene/result.hpp"
+#include "core/scene/scene.hpp"
+
+namespace vlbeam {
+
+/// Bound of the beam's angular frequencies at t = 0 [rad/s]: the largest of one element of mean length with free ends,
+/// along the axis sqrt(170.1 EA/rhoA)/l, or in bending sqrt(8400 EI/rhoA)/l^2, by consistent masses.
+double largest_frequency(const Scene& scene);
+
+/// What `"integrator": "auto"` stands for: "generalized-alpha" where at least 20 of the steps that stability leaves to
+/// "dopri5" go into one of its own, as long as IntegratorSpec has it by default, or into the duration if that is
+/// shorter; else, or where the scene has what it cannot do, "dopri5".
+IntegratorSpec automatic_integrator(const Scene& scene);
+
+/// Where an explicit run has taken many steps, and stability, not accuracy, made them as short as they are.
+std::optional<Warning> stability_warning(const Scene& scene, const RunResult& result);
+
+}  // namespace vlbeam

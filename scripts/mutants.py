@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Puts single mistakes into a copy of the code, one at a time, and records which test or gate notices.
+
+    scripts/mutants.py [NAME ...] [--jobs N]   run those of tests/mutants/mutants.json that have no result yet
+    scripts/mutants.py --check                 only see whether each mistake can still be put in
+
+A mistake is looked for first by the tests it names, then by all tests, then by the gates of profile ci, then by those
+of profile full. Results are kept in build-mutants/results.json until the mistake or the code changes; the table goes to
+tests/mutants/README.md. Ends with 1 if a mistake goes unnoticed.
+"""
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+root = pathlib.Path(__file__).resolve().parent.parent
+work = root / "build-mutants"
+source, build = work / "source", work / "build"
+folders = ("bench", "core", "reference", "scripts", "studies", "tests")
+hang = 900  # [s] for one stage: a mutant may never end
+
+head = """# Mutants
+
+Single mistakes in the code, each put into a copy of it, and the first test or gate that notices. Written by
+`make mutants`. "ci": what every run of continuous integration executes.
+
+| mistake | in | noticed by | profile |
+|---|---|---|---|
+"""
+
+
+def fail(text):
+    sys.exit("mutants: " + text)
+
+
+def applied(mutant, text):
+    count = text.count(mutant["find"])
+    if count != 1:
+        fail(f'{mutant["name"]}: its text occurs {count} times in {mutant["file"]}, once is needed')
+    return text.replace(mutant["find"], mutant["replace"])
+
+
+def digest():
+    total = hashlib.sha256()
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.is_file() and path.suffix in (".cpp", ".hpp", ".json", ".txt", ".sh", ".cmake", ".py"):
+                if path.parent.name != "mutants":
+                    total.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+    return total.hexdigest()
+
+
+def copy_code():
+    """Touches only what differs, so that little is compiled again."""
+    tree = {path.relative_to(root) for folder in folders for path in (root / folder).rglob("*") if path.is_file()}
+    tree |= {pathlib.Path("CMakeLists.txt"), pathlib.Path("LICENSE")}
+    for path in tree:
+        there, here = source / path, root / path
+        if not there.exists() or there.read_bytes() != here.read_bytes():
+            there.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(here, there)
+    for folder in folders:
+        for path in (source / folder).rglob("*"):
+            if path.is_file() and path.relative_to(source) not in tree:
+                path.unlink()
+
+
+def run(command, **options):
+    """Exit code and output; None for one that had to be stopped."""
+    try:
+        done = subprocess.run(command, cwd=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              errors="replace", timeout=hang, **options)
+        return done.returncode, done.stdout
+    except subprocess.TimeoutExpired:
+        return None, ""
+
+
+def compile_targets(targets, jobs):
+    code, output = run(["cmake", "--build", build, "--parallel", str(jobs), "--target", *targets])
+    if code != 0:
+        print(output[-3000:])
+    return code == 0
+
+
+def failed_tests(output):
+    names = re.findall(r"\[  FAILED  \] (\S+?)(?:,.*)? \(\d+ ms\)", output)
+    return list(dict.fromkeys(name for name in names))
+
+
+def by_tests(mutant, jobs):
+    if not compile_targets(mutant["tests"], jobs):
+        return {"by": "nothing: it does not compile", "caught": False}
+    for target in mutant["tests"]:
+        code, output = run([build / "tests" / "core" / target])
+        if code != 0:
+            return found(failed_tests(output) or [target + (" (never ends)" if code is None else " (crashes)")], "ci")
+    if not compile_targets(["all"], jobs):
+        return {"by": "nothing: it does not compile", "caught": False}
+    code, output = run(["ctest", "--test-dir", build, "--parallel", str(jobs), "--timeout", "300"])
+    if code != 0:
+        return found(re.findall(r"^\s+\d+ - (\S+) \(", output, re.M) or ["the tests never end"], "ci")
+    return None
+
+
+def by_gates(profile, jobs):
+    out = work / ("reports-" + profile)
+    shutil.rmtree(out, ignore_errors=True)
+    link = source / "build"
+    if not link.exists():
+        link.symlink_to(build)
+    code, output = run(["scripts/studies.sh", "run", profile, out, str(jobs)])
+    failed = re.findall(r"FAILED\s+(.*)", output)
+    if code != 0:
+        return found([line.strip()[:80] for line in failed] or ["a study does not end"], profile)
+    return None
+
+
+def found(names, profile):
+    text = f"`{names[0]}`" + (f" and {len(names) - 1} more" if len(names) > 1 else "")
+    return {"by": text, "caught": True, "profile": profile}
+
+
+def table(mutants, results):
+    lines = []
+    for mutant in mutants:
+        result = results.get(mutant["name"])
+        if result is None:
+            continue
+        lines.append(f'| {mutant["mistake"]} | `{mutant["file"]}` | {result["by"]} | {result.get("profile", "")} |\n')
+    caught = sum(results[m["name"]]["caught"] for m in mutants if m["name"] in results)
+    (root / "tests" / "mutants" / "README.md").write_text(
+        head + "".join(lines) + f"\n{caught} of {len(lines)} are noticed.\n")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    choice = parser.parse_args()
+    mutants = json.loads((root / "tests" / "mutants" / "mutants.json").read_text())
+    for mutant in mutants:
+        applied(mutant, (root / mutant["file"]).read_text())
+    if choice.check:
+        return 0
+    if unknown := set(choice.names) - {m["name"] for m in mutants}:
+        fail("no mutant " + ", ".join(sorted(unknown)))
+
+    source.mkdir(parents=True, exist_ok=True)
+    copy_code()
+    if run(["cmake", "-S", source, "-B", build, "-DCMAKE_BUILD_TYPE=Release", *os.environ.get("CMAKE_ARGS", "").split()])[0]:
+        fail("the copy cannot be configured")
+
+    kept = work / "results.json"
+    results = json.loads(kept.read_text()) if kept.exists() else {}
+    code_is = digest()
+    results = {name: result for name, result in results.items() if result["code"] == code_is}
+    for mutant in mutants:
+        name = mutant["name"]
+        if choice.names and name not in choice.names:
+            continue
+        old = results.get(name)
+        if old and old["mutant"] == mutant:
+            continue
+        print(f"{name}: {mutant['mistake']} ...", end=" ", flush=True)
+        path = source / mutant["file"]
+        right = path.read_text()
+        try:
+            path.write_text(applied(mutant, right))
+            result = by_tests(mutant, choice.jobs) or by_gates("ci", choice.jobs) or by_gates("full", choice.jobs)
+        finally:
+            path.write_text(right)
+        result = result or {"by": "nothing", "caught": False}
+        results[name] = dict(result, code=code_is, mutant=mutant)
+        kept.write_text(json.dumps(results, indent=1))
+        print(result["by"], flush=True)
+        table(mutants, results)
+    table(mutants, results)
+    unnoticed = [name for name, result in results.items() if not result["caught"]]
+    if unnoticed:
+        print("unnoticed:", ", ".join(unnoticed))
+    return 1 if unnoticed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

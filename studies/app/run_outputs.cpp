@@ -1,0 +1,71 @@
+#include "studies/app/run_outputs.hpp"
+
+#include <array>
+#include <fstream>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "core/scene/names.hpp"
+#include "studies/harness/messages.hpp"
+
+namespace vlbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool ended_well(RunStatus status) { return status == RunStatus::completed || status == RunStatus::separated; }
+
+/// Whether a file holds something that a run which did not end well must not replace.
+bool holds_a_result(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error) || fs::is_empty(file, error)) return false;
+  std::array<char, 200> head{};  // a report opens with its status
+  std::ifstream(file, std::ios::binary).read(head.data(), head.size() - 1);
+  const std::string text = head.data();
+  for (const RunStatus status : {RunStatus::failed, RunStatus::interrupted}) {
+    if (text.find("\"status\": \"" + std::string(to_string(status)) + "\"") != std::string::npos) return false;
+  }
+  return true;
+}
+
+fs::path beside(const fs::path& file, RunStatus status) {
+  return file.parent_path() / (file.stem().string() + "." + std::string(to_string(status)) + file.extension().string());
+}
+
+}  // namespace
+
+RunOutputs::RunOutputs(const std::string& scene, const std::string& report, const std::string& csv, bool force)
+    : force_(force) {
+  const fs::path in = scene == "-" ? "/dev/stdin" : scene;
+  const auto out = [](const std::string& name) { return fs::path(name == "-" ? "/dev/stdout" : name); };
+  for (const auto& [option, name] : {std::pair{"--report", report}, std::pair{"--csv", csv}}) {
+    if (name.empty()) continue;
+    check_writable(option, name);
+    bool replaces_scene = same_file(in, out(name));
+    for (const RunStatus status : {RunStatus::failed, RunStatus::interrupted}) {
+      replaces_scene = replaces_scene || (name != "-" && !force && same_file(in, beside(name, status)));
+    }
+    if (replaces_scene) throw InvalidInput(option, "\"" + name + "\"", "it must not be the scene: give another name");
+  }
+  if (!report.empty() && !csv.empty() && same_file(out(report), out(csv))) {
+    throw InvalidInput("--csv", "\"" + csv + "\"", "it must not be the same as --report: give another name");
+  }
+}
+
+void RunOutputs::write(const std::string& name, RunStatus status, const std::function<void(const TextSink&)>& content) {
+  if (name.empty()) return;
+  fs::path file = name;
+  if (name != "-" && !force_ && !ended_well(status) && holds_a_result(file)) file = beside(file, status);
+  try {
+    write_file(file, content);
+    if (file != name) {
+      written_.push_back(file.string() + "; " + name + " holds an earlier result and stays (--force replaces it)");
+    } else if (name != "-") {
+      written_.push_back(name);
+    }
+  } catch (const std::exception& error) {
+    problems_.push_back(explained(error));
+  }
+}
+
+}  // namespace vlbeam

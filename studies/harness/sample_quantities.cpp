@@ -1,0 +1,246 @@
+#include "studies/harness/sample_quantities.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "core/scene/build_flow.hpp"
+
+namespace vlbeam {
+namespace {
+
+using Columns = std::vector<std::string>;
+
+/// Collects the quantities of one scene.
+class Quantities {
+ public:
+  explicit Quantities(int dimension) : d_(static_cast<std::size_t>(dimension)) {}
+
+  std::vector<SampleQuantity> take() { return std::move(list_); }
+
+  void part(const std::string& path) { list_.push_back({path, {}, "", "", SampleShape::number, 1, {}}); }
+
+  /// `of(sample)` is a number or an optional one.
+  template <class Of>
+  void number(const std::string& path, const std::string& column, const std::string& unit,
+              const std::string& description, const Of& of) {
+    list_.push_back({path, {column}, unit, description, SampleShape::number, 1, [of](const Sample& s, double* out) {
+                       return store(of(s), out);
+                     }});
+  }
+
+  /// `of(sample)` is a point, an optional one, or a pointer to one; its first components count.
+  template <class Of>
+  void vector(const std::string& path, const std::string& stem, const std::string& unit, const std::string& description,
+              const Of& of) {
+    static constexpr std::array axes{"_x", "_y", "_z"};
+    Columns columns;
+    for (std::size_t i = 0; i < d_; ++i) columns.push_back(stem + axes[i]);
+    list_.push_back(
+        {path, columns, unit, description, SampleShape::vector, d_, [of, d = d_](const Sample& s, double* out) {
+           const auto point = of(s);
+           if constexpr (!std::is_same_v<decltype(point), const Point>) {
+             if (!point) return false;
+             std::copy_n(point->begin(), d, out);
+           } else {
+             std::copy_n(point.begin(), d, out);
+           }
+           return true;
+         }});
+  }
+
+  /// `of(sample, out)` writes numbers, which form one vector or several of the scene's dimension.
+  template <class Of>
+  void list(const std::string& path, const Columns& columns, const std::string& unit, const std::string& description,
+            SampleShape shape, const Of& of) {
+    const std::size_t dimension = shape == SampleShape::vector ? columns.size() : d_;
+    list_.push_back({path, columns, unit, description, shape, dimension, [of](const Sample& s, double* out) {
+                       of(s, out);
+                       return true;
+                     }});
+  }
+
+  void reaction(const std::string& at, const std::string& of_what,
+                const std::function<const Reaction&(const Sample&)>& of) {
+    vector("reactions/" + at + "/position", "reaction_" + at, "N", "force of " + of_what + " on the beam",
+           [of](const Sample& s) -> Point { return of(s).position; });
+    vector("reactions/" + at + "/slope", "reaction_" + at + "_slope", "N m",
+           "generalized force of " + of_what + " on the beam's slope: of a moment M across it, M x r_x/|r_x|^2",
+           [of](const Sample& s) -> Point { return of(s).slope; });
+  }
+
+  std::size_t dimension() const { return d_; }
+
+ private:
+  static bool store(double value, double* out) {
+    *out = value;
+    return true;
+  }
+  static bool store(const std::optional<double>& value, double* out) {
+    if (value) *out = *value;
+    return value.has_value();
+  }
+
+  std::size_t d_;
+  std::vector<SampleQuantity> list_;
+};
+
+void add_energy(Quantities& q, const Scene& scene) {
+  const auto energy = [&q](const char* name, const std::string& description, double (*of)(const Sample&)) {
+    q.number(std::string("energy/") + name, std::string("energy_") + name, "J", description, of);
+  };
+  energy("kinetic", "kinetic energy", [](const Sample& s) { return s.energy.kinetic; });
+  energy("axial", "strain energy of stretching", [](const Sample& s) { return s.energy.axial; });
+  energy("bending", "strain energy of bending", [](const Sample& s) { return s.energy.bending; });
+  energy("torsion", "strain energy of torsion", [](const Sample& s) { return s.energy.torsion; });
+  energy("gravity", "potential energy of gravity as it is then", [](const Sample& s) { return s.energy.gravity; });
+  energy("dissipated", "taken by damping and friction since t = 0",
+         [](const Sample& s) { return s.energy.dissipated; });
+  if (scene.start.motion || scene.end.motion || scene.gravity_ramp > 0) {
+    energy("supplied", "work since t = 0 of supports that move and of gravity while it grows",
+           [](const Sample& s) { return s.energy.supplied; });
+  }
+  energy("total", "sum of these but `supplied`; total - supplied is what is conserved",
+         [](const Sample& s) { return s.energy.total(); });
+  energy("discrete_total",
+         "the total by the model's own quadrature points; the others are by a 25-point rule, but in "
+         "scenes with spin, flow or loads",
+         [](const Sample& s) { return s.discrete_total; });
+}
+
+void add_joint(Quantities& q) {
+  using Joint = const std::optional<JointSample>&;
+  const auto number = [&q](const char* path, const char* column, const char* unit, const char* description,
+                           double JointSample::*member) {
+    q.number(path, column, unit, description, [member](const Sample& s) -> std::optional<double> {
+      return s.joint ? std::optional((*s.joint).*member) : std::nullopt;
+    });
+  };
+  number("joint_velocity", "joint_velocity", "m/s", "rate of joint_position, x_i'", &JointSample::velocity);
+  q.vector("contact/force", "contact", "N", "force of the beam on the sliding mass, while it is on it",
+           [](const Sample& s) -> std::optional<Point> {
+             Joint joint = s.joint;
+             return joint ? std::optional(joint->force) : std::nullopt;
+           });
+  number("contact/tangential", "contact_tangential", "N",
+         "of it: along the beam, towards its end (at a kink, between both tangents); without friction what the mesh "
+         "leaves of it",
+         &JointSample::tangential);
+  number("contact/normal", "contact_normal", "N", "of it: across the beam, its magnitude", &JointSample::normal);
+}
+
+void add_strains(Quantities& q) {
+  const auto number = [&q](const char* path, const char* column, const char* unit, const char* description,
+                           double (*of)(const StrainSample&)) {
+    q.number(path, column, unit, description, [of](const Sample& s) { return of(s.strains); });
+  };
+  number("axial_strain/min", "axial_strain_min", "-", "least axial strain of the beam, as its strain law measures it",
+         [](const StrainSample& s) { return s.axial_strain[0]; });
+  number("axial_strain/max", "axial_strain_max", "-", "largest axial strain",
+         [](const StrainSample& s) { return s.axial_strain[1]; });
+  number("axial_force/min", "axial_force_min", "N", "least axial force, damping included; tension is positive",
+         [](const StrainSample& s) { return s.axial_force[0]; });
+  number("axial_force/max", "axial_force_max", "N", "largest axial force",
+         [](const StrainSample& s) { return s.axial_force[1]; });
+  number("curvature/max", "curvature_max", "1/m", "largest magnitude of curvature, from the rest shape",
+         [](const StrainSample& s) { return s.curvature; });
+}
+
+void add_reactions(Quantities& q, const Scene& scene) {
+  q.part("reactions");
+  const auto end = [&](std::size_t i, const char* name, const SupportSpec& support) {
+    if (support.type == SupportType::free) return;
+    q.reaction(name, std::string("the support at the ") + name,
+               [i](const Sample& s) -> const Reaction& { return s.reactions[i]; });
+  };
+  end(0, "start", scene.start);
+  if (scene.flow) {
+    std::size_t i = 0;
+    for (const FlowSpec::Guide& guide : scene.flow->nodes) {
+      if (guide.support == SupportType::free) continue;
+      q.reaction("node_" + std::to_string(guide.node), "the support of this inner node",
+                 [k = i++](const Sample& s) -> const Reaction& { return s.flow->supports[k]; });
+    }
+  }
+  end(1, "end", scene.end);
+}
+
+void add_flow(Quantities& q, const Scene& scene) {
+  q.number("flow/mass", "mass", "kg", "of the beam between its end nodes",
+           [](const Sample& s) { return s.flow->mass; });
+  if (scene.spin) {
+    q.list("flow/end_angles", {"angle_start", "angle_end"}, "rad",
+           "angle of the section at the first and the last node", SampleShape::vector,
+           [](const Sample& s, double* out) { std::ranges::copy(*s.flow->end_angles, out); });
+    q.number("flow/spin_momentum", "spin_momentum", "kg m^2/s", "angular momentum of the spin about the axis",
+             [](const Sample& s) { return s.flow->spin_momentum; });
+    Columns drives;
+    for (const auto& drive : scene.spin->drives) drives.push_back("torque_node_" + std::to_string(drive.node));
+    if (!drives.empty()) {
+      q.list("flow/drive_torques", drives, "N m", "torque about the axis of each drive of the angle, on the beam",
+             SampleShape::vector, [](const Sample& s, double* out) { std::ranges::copy(s.flow->torques, out); });
+    }
+  }
+  static constexpr std::array axes{"_x", "_y", "_z"};
+  Columns loads;
+  const auto concentrated =
+      std::ranges::count_if(scene.loads, [](const LoadSpec& load) { return load.at != LoadPlace::beam; });
+  for (std::ptrdiff_t k = 0; k < concentrated; ++k) {
+    for (std::size_t i = 0; i < q.dimension(); ++i) loads.push_back("load" + std::to_string(k) + axes[i]);
+  }
+  if (concentrated > 0) {
+    q.list("flow/loads", loads, "m", "where the concentrated loads are", SampleShape::vectors,
+           [d = q.dimension()](const Sample& s, double* out) {
+             for (const Point& load : s.flow->loads) out = std::copy_n(load.begin(), d, out);
+           });
+  }
+  if (!keeps_ledger(scene)) return;
+  using Ledger = FlowSample::Ledger;
+  const auto entry = [&q](const char* name, const char* unit, const char* description, double Ledger::*member) {
+    q.number(std::string("flow/ledger/") + name, std::string("ledger_") + name, unit, description,
+             [member](const Sample& s) { return (*s.flow->ledger).*member; });
+  };
+  entry("mass", "kg", "in through the ends since t = 0", &Ledger::mass);
+  entry("ends", "J", "in through the ends with the matter, and from supports and drives, since t = 0", &Ledger::ends);
+  entry("loads", "J", "work of the loads since t = 0", &Ledger::loads);
+  entry("mesh", "J", "work of moving inner nodes along the beam since t = 0: discretisation error only", &Ledger::mesh);
+}
+
+}  // namespace
+
+std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
+  Quantities q(scene.dimension);
+  q.number("t", "t", "s", "time", [](const Sample& s) { return s.t; });
+  q.number("joint_position", "joint_position", "m",
+           "material coordinate x_i of the sliding mass; null once it has left the beam, or without one",
+           [](const Sample& s) { return s.joint_position; });
+  q.vector("mass_position", "mass", "m", "position of the sliding mass; null without one",
+           [](const Sample& s) { return s.mass_position; });
+  q.vector("end", "end", "m", "position of the beam's last node", [](const Sample& s) -> Point { return s.end; });
+  q.number("beam_length", "beam_length", "m", "arc length of the deformed beam",
+           [](const Sample& s) { return s.beam_length; });
+  q.number("beam_length_rate", "beam_length_rate", "m/s", "its rate",
+           [](const Sample& s) { return s.beam_length_rate; });
+  add_energy(q, scene);
+  q.vector("momentum", "momentum", "kg m/s", "linear momentum of beam and mass",
+           [](const Sample& s) -> Point { return s.momentum; });
+  const std::string angular =
+      "angular momentum of beam and mass about the origin, without spin about the axis; in the plane its one "
+      "component";
+  if (scene.dimension == 2) {
+    q.list("angular_momentum", {"angular_momentum"}, "kg m^2/s", angular, SampleShape::vector,
+           [](const Sample& s, double* out) { *out = s.angular_momentum[2]; });
+  } else {
+    q.vector("angular_momentum", "angular_momentum", "kg m^2/s", angular,
+             [](const Sample& s) -> Point { return s.angular_momentum; });
+  }
+  if (scene.sliding_mass) add_joint(q);
+  add_strains(q);
+  add_reactions(q, scene);
+  if (flows(scene)) add_flow(q, scene);
+  return q.take();
+}
+
+}  // namespace vlbeam

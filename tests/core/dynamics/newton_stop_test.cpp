@@ -1,0 +1,144 @@
+#include "core/dynamics/newton_stop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/simulate.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+Eigen::VectorXd entries(double position, double angle) { return Eigen::Vector2d(position, angle); }
+
+NewtonStop two_fields() {
+  NewtonStop stop;
+  stop.set_fields({{Field::position, 0}, {Field::angle, 1}});
+  stop.begin_step();
+  return stop;
+}
+
+constexpr double slow = 0.2;
+
+TEST(NewtonStop, JudgesTheErrorThatIsLeftNotTheCorrection) {
+  using Verdict = NewtonStop::Verdict;
+  NewtonStop stop = two_fields();
+  EXPECT_EQ(stop.judge(entries(1e-13, 0), entries(1e-13, 0), 1e-8, slow), Verdict::go_on);  // small, and all there is
+  EXPECT_EQ(stop.judge(entries(1e-15, 0), entries(1e-13, 0), 1e-8, slow), Verdict::go_on);
+  EXPECT_EQ(stop.judge(entries(1e-17, 0), entries(1e-13, 0), 1.1e-6, slow), Verdict::done);  // 1e-4 times 1e-2
+}
+
+TEST(NewtonStop, GivesEachFieldItsOwnNorm) {
+  NewtonStop stop = two_fields();
+  stop.judge(entries(1, 1e-9), entries(1, 1e-9), 1e-8, slow);
+  EXPECT_EQ(stop.judge(entries(1e-12, 1e-10), entries(1, 1e-9), 1e-8, slow), NewtonStop::Verdict::go_on);
+  EXPECT_DOUBLE_EQ(stop.error(), 0.1);
+  EXPECT_DOUBLE_EQ(stop.contraction(), 0.1);
+}
+
+TEST(NewtonStop, EndsAtMeasuredRounding) {
+  NewtonStop stop = two_fields();
+  stop.judge(entries(1e-3, 0), entries(1e-3, 0), 1e-14, slow);
+  stop.judge(entries(1e-15, 0), entries(1e-3, 0), 1e-30, slow);
+  EXPECT_EQ(stop.judge(entries(9e-16, 0), entries(1e-3, 0), 1e-14, slow), NewtonStop::Verdict::stagnates);
+  stop.set_noise(entries(1e-16, 0), entries(1, 0));
+  EXPECT_TRUE(stop.settle());
+  stop.set_noise(entries(1e-20, 0), entries(1, 0));
+  EXPECT_FALSE(stop.settle());
+}
+
+TEST(NewtonStop, TakesNoLargeCorrectionForRounding) {
+  NewtonStop stop = two_fields();
+  stop.judge(entries(10, 0), entries(10, 0), 1e-8, slow);
+  EXPECT_EQ(stop.judge(entries(9, 0), entries(10, 0), 1e-8, slow), NewtonStop::Verdict::stagnates);
+  EXPECT_FALSE(stop.negligible(entries(1, 0)));
+  stop.set_noise(entries(100, 0), entries(1, 0));
+  EXPECT_FALSE(stop.settle());
+}
+
+TEST(NewtonStop, OnlyCorrectionsAboveRoundingGrow) {
+  NewtonStop stop = two_fields();
+  stop.judge(entries(1, 1e-16), entries(1, 1e-16), 1e-8, slow);
+  stop.judge(entries(0.1, 2e-16), entries(1, 1e-16), 1e-8, slow);
+  EXPECT_FALSE(stop.grows(0.5, entries(1, 1)));
+  stop.judge(entries(0.06, 2e-16), entries(1, 1e-16), 1e-8, slow);
+  EXPECT_TRUE(stop.grows(0.5, entries(1, 1)));
+  EXPECT_FALSE(stop.grows(1, entries(1, 1)));
+}
+
+TEST(NewtonStop, IsDoneAtRest) {
+  NewtonStop stop = two_fields();
+  EXPECT_EQ(stop.judge(entries(0, 0), entries(0, 0), 1e-8, slow), NewtonStop::Verdict::done);
+}
+
+/// A load that travels along a spinning shaft and turns about it.
+Scene shaft(double duration, double step, NewtonKind newton) {
+  Scene scene;
+  scene.dimension = 3;
+  scene.gravity = {};
+  scene.beam.curve.end = {0, 0, 1};
+  scene.beam.elements = 8;
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.material.density = 7800;
+  scene.beam.material.youngs_modulus = 2.1e11;
+  scene.start.type = SupportType::pin;
+  scene.end.type = SupportType::slide;
+  scene.spin.emplace().drives = {{0, {.rate = 300}}};
+  scene.flow.emplace().nodes = {{0, {}}, {4, {.value = 0.01, .rate = 20}}, {8, {.value = 1}}};
+  scene.loads = {{.node = 4, .x = {}, .magnitude = {.value = 10}, .direction = {1, 0, 0}, .turn = {.rate = 60}}};
+  scene.duration = duration;
+  scene.output.interval = duration;
+  scene.output.configurations = {duration};
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = step;
+  scene.integrator.newton = newton;
+  return scene;
+}
+
+/// Largest difference of the deflections at the end over the largest deflection.
+double difference(const RunResult& a, const RunResult& b) {
+  double largest = 0, size = 0;
+  for (std::size_t k = 0; k < a.configurations.back().r.size(); ++k) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double there = b.configurations.back().r[k][c];
+      largest = std::max(largest, std::abs(a.configurations.back().r[k][c] - there));
+      size = std::max(size, std::abs(there));
+    }
+  }
+  return largest / size;
+}
+
+TEST(ModifiedNewton, IsFullNewtonAtEveryStep) {
+  const std::array<std::array<double, 2>, 4> runs{{{0.045, 1e-3}, {0.045, 1e-4}, {0.01, 1e-5}, {0.001, 1e-6}}};
+  for (const auto& [duration, step] : runs) {
+    const RunResult modified = simulate(shaft(duration, step, NewtonKind::modified));
+    const RunResult full = simulate(shaft(duration, step, NewtonKind::full));
+    ASSERT_EQ(modified.status, RunStatus::completed) << modified.failure;
+    ASSERT_EQ(full.status, RunStatus::completed) << full.failure;
+    EXPECT_EQ(modified.solver.steps, full.solver.steps) << step;
+    EXPECT_LE(difference(modified, full), 1e-7) << step;
+  }
+}
+
+TEST(ModifiedNewton, StopsAtRoundingWhateverIsAskedFor) {
+  Scene scene = shaft(0.002, 1e-5, NewtonKind::modified);
+  scene.integrator.newton_tolerance = 1e-15;
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  EXPECT_EQ(result.solver.rejected, 0u);
+  EXPECT_LT(result.solver.newton.iterations, 12 * result.solver.steps);
+}
+
+TEST(ModifiedNewton, RestsWithFewIterations) {
+  Scene scene;
+  scene.gravity = {};
+  scene.start.type = SupportType::clamp;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  EXPECT_EQ(result.solver.rejected, 0u);
+  EXPECT_LE(result.solver.newton.iterations, 3 * result.solver.steps);
+}
+
+}  // namespace
+}  // namespace vlbeam::test

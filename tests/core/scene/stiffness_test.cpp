@@ -1,0 +1,70 @@
+#include "core/scene/stiffness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/simulate.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+Scene wire(double youngs_modulus) {
+  Scene scene;
+  scene.start.type = SupportType::clamp;
+  scene.sliding_mass = SlidingMassSpec{};
+  scene.beam.elements = 10;
+  scene.beam.material.youngs_modulus = youngs_modulus;
+  return scene;
+}
+
+constexpr double steel = 2.1e11, rubber = 2e7;
+
+bool warned(const RunResult& result) {
+  return std::ranges::any_of(
+      result.warnings, [](const Warning& warning) { return warning.kind == WarningKind::stability_limits_steps; });
+}
+
+TEST(Stiffness, FrequencyIsThatOfOneElement) {
+  // EI/(EA l^2) = (r/l)^2/4 is small: waves along the axis
+  const double speed = std::sqrt(rubber / 7200);
+  EXPECT_NEAR(largest_frequency(wire(rubber)), std::sqrt(170.1249) * speed / 0.1, 1e-3);
+  Scene thick = wire(rubber);
+  thick.beam.section.radius = 0.1;
+  EXPECT_NEAR(largest_frequency(thick), std::sqrt(8400.0) * speed * 0.05 / 0.01, 1e-2);
+}
+
+TEST(Stiffness, AutoTakesTheImplicitMethodForSteel) {
+  EXPECT_EQ(automatic_integrator(wire(steel)).type, IntegratorType::generalized_alpha);
+  EXPECT_EQ(automatic_integrator(wire(rubber)).type, IntegratorType::dopri5);
+  Scene brief = wire(steel);
+  brief.duration = 1e-6;
+  EXPECT_EQ(automatic_integrator(brief).type, IntegratorType::dopri5);
+  Scene kinked = wire(steel);
+  kinked.sliding_mass->slopes = JointSlopes::tangent;  // generalized-alpha would need multipliers
+  EXPECT_EQ(automatic_integrator(kinked).type, IntegratorType::dopri5);
+}
+
+TEST(Stiffness, ARunWarnsWhereStabilityLimitsItsSteps) {
+  Scene scene = wire(steel);
+  scene.integrator.rtol = scene.integrator.atol = 1e-5;
+  scene.duration = 0.04;
+  scene.output.interval = 0.01;
+  EXPECT_TRUE(warned(simulate(scene)));
+  scene.integrator = automatic_integrator(scene);
+  EXPECT_FALSE(warned(simulate(scene)));
+}
+
+TEST(Stiffness, ARunLimitedByAccuracyDoesNotWarn) {
+  Scene scene = wire(rubber);
+  scene.beam.elements = 20;
+  scene.integrator.rtol = scene.integrator.atol = 1e-11;
+  scene.duration = 0.2;
+  const RunResult result = simulate(scene);
+  EXPECT_GT(result.solver.steps, 1e4);
+  EXPECT_FALSE(warned(result));
+}
+
+}  // namespace
+}  // namespace vlbeam::test
