@@ -20,7 +20,8 @@ import sys
 
 root = pathlib.Path(__file__).resolve().parent.parent
 work = root / "build-mutants"
-source, build = work / "source", work / "build"
+source = work / "source"
+build = source / "build"
 folders = ("bench", "core", "reference", "scripts", "studies", "tests")
 hang = 900  # [s] for one stage: a mutant may never end
 
@@ -110,9 +111,6 @@ def by_tests(mutant, jobs):
 def by_gates(profile, jobs):
     out = work / ("reports-" + profile)
     shutil.rmtree(out, ignore_errors=True)
-    link = source / "build"
-    if not link.exists():
-        link.symlink_to(build)
     code, output = run(["scripts/studies.sh", "run", profile, out, str(jobs)])
     failed = re.findall(r"FAILED\s+(.*)", output)
     if code != 0:
