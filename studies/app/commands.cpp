@@ -1,7 +1,11 @@
 #include "studies/app/commands.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "core/error.hpp"
@@ -10,27 +14,66 @@
 #include "studies/app/registry.hpp"
 #include "studies/app/run_outputs.hpp"
 #include "studies/harness/claims.hpp"
+#include "studies/harness/converge.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/messages.hpp"
+#include "studies/harness/own_sweep.hpp"
+#include "studies/harness/plot.hpp"
 #include "studies/harness/progress.hpp"
 #include "studies/harness/provenance.hpp"
+#include "studies/harness/run_file.hpp"
 #include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "studies/harness/scene_library.hpp"
 #include "studies/harness/schema.hpp"
-#include "studies/harness/studies_folder.hpp"
+#include "studies/harness/source_folder.hpp"
+#include "studies/harness/subprocess.hpp"
+#include "studies/harness/sweep.hpp"
+#include "studies/harness/trajectory.hpp"
+#include "studies/harness/vtk.hpp"
 
 namespace vlbeam {
 namespace {
 
-/// The studies' folder; says so where it is not the one that came along with the program.
-std::filesystem::path studies_folder(const std::string& given, const std::string& study) {
-  const StudiesFolder folder = find_studies_folder(given, study + "/gates.json");
+/// A folder of the sources; says so where it is not the one that came along with the program.
+std::filesystem::path source_folder(const std::string& name, const std::string& given, const std::string& marker) {
+  const SourceFolder folder = find_source_folder(name, given, marker);
   if (folder.of_the_build) {
-    std::cerr << "vlbeam: studies are read from " << printable(folder.path.string())
-              << ", which this program was built from; --studies names another folder\n";
+    std::cerr << "vlbeam: " << name << " are read from " << printable(folder.path.string())
+              << ", which this program was built from; --" << name << " names another folder\n";
   }
   return folder.path;
+}
+
+std::filesystem::path studies_folder(const std::string& given, const std::string& study) {
+  return source_folder("studies", given, study + "/gates.json");
+}
+
+/// Scenes are only printed: where they were read is of no account.
+std::filesystem::path scenes_folder(const std::string& given) {
+  return find_source_folder("scenes", given, "falling_beam.json").path;
+}
+
+/// Throws InvalidInput where a report cannot be written, or would replace what it is made of.
+void check_result_file(const std::string& report, const std::vector<std::string>& sources) {
+  if (report.empty() || report == "-") return;
+  check_writable("--report", report);
+  for (const std::string& source : sources) {
+    if (same_file(report, source)) {
+      throw InvalidInput("--report", "\"" + report + "\"", "it must not be what is read: give another name");
+    }
+  }
+}
+
+/// Memory beyond that is an error of this process, no trouble of others.
+void limit_memory(double megabytes) {
+  const rlimit limit{static_cast<rlim_t>(megabytes * 1e6), static_cast<rlim_t>(megabytes * 1e6)};
+  if (::setrlimit(RLIMIT_AS, &limit) != 0) throw std::runtime_error("cannot limit the memory of this case");
+}
+
+int jobs_or_processors(int jobs) {
+  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace
@@ -39,8 +82,13 @@ int run_command(const RunArguments& arguments) {
   const std::string report = arguments.report.value_or(""), csv = arguments.csv.value_or("");
   if (arguments.report && report.empty()) check_writable("--report", report);
   if (arguments.csv && csv.empty()) check_writable("--csv", csv);
-  RunOutputs outputs(arguments.scene, report, csv, arguments.force);
+  RunOutputs outputs(arguments.scene, {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}},
+                     arguments.force);
   const Scene scene = read_scene(arguments.scene);
+  if ((!arguments.shape.empty() || !arguments.vtk.empty()) && scene.output.configurations.empty()) {
+    throw InvalidInput(arguments.shape.empty() ? "--vtk" : "--shape", "a scene that keeps no shapes",
+                       "list the times of some in /output/configurations");
+  }
 
   install_interrupt_handler();
   RunResult result;
@@ -60,6 +108,12 @@ int run_command(const RunArguments& arguments) {
   };
   if (report != "-") write_report();
   outputs.write(csv, result.status, [&](const TextSink& sink) { write_samples_csv(scene, result, sink); });
+  outputs.write_with(arguments.shape, result.status, [&](const std::filesystem::path& file) {
+    write_shapes_csv(scene, result.configurations, arguments.points, file);
+  });
+  if (!arguments.vtk.empty()) {
+    outputs.attempt(arguments.vtk, [&] { write_vtk(scene, result.configurations, arguments.points, arguments.vtk); });
+  }
   if (report == "-") write_report();
 
   if (!arguments.quiet) {
@@ -84,13 +138,11 @@ int study_command(const StudyArguments& arguments) {
   if (!profile) throw InvalidInput("--profile", arguments.profile, "it must be ci or full");
   std::string out = arguments.out;
   if (out.empty()) out = *profile == Profile::full ? "reports" : "build/reports-ci";
-  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-
   install_interrupt_handler();
   const StudyVerdict verdict = run_study(study, {.profile = *profile,
                                                  .out = out,
                                                  .sources = studies_folder(arguments.studies, study.name),
-                                                 .jobs = arguments.jobs > 0 ? arguments.jobs : processors,
+                                                 .jobs = jobs_or_processors(arguments.jobs),
                                                  .force = arguments.force});
   if (verdict.status == "interrupted") {
     std::cerr << "vlbeam: study " << study.name << " interrupted; nothing in " << printable(out) << " has changed\n";
@@ -160,10 +212,141 @@ int claims_command(const ClaimsArguments& arguments) {
   return failures == 0 ? done : gate_failed;
 }
 
-int list_command(bool names_only) {
+int list_command(bool names_only, const std::string& scenes) {
+  if (!names_only) std::cout << "Studies (vlbeam study NAME)\n";
   for (const Study& study : all_studies()) {
-    std::cout << study.name << (names_only ? "" : "  " + study.title) << '\n';
+    std::cout << (names_only ? "" : "  ") << study.name << (names_only ? "" : "  " + study.title) << '\n';
   }
+  if (names_only) return done;
+  std::cout << "Scenes (vlbeam scene NAME)\n";
+  for (const LibraryScene& scene : library_scenes(scenes_folder(scenes))) {
+    std::cout << "  " << scene.name << "  " << printable(scene.title) << '\n';
+  }
+  return done;
+}
+
+int scene_command(const std::string& name, const std::string& scenes) {
+  std::cout << library_scene_text(scenes_folder(scenes), name);
+  return done;
+}
+
+int converge_command(const ConvergeArguments& arguments) {
+  RunOutputs outputs(arguments.scene,
+                     {{"--report", arguments.report}, {"--csv", arguments.csv}, {"--figure", arguments.figure}}, true);
+  const Scene scene = read_scene(arguments.scene);
+  install_interrupt_handler();
+  const Convergence found = converge(scene, {.quantity = arguments.quantity,
+                                             .error = arguments.error,
+                                             .relative = arguments.relative,
+                                             .at = arguments.at,
+                                             .horizon = arguments.horizon,
+                                             .jobs = jobs_or_processors(arguments.jobs)});
+  if (interrupted()) {
+    std::cerr << "vlbeam: interrupted; nothing was written\n";
+    return interrupted_exit_code();
+  }
+  const Json report = convergence_to_json(scene, found);
+  Json whole = report;
+  whole["provenance"] = provenance();
+  Json& seconds = whole["timing"]["seconds"] = Json::array();
+  for (const ConvergeLevel& level : found.levels) seconds.push_back(level.seconds);
+  const auto status = RunStatus::completed;
+  outputs.write(arguments.csv, status, [&](const TextSink& sink) { sink(convergence_table(scene, found)); });
+  outputs.write_with(arguments.figure, status,
+                     [&](const std::filesystem::path& file) { plot_convergence(report, file); });
+  outputs.write(arguments.report, status, [&](const TextSink& sink) { sink(pretty(whole)); });
+  std::cerr << convergence_summary(scene, found);
+  for (const std::string& file : outputs.written()) std::cerr << "  written     " << printable(file) << '\n';
+  for (const std::string& problem : outputs.problems()) std::cerr << "vlbeam: " << printable(problem) << '\n';
+  if (!outputs.all_written() || std::isnan(found.answer)) return computation_failed;
+  return found.reached ? done : gate_failed;
+}
+
+int sweep_command(const SweepArguments& arguments) {
+  namespace fs = std::filesystem;
+  const fs::path out =
+      arguments.out.empty() ? fs::path(arguments.sweep).replace_extension("") : fs::path(arguments.out);
+  const SweepPlan plan = read_sweep(arguments.sweep);
+  const SweepFolder folder(out, plan, arguments.force);
+  install_interrupt_handler();
+  if (arguments.only) {
+    if (*arguments.only < 0 || static_cast<std::size_t>(*arguments.only) >= plan.cases.size()) {
+      throw InvalidInput("--case", std::to_string(*arguments.only),
+                         "this sweep has cases 0 to " + std::to_string(plan.cases.size() - 1));
+    }
+    if (arguments.memory > 0) limit_memory(arguments.memory);
+    const auto i = static_cast<std::size_t>(*arguments.only);
+    const bool well = folder.has(i) || folder.run(i);
+    if (interrupted()) return interrupted_exit_code();
+    return well ? done : computation_failed;
+  }
+  if (!arguments.collect) {
+    const std::vector<std::size_t> missing = folder.missing();
+    const std::string program = fs::read_symlink("/proc/self/exe").string();
+    run_tasks(
+        "sweep", std::vector<double>(missing.size(), 1.0), jobs_or_processors(arguments.jobs), [&](std::size_t k) {
+          // A process of its own: what becomes of it becomes of no other.
+          const std::string number = std::to_string(missing[k]);
+          const ProcessResult result = run_process({program, "sweep", arguments.sweep, "--out", out.string(), "--case",
+                                                    number, "--memory", std::to_string(arguments.memory)},
+                                                   interrupted);
+          if (folder.has(missing[k]) || interrupted()) return;
+          folder.note_crash(missing[k], result.signal != 0 ? "ended by signal " + std::to_string(result.signal)
+                                                           : "ended with " + std::to_string(result.exit_code) + " " +
+                                                                 result.error.substr(0, 500));
+        });
+    if (interrupted()) {
+      std::cerr << "vlbeam: interrupted; " << plan.cases.size() - folder.missing().size() << " of " << plan.cases.size()
+                << " cases are there: the same command goes on\n";
+      return interrupted_exit_code();
+    }
+  }
+  const std::size_t unwell = folder.collect();
+  std::cerr << plan.cases.size() << " cases, " << unwell << " did not end well\n  written         "
+            << printable((out / "sweep.csv").string()) << "\n  written         "
+            << printable((out / "sweep.json").string()) << '\n';
+  return unwell == 0 ? done : computation_failed;
+}
+
+int compare_command(const CompareArguments& arguments) {
+  if (arguments.tol && !(*arguments.tol >= 0))
+    throw InvalidInput("--tol", std::to_string(*arguments.tol), "it must be >= 0");
+  check_result_file(arguments.report, {arguments.a, arguments.b});
+  const Json comparison = compare_runs(read_run_file(arguments.a), read_run_file(arguments.b),
+                                       arguments.tol.value_or(std::numeric_limits<double>::infinity()));
+  if (!arguments.report.empty()) write_text(arguments.report, pretty(comparison));
+  if (arguments.report != "-") std::cout << printable(comparison_text(comparison), Lines::several);
+  return comparison.at("within").get<bool>() || !arguments.tol ? done : gate_failed;
+}
+
+int score_command(const ScoreArguments& arguments) {
+  check_result_file(arguments.report, {arguments.csv});
+  const auto folder =
+      find_source_folder("reference", arguments.references, "cases/falling_beam_engineering.json").path / "cases";
+  const Json score = score_trajectory(read_case(folder, arguments.name), arguments.csv, arguments.columns);
+  if (!arguments.report.empty()) write_text(arguments.report, pretty(score));
+  if (arguments.report != "-") std::cout << printable(score_text(score), Lines::several);
+  return done;
+}
+
+int plot_command(const PlotArguments& arguments) {
+  check_writable("-o", arguments.figure);
+  if (same_file(arguments.report, arguments.figure)) {
+    throw InvalidInput("-o", "\"" + arguments.figure + "\"", "it must not be the report: give another name");
+  }
+  const Json json = read_json(arguments.report);
+  if (json.is_object() && json.value("schema_version", "") == "vlbeam.converge/1") {
+    if (!arguments.what.empty() || !arguments.quantities.empty()) {
+      throw InvalidInput("--what", "\"" + arguments.what + "\"", "a report of converge has one figure: leave it out");
+    }
+    plot_convergence(json, arguments.figure);
+    return done;
+  }
+  if (!arguments.what.empty() && !arguments.quantities.empty()) {
+    throw InvalidInput("--quantity", "this option", "it draws against time by itself: leave out --what");
+  }
+  const std::string what = arguments.what.empty() && arguments.quantities.empty() ? "shape" : arguments.what;
+  plot_run(read_run_file(arguments.report), what, arguments.quantities, arguments.figure);
   return done;
 }
 
@@ -176,8 +359,12 @@ int schema_command(const std::string& of) {
     std::cout << pretty(study_schema());
   } else if (of == "gates") {
     std::cout << pretty(gates_schema());
+  } else if (of == "converge") {
+    std::cout << pretty(converge_schema());
+  } else if (of == "sweep") {
+    std::cout << pretty(sweep_schema());
   } else {
-    throw InvalidInput("schema", "\"" + of + "\"", "there are: scene, run, study, gates");
+    throw InvalidInput("schema", "\"" + of + "\"", "there are: scene, run, study, gates, converge, sweep");
   }
   return done;
 }

@@ -18,6 +18,9 @@ struct RunArguments {
   std::string scene;                  ///< "-" is standard input
   std::optional<std::string> report;  ///< "-" is standard output
   std::optional<std::string> csv;
+  std::string shape;   ///< points along the axis; empty for none
+  std::string vtk;     ///< folder of a ParaView series; empty for none
+  int points = 8;      ///< intervals an element of these
   bool force = false;  ///< a run that did not end well may replace an earlier result
   bool quiet = false;  ///< no summary on standard error
 };
@@ -43,13 +46,61 @@ struct ClaimsArguments {
   bool write = false;   ///< the documents get the numbers of the reports
 };
 
+struct ConvergeArguments {
+  std::string scene;  ///< "-" is standard input
+  std::string quantity;
+  double error = 0;
+  bool relative = false;
+  std::optional<double> at;
+  bool horizon = false;
+  std::string report, csv, figure;  ///< empty for none; "-" is standard output
+  int jobs = 0;                     ///< 0: one a processor
+};
+
+struct SweepArguments {
+  std::string sweep;
+  std::string out;          ///< empty: the sweep's name without .json
+  int jobs = 0;             ///< processes at a time; 0: one a processor
+  std::optional<int> only;  ///< the one case to run, by its number
+  bool collect = false;     ///< only join what is there
+  bool force = false;       ///< another sweep in the folder may be lost
+  double memory = 0;        ///< each case may take [MB]; 0: as much as there is
+};
+
+struct CompareArguments {
+  std::string a, b;           ///< reports of runs
+  std::optional<double> tol;  ///< [m]
+  std::string report;         ///< empty for none; "-" is standard output
+};
+
+struct ScoreArguments {
+  std::string name;  ///< of the case
+  std::string csv;
+  std::vector<std::string> columns;  ///< "ours=theirs"
+  std::string report;                ///< as of CompareArguments
+  std::string references;            ///< empty: the folder beside the program, or it was built from
+};
+
+struct PlotArguments {
+  std::string report;
+  std::string what;                     ///< empty: the shapes, or the quantities
+  std::vector<std::string> quantities;  ///< against time
+  std::string figure;
+};
+
 /// The commands of the program; each returns its exit code. They throw InvalidInput for what is not understood, before
 /// any file is written.
 int run_command(const RunArguments& arguments);
 int study_command(const StudyArguments& arguments);
 int gate_command(const GateArguments& arguments);
 int claims_command(const ClaimsArguments& arguments);
-int list_command(bool names_only);
+int list_command(bool names_only, const std::string& scenes);
+int scene_command(const std::string& name, const std::string& scenes);
+int converge_command(const ConvergeArguments& arguments);
+int sweep_command(const SweepArguments& arguments);
+int compare_command(const CompareArguments& arguments);
+int score_command(const ScoreArguments& arguments);
+int plot_command(const PlotArguments& arguments);
 int schema_command(const std::string& of);
 
 }  // namespace vlbeam

@@ -17,7 +17,8 @@ namespace {
 int dispatch(int argc, char** argv) {
   CLI::App app(
       "vlbeam: verification and convergence of variable-length beam finite elements\n"
-      "Exit codes: 0 done and gates held, 1 a gate failed, 2 bad input, 3 the computation failed or a file could not "
+      "Exit codes: 0 done and gates held, 1 a gate failed or the error wanted was not reached, 2 bad input, 3 the "
+      "computation failed or a file could not "
       "be "
       "written, 128 + n stopped by signal n (130 for Ctrl-C)");
   app.require_subcommand(1);
@@ -27,6 +28,12 @@ int dispatch(int argc, char** argv) {
   run->add_option("scene", run_arguments.scene, "Scene file; - reads standard input")->required();
   run->add_option("--report", run_arguments.report, "Write the report (JSON) here; - is standard output");
   run->add_option("--csv", run_arguments.csv, "Write the samples (CSV) here; - is standard output");
+  run->add_option("--shape", run_arguments.shape,
+                  "Write points along the axis (CSV) of the shapes kept; - is standard output");
+  run->add_option("--vtk", run_arguments.vtk, "Write the shapes kept as a ParaView series into this folder");
+  run->add_option("--points", run_arguments.points, "Intervals an element of --shape and --vtk")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   run->add_flag("--force", run_arguments.force, "A run that fails may replace an earlier result");
   run->add_flag("--quiet,-q", run_arguments.quiet, "No summary on standard error");
 
@@ -40,8 +47,71 @@ int dispatch(int argc, char** argv) {
   study->add_flag("--force", study_arguments.force, "A study that fails may replace an earlier report");
 
   bool names_only = false;
-  CLI::App* list = app.add_subcommand("list", "List the studies");
-  list->add_flag("--names", names_only, "Names only");
+  CLI::App* list = app.add_subcommand("list", "List the studies and the scenes");
+  list->add_flag("--names", names_only, "Names of the studies only");
+
+  std::string scene_name, scenes;
+  CLI::App* scene = app.add_subcommand("scene", "Print an example scene, to run or to copy");
+  scene->add_option("name", scene_name, "Name of the scene, see list")->required();
+  for (CLI::App* command : {list, scene}) {
+    command->add_option("--scenes", scenes, "Folder scenes/ (default: beside the program, else where it was built)");
+  }
+
+  vlbeam::ConvergeArguments converge_arguments;
+  CLI::App* converge =
+      app.add_subcommand("converge", "How far a number of a scene can be trusted, and what that costs");
+  converge->add_option("scene", converge_arguments.scene, "Scene file; - reads standard input")->required();
+  converge
+      ->add_option("--quantity", converge_arguments.quantity,
+                   "As samples name it: joint_position, end.y, energy.kinetic")
+      ->required();
+  converge->add_option("--error", converge_arguments.error, "Error wanted, in the quantity's unit")->required();
+  converge->add_flag("--relative", converge_arguments.relative, "The error is one of the quantity's magnitude");
+  converge->add_option("--at", converge_arguments.at, "Time [s] (default: the scene's duration)");
+  converge->add_flag("--horizon", converge_arguments.horizon, "Also until when this motion can be predicted at all");
+  converge->add_option("--report", converge_arguments.report, "Write the report (JSON) here; - is standard output");
+  converge->add_option("--csv", converge_arguments.csv, "Write the table of work and precision (CSV) here");
+  converge->add_option("--figure", converge_arguments.figure, "Draw it here (SVG or PNG)");
+  converge->add_option("--jobs,-j", converge_arguments.jobs, "Runs at a time (default: one a processor)")
+      ->check(CLI::NonNegativeNumber);
+
+  vlbeam::SweepArguments sweep_arguments;
+  CLI::App* sweep =
+      app.add_subcommand("sweep", "Run a scene for many values of its options; goes on where it was stopped");
+  sweep->add_option("sweep", sweep_arguments.sweep, "Sweep file, see schema sweep")->required();
+  sweep->add_option("--out", sweep_arguments.out,
+                    "Folder of what its cases give (default: the file's name without .json)");
+  sweep->add_option("--jobs,-j", sweep_arguments.jobs, "Processes at a time (default: one a processor)")
+      ->check(CLI::NonNegativeNumber);
+  sweep->add_option("--case", sweep_arguments.only, "Run this case only, and join nothing: for job arrays");
+  sweep->add_flag("--collect", sweep_arguments.collect, "Run nothing, join the cases that are there");
+  sweep->add_flag("--force", sweep_arguments.force, "Start anew where the folder holds another sweep");
+  sweep->add_option("--memory", sweep_arguments.memory, "What each case may take [MB] (default: no limit)")
+      ->check(CLI::NonNegativeNumber);
+
+  vlbeam::CompareArguments compare_arguments;
+  CLI::App* compare = app.add_subcommand("compare", "What differs between two runs, and how far apart they are");
+  compare->add_option("a", compare_arguments.a, "Report of a run")->required();
+  compare->add_option("b", compare_arguments.b, "Report of another")->required();
+  compare->add_option("--tol", compare_arguments.tol, "Distance of positions [m] beyond which the exit code is 1");
+  compare->add_option("--report", compare_arguments.report, "Write it (JSON) here; - is standard output");
+
+  vlbeam::ScoreArguments score_arguments;
+  CLI::App* score = app.add_subcommand("score", "The errors of another code's trajectory");
+  score->add_option("case", score_arguments.name, "Name of a case in reference/cases")->required();
+  score->add_option("trajectory", score_arguments.csv, "CSV file: t and any of the case's columns")->required();
+  score->add_option("--column", score_arguments.columns, "A column that is called otherwise: ours=theirs");
+  score->add_option("--report", score_arguments.report, "Write it (JSON) here; - is standard output");
+  score->add_option("--reference", score_arguments.references,
+                    "Folder reference/ (default: beside the program, else where it was built)");
+
+  vlbeam::PlotArguments plot_arguments;
+  CLI::App* plot = app.add_subcommand("plot", "Draw the report of a run or of converge, with gnuplot");
+  plot->add_option("report", plot_arguments.report, "Report file")->required();
+  plot->add_option("--what", plot_arguments.what,
+                   "shape (default), energy, tip, joint, strain, tension, curvature, or animation (GIF)");
+  plot->add_option("--quantity", plot_arguments.quantities, "Draw quantities of one unit against time instead");
+  plot->add_option("-o,--out", plot_arguments.figure, "Figure: a name ending in .svg, .png, or .gif")->required();
 
   vlbeam::GateArguments gate_arguments;
   CLI::App* gate = app.add_subcommand("gate", "Judge reports of studies by their gates");
@@ -62,7 +132,7 @@ int dispatch(int argc, char** argv) {
 
   std::string schema_of;
   CLI::App* schema = app.add_subcommand("schema", "Print a JSON Schema");
-  schema->add_option("of", schema_of, "scene, run, study or gates")->required();
+  schema->add_option("of", schema_of, "scene, run, study, gates, converge or sweep")->required();
 
   try {
     app.parse(argc, argv);
@@ -71,7 +141,13 @@ int dispatch(int argc, char** argv) {
   }
   if (*run) return vlbeam::run_command(run_arguments);
   if (*study) return vlbeam::study_command(study_arguments);
-  if (*list) return vlbeam::list_command(names_only);
+  if (*list) return vlbeam::list_command(names_only, scenes);
+  if (*scene) return vlbeam::scene_command(scene_name, scenes);
+  if (*converge) return vlbeam::converge_command(converge_arguments);
+  if (*sweep) return vlbeam::sweep_command(sweep_arguments);
+  if (*compare) return vlbeam::compare_command(compare_arguments);
+  if (*score) return vlbeam::score_command(score_arguments);
+  if (*plot) return vlbeam::plot_command(plot_arguments);
   if (*gate) return vlbeam::gate_command(gate_arguments);
   if (*claims) return vlbeam::claims_command(claims_arguments);
   return vlbeam::schema_command(schema_of);

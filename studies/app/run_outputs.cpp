@@ -34,11 +34,10 @@ fs::path beside(const fs::path& file, RunStatus status) {
 
 }  // namespace
 
-RunOutputs::RunOutputs(const std::string& scene, const std::string& report, const std::string& csv, bool force)
-    : force_(force) {
+RunOutputs::RunOutputs(const std::string& scene, const std::vector<Named>& files, bool force) : force_(force) {
   const fs::path in = scene == "-" ? "/dev/stdin" : scene;
   const auto out = [](const std::string& name) { return fs::path(name == "-" ? "/dev/stdout" : name); };
-  for (const auto& [option, name] : {std::pair{"--report", report}, std::pair{"--csv", csv}}) {
+  for (const auto& [option, name] : files) {
     if (name.empty()) continue;
     check_writable(option, name);
     bool replaces_scene = same_file(in, out(name));
@@ -47,22 +46,41 @@ RunOutputs::RunOutputs(const std::string& scene, const std::string& report, cons
     }
     if (replaces_scene) throw InvalidInput(option, "\"" + name + "\"", "it must not be the scene: give another name");
   }
-  if (!report.empty() && !csv.empty() && same_file(out(report), out(csv))) {
-    throw InvalidInput("--csv", "\"" + csv + "\"", "it must not be the same as --report: give another name");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (files[i].second.empty() || files[k].second.empty()) continue;
+      if (!same_file(out(files[i].second), out(files[k].second))) continue;
+      throw InvalidInput(files[i].first, "\"" + files[i].second + "\"",
+                         "it must not be the same as " + files[k].first + ": give another name");
+    }
   }
 }
 
 void RunOutputs::write(const std::string& name, RunStatus status, const std::function<void(const TextSink&)>& content) {
+  write_with(name, status, [&content](const fs::path& file) { write_file(file, content); });
+}
+
+void RunOutputs::write_with(const std::string& name, RunStatus status,
+                            const std::function<void(const fs::path&)>& write) {
   if (name.empty()) return;
   fs::path file = name;
   if (name != "-" && !force_ && !ended_well(status) && holds_a_result(file)) file = beside(file, status);
   try {
-    write_file(file, content);
+    write(file);
     if (file != name) {
       written_.push_back(file.string() + "; " + name + " holds an earlier result and stays (--force replaces it)");
     } else if (name != "-") {
       written_.push_back(name);
     }
+  } catch (const std::exception& error) {
+    problems_.push_back(explained(error));
+  }
+}
+
+void RunOutputs::attempt(const std::string& name, const std::function<void()>& write) {
+  try {
+    write();
+    written_.push_back(name);
   } catch (const std::exception& error) {
     problems_.push_back(explained(error));
   }

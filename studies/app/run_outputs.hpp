@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/result.hpp"
@@ -12,14 +14,23 @@ namespace vlbeam {
 /// The files that a run of a scene writes.
 class RunOutputs {
  public:
-  /// `report` and `csv` are empty where there is to be none. With `force` they replace whatever stands there. Throws
-  /// InvalidInput where one cannot be written, or is the other or the scene.
-  RunOutputs(const std::string& scene, const std::string& report, const std::string& csv, bool force);
+  /// An option of the command line and the name it gives, empty where there is to be no such file.
+  using Named = std::pair<std::string, std::string>;
+
+  /// With `force` files replace whatever stands there. Throws InvalidInput where one cannot be written, or is another
+  /// one or the scene.
+  RunOutputs(const std::string& scene, const std::vector<Named>& files, bool force);
 
   /// Writes one of them, given its name, empty for none. That of a run that did not end well replaces no earlier file,
   /// but a report that says the same of itself: it then stands beside it, as NAME.failed.json. What cannot be written
   /// is said, and does not keep the other from being written.
   void write(const std::string& name, RunStatus status, const std::function<void(const TextSink&)>& content);
+
+  /// The same of what writes a file by its name.
+  void write_with(const std::string& name, RunStatus status,
+                  const std::function<void(const std::filesystem::path&)>& write);
+  /// Writes what is no file of its own, like a folder of them.
+  void attempt(const std::string& name, const std::function<void()>& write);
 
   bool all_written() const { return problems_.empty(); }
   /// What became of them, a line each.

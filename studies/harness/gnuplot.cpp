@@ -2,13 +2,16 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
+#include "studies/harness/files.hpp"
 #include "studies/harness/subprocess.hpp"
 
 namespace vlbeam {
@@ -21,13 +24,37 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-bool ends_as_svg(const std::filesystem::path& file) {
-  constexpr std::string_view end = "</svg>";
+/// Whether a figure ends as a whole one of its format does.
+bool is_whole(const std::filesystem::path& file, const std::string& format) {
+  using namespace std::string_view_literals;
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (format == ".png") return text.ends_with("IEND\xae\x42\x60\x82"sv);
+  if (format == ".gif") return text.starts_with("GIF"sv) && text.ends_with(";"sv);
   const auto last = text.find_last_not_of(" \n");
-  return last != std::string::npos && std::string_view(text).substr(0, last + 1).ends_with(end);
+  return last != std::string::npos && std::string_view(text).substr(0, last + 1).ends_with("</svg>"sv);
 }
+
+/// A folder that is there as long as this is.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "vlbeam-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace
 
@@ -43,7 +70,8 @@ void draw_figure(const std::filesystem::path& script, const std::filesystem::pat
   const ProcessResult gnuplot = run_process({"gnuplot", "-e", assignments, script.string()});
 
   std::error_code error;
-  const bool drawn = ends_as_svg(temporary);  // gnuplot's exit code tells nothing of a full disk
+  const bool drawn =
+      is_whole(temporary, figure.extension().string());  // gnuplot's exit code tells nothing of a full disk
   // gnuplot takes a missing or empty data file for a warning.
   const bool skipped = gnuplot.error.find("Skipping data file") != std::string::npos;
   if (gnuplot.exit_code != 0 || !drawn || skipped) {
@@ -52,6 +80,15 @@ void draw_figure(const std::filesystem::path& script, const std::filesystem::pat
                              gnuplot.error);
   }
   fs::rename(temporary, figure);
+}
+
+void draw_figure_of(const std::string& script, const std::string& data, const std::filesystem::path& figure,
+                    GnuplotVariables variables) {
+  const ScratchFolder folder;
+  write_text(folder.path() / "figure.gp", script);
+  write_text(folder.path() / "data", data);
+  variables["data"] = (folder.path() / "data").string();
+  draw_figure(folder.path() / "figure.gp", figure, std::move(variables));
 }
 
 }  // namespace vlbeam

@@ -14,27 +14,12 @@
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
 #include "studies/harness/files.hpp"
+#include "studies/harness/nearest.hpp"
 
 namespace vlbeam {
 namespace {
 
 Json::json_pointer pointer(std::string_view text) { return Json::json_pointer(std::string(text)); }
-
-/// Letters to insert, remove, replace or swap until one word becomes the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replace});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  }
-  return d[a.size()][b.size()];
-}
 
 /// The option table as a tree of keys; its leaves are null. A list is an object whose keys are "at=start", ...: one for
 /// each entry it may have; or, if it may have any number of them, an array with one.
@@ -69,20 +54,11 @@ std::string list_key(const Json& node) {
   return equals == std::string::npos ? "" : first.substr(0, equals);
 }
 
-/// "a", "b", "c".
-std::string quoted(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text.append(text.empty() ? "\"" : ", \"").append(word).append("\"");
-  return text;
-}
-
 std::string unknown_key_hint(const std::string& key, const Json& node, const std::string& discriminator) {
   std::vector<std::string> known;
   for (const auto& item : node.items()) known.push_back(item.key());
   if (!discriminator.empty()) known.push_back(discriminator);
-  const auto distance = [&key](const std::string& candidate) { return edit_distance(key, candidate); };
-  const auto nearest = std::ranges::min_element(known, {}, distance);
-  return "the nearest known key is \"" + *nearest + "\" (known here: " + quoted(known) + ")";
+  return "the nearest known key is \"" + nearest_of(key, known) + "\" (known here: " + quoted_list(known) + ")";
 }
 
 /// A scene file whose lists are turned into objects with keys "at=start", so that the table's pointers reach
@@ -146,7 +122,7 @@ class Canonical {
     const std::string discriminator = list_key(node);
     std::vector<std::string> choices;
     for (const auto& item : node.items()) choices.push_back(item.key().substr(discriminator.size() + 1));
-    const std::string allowed = "it must be one of " + quoted(choices);
+    const std::string allowed = "it must be one of " + quoted_list(choices);
 
     Json result = Json::object();
     for (std::size_t i = 0; i < file.size(); ++i) {

@@ -6,15 +6,17 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
-namespace {
 
-/// Sets the options that `pointers` names, separated by spaces.
-void assign(Json& scene, const std::string& pointers, const Json& value) {
+void assign_option(Json& scene, const std::string& pointers, const Json& value) {
   std::istringstream words(pointers);
-  for (std::string pointer; words >> pointer;) scene[Json::json_pointer(pointer)] = value;
+  for (std::string pointer; words >> pointer;) {
+    try {
+      scene[Json::json_pointer(pointer)] = value;
+    } catch (const Json::exception&) {
+      throw InvalidInput(pointer, "this pointer", "it must lead to an option of the scene, like /beam/elements");
+    }
+  }
 }
-
-}  // namespace
 
 std::vector<SceneCase> read_scene_cases(const Json& config) {
   std::vector<SceneCase> cases;
@@ -22,14 +24,14 @@ std::vector<SceneCase> read_scene_cases(const Json& config) {
     const Json set = sweep.value("set", Json::object());
     const Json over = sweep.value("over", Json::object());
     Json first = config.at("scene");
-    for (const auto& [pointers, value] : set.items()) assign(first, pointers, value);
+    for (const auto& [pointers, value] : set.items()) assign_option(first, pointers, value);
     std::vector<Json> scenes{first};
     for (const auto& [pointers, values] : over.items()) {
       std::vector<Json> combined;
       for (const Json& scene : scenes) {
         for (const Json& value : values) {
           combined.push_back(scene);
-          assign(combined.back(), pointers, value);
+          assign_option(combined.back(), pointers, value);
         }
       }
       scenes = std::move(combined);

@@ -14,6 +14,10 @@ struct SceneCase {
   Scene scene;
 };
 
+/// Sets the options of a scene that `pointers` names by JSON pointers, separated by spaces. Throws InvalidInput where
+/// they lead nowhere.
+void assign_option(Json& scene, const std::string& pointers, const Json& value);
+
 /// The scenes that a study's data describe: {"scene": {...}, "sweeps": {"name": {"set": {pointer: value}, "over":
 /// {pointer: [values]}}}}. Each sweep starts from the scene, sets some options and takes all combinations of others; a
 /// key may hold several pointers, separated by spaces, that get the same value. Throws InvalidInput.

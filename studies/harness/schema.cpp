@@ -512,4 +512,79 @@ Json gates_schema() {
   return with_head("vlbeam gates", record({{"schema", {{"const", "vlbeam.gates/1"}}}, {"gates", array_of(gate)}}));
 }
 
+Json converge_schema() {
+  const Json flag = {{"type", "boolean"}};
+  const Json setting = {{"type", "object"},
+                        {"properties",
+                         {{"elements", whole},
+                          {"quadrature_points", whole},
+                          {"step", described(number, "of methods that do not choose it", "s")},
+                          {"rtol", described(number, "of the others; atol keeps its ratio to it", "-")}}},
+                        {"required", {"elements", "quadrature_points"}},
+                        {"additionalProperties", false}};
+  Json setting_or_null = setting;
+  setting_or_null["type"] = {"object", "null"};
+  const Json part = record({{"quantity", text},
+                            {"levels", array_of(number)},
+                            {"values", array_of(number_or_null)},
+                            {"order", described(number_or_null, "of the three finest", "-")},
+                            {"limit", described(number_or_null, "Richardson's extrapolation")},
+                            {"safety_factor", number},
+                            {"uncertainty", number_or_null},
+                            {"refusal", described(text, "why there is no order: not asymptotic")}},
+                           {"refusal"});
+  Json level = record({{"refined", choice({"mesh", "time", "quadrature"})}}, {});
+  level["properties"].update(setting.at("properties"));
+  level["properties"].update(Json{{"value", number_or_null},
+                                  {"difference", described(number_or_null, "from the answer, its magnitude")},
+                                  {"work", described(number, "evaluations times elements and quadrature points", "-")},
+                                  {"events", described(whole, "of length control, contacts and separation")},
+                                  {"failure", described(text, "why there is no value")}});
+  Json properties = {
+      {"schema_version", {{"const", "vlbeam.converge/1"}}},
+      {"title", text},
+      {"quantity", text},
+      {"unit", text},
+      {"t", described(number, "time of the answer", "s")},
+      {"error", described(number, "wanted, in the unit")},
+      {"answer", described(number_or_null, "of the finest setting, in the unit")},
+      {"uncertainty", described(number_or_null, "of the answer: of mesh, time and quadrature together")},
+      {"reached", described(flag, "whether the uncertainty is no more than the error wanted")},
+      {"reason", described(text, "why not")},
+      {"predictable_until", described(number, "the error wanted is kept until this sample", "s")},
+      {"horizon", described(number, "a density changed in its 8th digit matters less than the error until then", "s")},
+      {"setting", described(setting_or_null, "the cheapest of those run that keeps the error wanted")},
+      {"finest", described(setting, "that of the answer")},
+      {"parts",
+       {{"type", "object"},
+        {"properties", {{"mesh", part}, {"time", part}, {"quadrature", part}}},
+        {"additionalProperties", false}}},
+      {"levels", described(array_of(level), "all runs: work and precision")},
+      {"cost", record({{"runs", whole}, {"in_runs_of_the_finest", number_or_null}})},
+      {"scene", described(any_object, "in the cheapest setting, or as given where there is none")},
+      {"provenance", any_object},
+      {"timing", record({{"seconds", described(array_of(number), "of each level", "s")}})}};
+  return with_head("vlbeam convergence of a scene", record(properties, {"reason", "horizon"}));
+}
+
+Json sweep_schema() {
+  const Json range = record({{"from", number},
+                             {"to", number},
+                             {"count", {{"type", "integer"}, {"minimum", 2}, {"maximum", 1000000}}},
+                             {"spacing", choice({"linear", "logarithmic"})}},
+                            {"spacing"});
+  const Json list = {{"type", "array"}, {"minItems", 1}};
+  const Json properties = {
+      {"schema", {{"const", "vlbeam.sweep/1"}}},
+      {"title", text},
+      {"scene", described({{"type", {"object", "string"}}}, "the scene, or its file's name, beside this file")},
+      {"combine", described(choice({"product", "zip"}),
+                            "all combinations (default), or the first values of all options, "
+                            "then the second, and so on")},
+      {"over", described({{"type", "object"}, {"additionalProperties", {{"anyOf", {list, range}}}}},
+                         "JSON pointers into the scene, several separated by spaces, and their values")},
+      {"quantities", described(array_of(text), "whose last samples are kept, by the names that converge takes")}};
+  return with_head("vlbeam sweep", record(properties, {"title", "combine", "quantities"}));
+}
+
 }  // namespace vlbeam

@@ -9,5 +9,7 @@ Json scene_schema();
 Json run_schema();
 Json study_schema();
 Json gates_schema();
+Json converge_schema();
+Json sweep_schema();
 
 }  // namespace vlbeam

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <stdexcept>
 
 extern char** environ;
@@ -39,13 +40,22 @@ struct Pipe {
   int write = -1;
 };
 
-/// Reads both pipes to their ends.
-void drain(const Pipe& out, const Pipe& err, ProcessResult& result) {
+/// Reads both pipes to their ends; ends the child once `stop` says so.
+void drain(const Pipe& out, const Pipe& err, pid_t child, const std::function<bool()>& stop, ProcessResult& result) {
+  constexpr int between_questions = 100;  // ms
+  bool stopped = false;
   std::array<pollfd, 2> sources{{{out.read, POLLIN, 0}, {err.read, POLLIN, 0}}};
   const std::array<std::string*, 2> sinks{&result.output, &result.error};
   std::array<char, 4096> buffer{};
   for (int open = 2; open > 0;) {
-    if (::poll(sources.data(), sources.size(), -1) < 0 && errno != EINTR) return;
+    if (::poll(sources.data(), sources.size(), stop ? between_questions : -1) < 0) {
+      if (errno != EINTR) return;
+      continue;
+    }
+    if (stop && !stopped && stop()) {
+      stopped = true;
+      ::kill(child, SIGTERM);
+    }
     for (std::size_t i = 0; i < sources.size(); ++i) {
       if (sources[i].fd < 0 || sources[i].revents == 0) continue;
       const ssize_t count = ::read(sources[i].fd, buffer.data(), buffer.size());
@@ -61,7 +71,7 @@ void drain(const Pipe& out, const Pipe& err, ProcessResult& result) {
 
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& arguments) {
+ProcessResult run_process(const std::vector<std::string>& arguments, const std::function<bool()>& stop) {
   std::vector<std::string> owned = arguments;
   std::vector<char*> argv;
   argv.reserve(owned.size() + 1);
@@ -78,15 +88,16 @@ ProcessResult run_process(const std::vector<std::string>& arguments) {
   pid_t child = 0;
   const int spawned = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
-  if (spawned != 0) return {.exit_code = 127, .output = "", .error = "cannot start " + arguments.front()};
+  if (spawned != 0) return {.exit_code = 127, .signal = 0, .output = "", .error = "cannot start " + arguments.front()};
 
   out.close_write();
   err.close_write();
   ProcessResult result;
-  drain(out, err, result);
+  drain(out, err, child, stop, result);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
 }

@@ -31,7 +31,8 @@ def expect(validator, instance, valid, what):
         sys.exit(f"{what} should {'' if valid else 'not '}be valid: {errors}")
 
 
-scene, run, study, gates = (schema(name) for name in ("scene", "run", "study", "gates"))
+scene, run, study, gates, converge, sweep = (
+    schema(name) for name in ("scene", "run", "study", "gates", "converge", "sweep"))
 
 example = {
     "schema": "vlbeam.scene/1",
@@ -166,5 +167,29 @@ for one, valid, what in (
     ({"name": "a", "kind": "self", "reason": "b", "fit": "c", "order": order}, True, "an order of its own errors"),
 ):
     expect(gates, {"schema": "vlbeam.gates/1", "gates": [one]}, valid, what)
+
+
+def output(*arguments):
+    return subprocess.run([program, *arguments], capture_output=True, text=True).stdout
+
+
+for path in glob.glob(os.path.join(source, "scenes/*.json")):
+    with open(path) as file:
+        expect(scene, json.load(file), True, path)
+pendulum = os.path.join(source, "scenes/pendulum.json")
+for arguments in (["--error", "1e-3"], ["--error", "1e-3", "--relative", "--horizon", "--at", "0.1"], ["--error", "1e-12"]):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "c.json")
+        if arguments[1] == "1e-12":  # what is not reached has a reason: a short motion, to give up early
+            arguments += ["--at", "0.02"]
+        output("converge", pendulum, "--quantity", "end.y", "--report", path, *arguments)
+        with open(path) as file:
+            expect(converge, json.load(file), True, f"a report of converge {arguments}")
+given = {"schema": "vlbeam.sweep/1", "scene": "a.json", "over": {"/beam/elements": [1, 2]}}
+expect(sweep, given, True, "a sweep")
+expect(sweep, {**given, "over": {"/duration": {"from": 1, "to": 2, "count": 3, "spacing": "logarithmic"}}}, True, "a range")
+expect(sweep, {**given, "over": {"/duration": {"from": 1, "to": 2}}}, False, "a range without a count")
+expect(sweep, {**given, "combine": "both"}, False, "another combination")
+expect(sweep, {**given, "quantity": []}, False, "an unknown key of a sweep")
 
 print(f"{checks} checks passed")

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Writes reference/scenes.json: what the numbers of scenes/*.json should be, by closed forms, by independent programs, or
+judged by their own convergence. Needs mpmath.
+
+    scenes.py
+"""
+import json
+import os
+
+import mpmath as mp
+
+mp.mp.dps = 30
+here = os.path.dirname(os.path.abspath(__file__))
+
+
+def read(name):
+    with open(os.path.join(here, name)) as file:
+        return json.load(file)
+
+
+def scene(name):
+    return read(os.path.join("..", "scenes", name + ".json"))
+
+
+def smooth_step(s):
+    return s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3) if 0 < s < 1 else mp.mpf(s >= 1)
+
+
+def wave_at_free_end(given, speed, length, t):
+    """d'Alembert: what a rod whose one end moves as `given` does at its free end."""
+    terms = (mp.mpf(-1) ** n * given(t - (2 * n + 1) * length / speed) for n in range(20))
+    return 2 * mp.fsum(terms)
+
+
+def pulled_bar():
+    given = scene("pulled_bar")
+    motion = given["supports"][0]["motion"]
+    f = lambda t: motion["direction"][0] * motion["value"] * smooth_step(mp.mpf(t) / motion["ramp"])
+    return 1 + wave_at_free_end(f, mp.mpf(1), mp.mpf(1), given["duration"])
+
+
+def torsion():
+    given = scene("torsion")
+    drive, material = given["spin"]["drives"][0]["angle"], given["beam"]["material"]
+    shear = mp.mpf(material["youngs_modulus"]) / (2 * (1 + mp.mpf(material["poisson_ratio"])))
+    f = lambda t: drive["value"] * smooth_step(mp.mpf(t) / drive["ramp"])
+    return wave_at_free_end(f, mp.sqrt(shear / material["density"]), mp.mpf(1), given["duration"])
+
+
+def hanging_cable():
+    """EA (lambda^3 - lambda)/2 = rhoA g (L - s), the stretch of Green's law under the weight below."""
+    section = scene("hanging_cable")["beam"]["section"]
+    stretch = lambda s: mp.findroot(
+        lambda x: section["EA"] * (x**3 - x) / 2 - section["rhoA"] * mp.mpf("9.81") * (1 - s), 1)
+    return -mp.quad(stretch, [0, 1])
+
+
+def moving_force():
+    """Modes of the simply supported Euler-Bernoulli beam under a force that moves over it, at the force."""
+    given = scene("moving_force")
+    section, load = given["beam"]["section"], given["loads"][0]
+    speed, t, force = mp.mpf(load["x"]["rate"]), mp.mpf(given["duration"]), mp.mpf(load["magnitude"]["value"])
+    EI, rhoA = mp.mpf(section["EI"]), mp.mpf(section["rhoA"])
+    total = mp.mpf(0)
+    for n in range(1, 401):
+        k = n * mp.pi
+        free, forced = k**2 * mp.sqrt(EI / rhoA), k * speed
+        total += mp.sin(k * speed * t) * (mp.sin(forced * t) - forced / free * mp.sin(free * t)) / (free**2 - forced**2)
+    return -2 * force / rhoA * total
+
+
+def moving_string():
+    """Steady deflection of a tensioned beam that runs through its supports, under a force in the middle: with the stretch
+    lambda, EI/lambda^4 w'''' - (EA e - rhoA c^2) w'' = F delta, c the rate of the material coordinate."""
+    given = scene("moving_string")
+    section, material = given["beam"]["section"], given["beam"]["material"]
+    area = mp.pi * mp.mpf(section["radius"]) ** 2
+    EA, rhoA = area * material["youngs_modulus"], area * material["density"]
+    EI = EA * mp.mpf(section["radius"]) ** 2 / 4
+    stretch = mp.findroot(lambda x: EA * (x**3 - x) / 2 - given["flow"]["tension"], 1)
+    rate = given["flow"]["velocity"] / stretch
+    tension, bending, length = EA * (stretch**2 - 1) / 2 - rhoA * rate**2, EI / stretch**4, 1 / stretch
+    k, force = mp.sqrt(tension / bending), mp.mpf(given["loads"][0]["magnitude"]["value"])
+    return force * length / (4 * tension) - force / (2 * tension * k) * mp.tanh(k * length / 2)
+
+
+def rotating_load():
+    rows = read("rotating_load.json")
+    column = rows["columns"].index("load_U1")
+    row = next(row for row in rows["sets"][0]["rows"] if abs(row[0] - 0.75) < 1e-9)
+    return row[column] * 1e-4
+
+
+answers = []
+
+
+def answer(name, quantity, value, uncertainty, kind, source, t=None):
+    answers.append({"scene": name, "quantity": quantity, "t": scene(name)["duration"] if t is None else t,
+                    "value": float(mp.nstr(mp.mpf(value), 16)), "uncertainty": uncertainty, "kind": kind,
+                    "source": source})
+
+
+codes, twin = read("ale_independent_codes.json"), read("ale_independent_codes.json")["ramped_twin"]
+pendulum = read("flexible_pendulum.json")
+answer("falling_beam", "joint_position", codes["green"]["joint_position"], 5e-6, "independent",
+       "digits on which three codes agree (reference/ale_independent_codes.json)")
+answer("falling_beam_ramped", "joint_position", twin["joint_position"], 5e-11, "independent",
+       "p-version beam finite element (reference/ale_independent_codes.json)")
+answer("pendulum", "end.y", pendulum["end"][1], 5e-11, "independent",
+       "p-version beam finite element (reference/flexible_pendulum.json)")
+# What is left of the vibration: its slowest mode decays as exp(-c omega^2 t/2), omega = pi/2 sqrt(EA/rhoA), by 3e-9 in the
+# four seconds after the ramp, which leaves no more than 1e-3 m of it.
+answer("hanging_cable", "end.y", hanging_cable(), 1e-11, "exact", "stretch of Green's law under the weight below")
+answer("pulled_bar", "end.x", pulled_bar(), 1e-12, "exact", "d'Alembert's solution of the bar, linear in space")
+answer("torsion", "angle_end", torsion(), 1e-12, "exact", "d'Alembert's solution of the rod")
+answer("incline", "joint_position", mp.mpf("0.1") + mp.mpf("9.81") / 4 * mp.mpf("0.25"), 1e-7, "exact",
+       "s0 + g sin(30 deg) t^2/2 on a rigid wire; this one bends by 1e-8")
+answer("moving_force", "load0_y", moving_force(), 1e-13, "exact", "400 modes of the linear beam")
+answer("rotating_load", "load0_x", rotating_load(), 1e-10, "independent",
+       "400 modes of the linear beam (reference/shaft.py)")
+answer("moving_string", "load0_y", moving_string(), 1e-13, "exact",
+       "steady linear deflection about the stretched state")
+
+judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
+for name, quantity, value, uncertainty, t in (
+        ("suspended_beam", "joint_position", 0.1551768503, 5.7e-7, 0.2),
+        ("suspended_beam_friction", "joint_position", 0.1322521312, 2.0e-5, 0.2),
+        ("semicircle", "joint_position", 1.15767569, 1.0e-4, 0.4),
+        ("bead_on_wire", "mass_position.x", 0.4952973193, 2.0e-5, 0.4),
+        ("drill_stem", "end.x", 0.0004711695638, 4.6e-6, 0.2)):
+    answer(name, quantity, value, uncertainty, "self-convergence", judged, t)
+
+with open(os.path.join(here, "scenes.json"), "w") as file:
+    json.dump({"source": "reference/scenes.py, which names the source of each", "answers": answers}, file, indent=1)
+    file.write("\n")

@@ -1,0 +1,537 @@
+#include "studies/harness/converge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/scene/build.hpp"
+#include "core/scene/names.hpp"
+#include "core/scene/options.hpp"
+#include "core/scene/simulate.hpp"
+#include "core/scene/validate.hpp"
+#include "studies/harness/interrupt.hpp"
+#include "studies/harness/quantity.hpp"
+#include "studies/harness/scene_json.hpp"
+#include "studies/harness/sweep.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // of a value: what no refinement can show
+constexpr double mesh_order = 4;       // of displacements of cubic elements; what converges faster is not trusted to
+constexpr double step_order = 2;       // of generalized-alpha and energy-momentum
+constexpr double tolerance_order = 1;  // the global error follows the tolerance of a step
+constexpr int most_points = 20, extra_points = 2;
+constexpr double least_tolerance = 1e-13, most_steps = 1e7;
+constexpr int least_elements = 2;
+constexpr double perturbation = 1e-8;
+constexpr const char* absent = "the quantity is not there at this time";
+
+bool has_step(const Scene& scene) { return has_fixed_step(scene.integrator.type) && !scene.integrator.adaptive; }
+
+/// From one level of time to the next finer one.
+double finer(const Scene& scene, double accuracy) { return accuracy / (has_step(scene) ? 2 : 10); }
+double coarser(const Scene& scene, double accuracy) { return accuracy * (has_step(scene) ? 2 : 10); }
+
+std::string accuracy_name(const Scene& scene) { return has_step(scene) ? "step" : "rtol"; }
+
+int renumbered(int node, int from, int to, const std::string& field) {
+  const long scaled = static_cast<long>(node) * to;
+  if (scaled % from != 0) {
+    throw InvalidInput(field, std::to_string(node), "it must be a node of " + std::to_string(to) + " elements, too");
+  }
+  return static_cast<int>(scaled / from);
+}
+
+class Converger {
+ public:
+  Converger(const Scene& scene, const ConvergeOptions& options)
+      : options_(options), scene_(scene), quantity_(find_quantity(scene, options.quantity)) {
+    if (!(options.error > 0) || !std::isfinite(options.error)) {
+      throw InvalidInput("--error", number_text(options.error), "it must be a number > 0");
+    }
+    if (options.relative && options.error < rounding) too_small(options.error);
+    if (options.at) {
+      if (!(*options.at > 0) || *options.at > scene.duration) {
+        throw InvalidInput("--at", number_text(*options.at),
+                           "it must be a time in (0, " + number_text(scene.duration) + "], the scene's duration [s]");
+      }
+      scene_.duration = *options.at;
+    }
+    scene_.output.configurations.clear();
+    const Setting own = setting_of(scene_);
+    found_.quantity = quantity_.name;
+    found_.unit = quantity_.unit;
+    found_.t = scene_.duration;
+    now_ = own;
+    now_.accuracy = std::min(own.accuracy, has_step(scene_) ? scene_.duration / 40 : 1e-6);
+  }
+
+  Convergence operator()() {
+    start();
+    for (;;) {
+      estimate();
+      if (!found_.reason.empty() || found_.reached) break;
+      if (!refine()) break;
+    }
+    conclude();
+    return std::move(found_);
+  }
+
+ private:
+  [[noreturn]] void too_small(double error) const {
+    throw InvalidInput("--error", number_text(error),
+                       "no level can show it: doubles have 16 digits; ask for at least " + number_text(rounding) +
+                           " of the quantity's magnitude");
+  }
+
+  bool possible(const Setting& setting) const {
+    try {
+      with_setting(scene_, setting);
+      return setting.elements >= least_elements;
+    } catch (const InvalidInput&) {
+      return false;
+    }
+  }
+
+  ConvergeLevel run(const Setting& setting, Refined refined) const {
+    ConvergeLevel level{setting, refined, "", nan, {}, 0, 0, 0};
+    const Scene scene = with_setting(scene_, setting);
+    const RunResult result = simulate(scene, [](double) { return !interrupted(); });
+    level.work = static_cast<double>(result.solver.rhs_evaluations) * setting.elements * setting.points;
+    level.events = result.events.size();
+    for (const Sample& sample : result.samples) level.series.push_back(quantity_.of(sample));
+    if (result.status == RunStatus::failed) {
+      level.failure = result.failure;
+    } else if (result.status == RunStatus::interrupted) {
+      level.failure = "interrupted";
+    } else {
+      level.value = level.series.back();
+      if (!std::isfinite(level.value)) level.failure = absent;
+    }
+    return level;
+  }
+
+  /// Runs those of the settings that were not run yet.
+  void ensure(const std::vector<Setting>& settings, Refined refined) {
+    std::vector<Setting> missing;
+    for (const Setting& setting : settings) {
+      const bool new_one = std::ranges::find(missing, setting) == missing.end();
+      if (at(setting) == nullptr && new_one && possible(setting)) missing.push_back(setting);
+    }
+    if (missing.empty()) return;
+    const auto outcomes = sweep(
+        "converge", missing, options_.jobs, [&](const Setting& setting) { return run(setting, refined); },
+        [&](const Setting& setting) {
+          return setting.elements * setting.points / (has_step(scene_) ? setting.accuracy : 1);
+        });
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+      if (outcomes[i]) {
+        found_.levels.push_back(*outcomes[i]);
+      } else {
+        found_.levels.push_back({missing[i], refined, outcomes[i].failure, nan, {}, 0, 0, 0});
+      }
+      found_.levels.back().seconds = outcomes[i].seconds;
+      work_ += found_.levels.back().work;
+    }
+    if (interrupted()) found_.reason = "interrupted";
+  }
+
+  const ConvergeLevel* at(const Setting& setting) const {
+    const auto level = std::ranges::find(found_.levels, setting, &ConvergeLevel::setting);
+    return level == found_.levels.end() ? nullptr : &*level;
+  }
+
+  /// Settings from the current one towards coarser ones, coarse to fine, those that give a value.
+  std::vector<Setting> ladder(Refined refined, const Setting& from) const {
+    std::vector<Setting> list{from};
+    for (Setting next = from; list.size() < 6;) {
+      if (refined == Refined::mesh) {
+        if (next.elements % 2 != 0) break;
+        next.elements /= 2;
+      } else {
+        next.accuracy = coarser(scene_, next.accuracy);
+        if (next.accuracy > (has_step(scene_) ? scene_.duration / 10 : 1e-2)) break;
+      }
+      if (!possible(next)) break;
+      list.push_back(next);
+    }
+    std::ranges::reverse(list);
+    return list;
+  }
+
+  static std::vector<Setting> last(const std::vector<Setting>& list, std::size_t count) {
+    return {list.end() - static_cast<std::ptrdiff_t>(std::min(count, list.size())), list.end()};
+  }
+
+  double level_of(Refined refined, const Setting& setting) const {
+    return refined == Refined::mesh ? setting.elements : refined == Refined::time ? setting.accuracy : setting.points;
+  }
+
+  double expected_order(Refined refined) const {
+    if (refined == Refined::mesh) return mesh_order;
+    if (refined == Refined::quadrature) return 0;
+    if (!has_step(scene_)) return tolerance_order;
+    return scene_.integrator.type == IntegratorType::adams_bashforth_moulton ? 0 : step_order;
+  }
+
+  /// Of the levels of a ladder that were run: of the value, or of sample i.
+  GridConvergence estimate_of(Refined refined, const std::vector<Setting>& list, double floor,
+                              std::optional<std::size_t> sample = {}) const {
+    std::vector<double> levels, values;
+    for (const Setting& setting : list) {
+      const ConvergeLevel* level = at(setting);
+      if (level == nullptr || (!level->failure.empty() && &setting != &list.back())) continue;
+      levels.push_back(level_of(refined, setting));
+      values.push_back(!sample ? level->value : *sample < level->series.size() ? level->series[*sample] : nan);
+    }
+    return grid_convergence(quantity_.name, levels, values,
+                            {.expected_order = expected_order(refined), .floor = floor});
+  }
+
+  /// Where time and quadrature are judged: the second finest mesh, whose runs cost less.
+  Setting judged() const {
+    Setting half = now_;
+    half.elements /= 2;
+    return now_.elements % 2 == 0 && at(half) != nullptr && at(half)->failure.empty() ? half : now_;
+  }
+
+  std::vector<Setting> quadrature_levels() const {
+    std::vector<Setting> list{judged()};
+    for (int i = 1; i <= 2; ++i) {
+      list.push_back(list.front());
+      list.back().points += i * extra_points;
+    }
+    return list;
+  }
+
+  double part(Refined refined) const {
+    const auto& estimate = found_.parts[static_cast<std::size_t>(refined)];
+    return estimate ? estimate->uncertainty : 0;
+  }
+
+  /// The first three meshes; the wanted error in the quantity's unit.
+  void start() {
+    while (ladder(Refined::mesh, now_).size() < 3 && now_.elements * 2 <= options_.most_elements) now_.elements *= 2;
+    ensure(last(ladder(Refined::mesh, now_), 3), Refined::mesh);
+    const ConvergeLevel* level = at(now_);
+    found_.error = options_.error;
+    if (level == nullptr) return;
+    if (level->failure == absent) {
+      const auto there = std::ranges::count_if(level->series, [](double value) { return std::isfinite(value); });
+      if (there == 0) throw InvalidInput("--quantity", "\"" + options_.quantity + "\"", "this scene never has it");
+      throw InvalidInput(
+          "--at", number_text(scene_.duration),
+          "the quantity is there at the first " + std::to_string(there) + " samples only: ask for an earlier time");
+    }
+    if (!level->failure.empty()) return;
+    if (options_.relative) found_.error = options_.error * std::abs(level->value);
+    if (!(found_.error > 0)) {
+      throw InvalidInput("--relative", "this option", "the quantity is 0 at that time: give an absolute error");
+    }
+    if (found_.error < rounding * std::abs(level->value)) too_small(options_.error);
+  }
+
+  void estimate() {
+    const auto meshes = ladder(Refined::mesh, now_);
+    ensure(last(meshes, 3), Refined::mesh);
+    if (!found_.reason.empty()) return;
+    const Setting half = judged();
+    const auto times = ladder(Refined::time, half);
+    ensure(last(times, 3), Refined::time);
+    if (!found_.reason.empty()) return;
+    const double known_to = rounding * std::abs(at(now_)->value);
+    found_.parts[1] = estimate_of(Refined::time, times, known_to);
+    found_.parts[0] = estimate_of(Refined::mesh, meshes, std::max(known_to, 0.0));
+    const double so_far = part(Refined::mesh) + part(Refined::time);
+    if (so_far <= found_.error) {
+      ensure(quadrature_levels(), Refined::quadrature);
+      if (!found_.reason.empty()) return;
+      found_.parts[2] = estimate_of(Refined::quadrature, quadrature_levels(), known_to);
+    } else {
+      found_.parts[2].reset();
+    }
+    found_.answer = at(now_)->value;
+    found_.uncertainty = so_far + part(Refined::quadrature);
+    found_.finest = now_;
+    found_.reached = found_.parts[2] && found_.uncertainty <= found_.error;
+    if (meshes_.empty() || meshes_.back() != now_.elements) {
+      meshes_.push_back(now_.elements);
+      history_.push_back(0);
+    }
+    history_.back() = part(Refined::mesh);
+  }
+
+  /// One step towards the wanted error, in what leaves most of it; false, and the reason, where there is none.
+  bool refine() {
+    const double mesh = part(Refined::mesh), time = part(Refined::time), quadrature = part(Refined::quadrature);
+    Setting next = now_;
+    double growth = 1;
+    const bool lost = !std::isfinite(mesh) || !at(now_)->failure.empty();
+    if (!lost && std::isfinite(time) && time >= std::max(mesh, quadrature)) {
+      next.accuracy = finer(scene_, now_.accuracy);
+      growth = has_step(scene_) ? 2 : 1.5;
+      const double least = has_step(scene_) ? scene_.duration / most_steps : least_tolerance;
+      if (next.accuracy < least) return give_up("steps cannot be made finer: rounding is next");
+    } else if (!lost && quadrature > mesh) {
+      next.points += extra_points;
+      if (next.points > most_points) return give_up("more quadrature points change the answer still");
+    } else {
+      next.elements *= 2;
+      growth = growth_of_mesh();
+      if (next.elements > options_.most_elements) {
+        return give_up("the finest mesh allowed has " + std::to_string(options_.most_elements) + " elements");
+      }
+      if (diverges())
+        return give_up("two finer meshes have brought it no nearer: this motion does not converge at this time");
+    }
+    const ConvergeLevel* finest = at(now_);
+    const double next_work = growth * finest->work;
+    // The finer setting costs its own run, and about as much again for what is judged on the mesh before it.
+    if (finest->work > 0 && work_ + 2 * next_work > options_.budget * next_work) {
+      return give_up("all runs together would cost more than " + number_text(options_.budget) + " of the finest");
+    }
+    now_ = next;
+    return true;
+  }
+
+  double growth_of_mesh() const {
+    Setting half = now_;
+    half.elements /= 2;
+    const ConvergeLevel *finest = at(now_), *before = at(half);
+    return before != nullptr && before->work > 0 && finest->work > before->work ? finest->work / before->work : 2;
+  }
+
+  /// Whether the last two refinements of the mesh gained nothing, beyond where that is common.
+  bool diverges() const {
+    const std::size_t n = history_.size();
+    return n >= 4 && history_[n - 1] > 0.7 * history_[n - 2] && history_[n - 2] > 0.7 * history_[n - 3];
+  }
+
+  bool give_up(const std::string& why) {
+    found_.reason = why;
+    return false;
+  }
+
+  void conclude() {
+    const ConvergeLevel* finest = at(found_.finest);
+    if (finest == nullptr) finest = at(now_);
+    if (finest != nullptr && !finest->failure.empty() && found_.reason != "interrupted") {
+      found_.reason = finest->failure;
+      found_.answer = found_.uncertainty = nan;
+    }
+    if (interrupted() || finest == nullptr) return;
+    predict(*finest);
+    if (options_.horizon) look_for_horizon(*finest);
+    if (found_.reached) choose_cheapest();
+    found_.cost = finest->work > 0 ? work_ / finest->work : nan;
+  }
+
+  /// Until which sample mesh and time together keep the error wanted.
+  void predict(const ConvergeLevel& finest) {
+    const auto meshes = ladder(Refined::mesh, found_.finest), times = ladder(Refined::time, judged());
+    found_.predictable_until = 0;
+    const std::size_t n = finest.series.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!std::isfinite(finest.series[i])) break;
+      const double floor = rounding * std::abs(finest.series[i]);
+      const double sum = estimate_of(Refined::mesh, meshes, floor, i).uncertainty +
+                         estimate_of(Refined::time, times, floor, i).uncertainty;
+      if (!(sum <= found_.error)) break;
+      found_.predictable_until = std::min(scene_.duration, static_cast<double>(i) * scene_.output.interval);
+    }
+    if (found_.reached) found_.predictable_until = scene_.duration;
+  }
+
+  void look_for_horizon(const ConvergeLevel& finest) {
+    Scene scene = with_setting(scene_, found_.finest);
+    (scene.beam.section.type == Section::Type::circle ? scene.beam.material.density : scene.beam.section.rhoA) *=
+        1 + perturbation;
+    const RunResult result = simulate(scene, [](double) { return !interrupted(); });
+    work_ += finest.work;
+    double until = 0;
+    for (std::size_t i = 0; i < std::min(result.samples.size(), finest.series.size()); ++i) {
+      const double gap = std::abs(quantity_.of(result.samples[i]) - finest.series[i]);
+      if (!(gap <= found_.error)) break;
+      until = result.samples[i].t;
+    }
+    found_.horizon = until;
+  }
+
+  bool keeps(const ConvergeLevel& level) const {
+    return level.failure.empty() && std::abs(level.value - found_.answer) + found_.uncertainty <= found_.error;
+  }
+
+  void choose_cheapest() {
+    // Beside what was run: the coarsest mesh and the coarsest time that each leave a third of the error.
+    Setting guess = found_.finest;
+    for (const Setting& setting : ladder(Refined::mesh, found_.finest)) {
+      const ConvergeLevel* level = at(setting);
+      if (level == nullptr || !level->failure.empty() || std::abs(level->value - found_.answer) > found_.error / 3)
+        continue;
+      guess.elements = setting.elements;
+      break;
+    }
+    const ConvergeLevel* judge = at(judged());
+    for (const Setting& setting : ladder(Refined::time, judged())) {
+      const ConvergeLevel* level = at(setting);
+      if (level == nullptr || !level->failure.empty() || std::abs(level->value - judge->value) > found_.error / 3)
+        continue;
+      guess.accuracy = setting.accuracy;
+      break;
+    }
+    ensure({guess}, Refined::mesh);
+    const ConvergeLevel* best = nullptr;
+    for (const ConvergeLevel& level : found_.levels) {
+      if (keeps(level) && (best == nullptr || level.work < best->work)) best = &level;
+    }
+    if (best == nullptr) best = at(found_.finest);
+    found_.cheapest = best->setting;
+  }
+
+  ConvergeOptions options_;
+  Scene scene_;
+  Quantity quantity_;
+  Setting now_;
+  Convergence found_;
+  double work_ = 0;
+  std::vector<int> meshes_;      ///< the finest ones, as they were refined
+  std::vector<double> history_;  ///< of the mesh's uncertainty on each
+};
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+constexpr std::array<const char*, 3> refined_names{"mesh", "time", "quadrature"};
+
+Json setting_json(const Scene& scene, const Setting& setting) {
+  return {
+      {"elements", setting.elements}, {"quadrature_points", setting.points}, {accuracy_name(scene), setting.accuracy}};
+}
+
+std::string digits(double value, int count) {
+  std::ostringstream text;
+  text.precision(count);
+  text << value;
+  return text.str();
+}
+
+}  // namespace
+
+Setting setting_of(const Scene& scene) {
+  return {scene.beam.elements, quadrature_points(scene),
+          has_step(scene) ? scene.integrator.step : scene.integrator.rtol};
+}
+
+Scene with_setting(const Scene& scene, const Setting& setting) {
+  Scene changed = scene;
+  const int from = scene.beam.elements, to = setting.elements;
+  changed.beam.elements = to;
+  changed.beam.quadrature_points = setting.points;
+  if (changed.flow) {
+    for (auto& guide : changed.flow->nodes) guide.node = renumbered(guide.node, from, to, "/flow/nodes");
+  }
+  if (changed.spin) {
+    for (auto& drive : changed.spin->drives) drive.node = renumbered(drive.node, from, to, "/spin/drives");
+  }
+  for (LoadSpec& load : changed.loads) {
+    if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, to, "/loads");
+  }
+  if (has_step(scene)) {
+    changed.integrator.step = setting.accuracy;
+  } else {
+    changed.integrator.atol = scene.integrator.atol * (setting.accuracy / scene.integrator.rtol);
+    changed.integrator.rtol = setting.accuracy;
+  }
+  validate(changed);
+  return changed;
+}
+
+Convergence converge(const Scene& scene, const ConvergeOptions& options) { return Converger(scene, options)(); }
+
+Json convergence_to_json(const Scene& scene, const Convergence& found) {
+  Json json = {{"schema_version", "vlbeam.converge/1"},
+               {"title", scene.title},
+               {"quantity", found.quantity},
+               {"unit", found.unit},
+               {"t", found.t},
+               {"error", found.error},
+               {"answer", number_or_null(found.answer)},
+               {"uncertainty", number_or_null(found.uncertainty)},
+               {"reached", found.reached}};
+  if (!found.reached) json["reason"] = found.reason;
+  json["predictable_until"] = found.predictable_until;
+  if (found.horizon) json["horizon"] = *found.horizon;
+  json["setting"] = found.cheapest ? setting_json(scene, *found.cheapest) : Json();
+  json["finest"] = setting_json(scene, found.finest);
+  Json& parts = json["parts"] = Json::object();
+  for (std::size_t i = 0; i < refined_names.size(); ++i) {
+    if (found.parts[i]) parts[refined_names[i]] = grid_convergence_to_json(*found.parts[i]);
+  }
+  Json& levels = json["levels"] = Json::array();
+  for (const ConvergeLevel& level : found.levels) {
+    Json row = {{"refined", refined_names[static_cast<std::size_t>(level.refined)]}};
+    row.update(setting_json(scene, level.setting));
+    row["value"] = number_or_null(level.value);
+    row["difference"] = number_or_null(std::abs(level.value - found.answer));
+    row["work"] = level.work;
+    row["events"] = level.events;
+    if (!level.failure.empty()) row["failure"] = level.failure;
+    levels.push_back(row);
+  }
+  json["cost"] = {{"runs", found.levels.size()}, {"in_runs_of_the_finest", number_or_null(found.cost)}};
+  const bool settled = found.cheapest.has_value();
+  json["scene"] = scene_to_json(settled ? with_setting(scene, *found.cheapest) : scene);
+  return json;
+}
+
+std::string convergence_table(const Scene& scene, const Convergence& found) {
+  std::string text = "refined,elements,quadrature_points," + accuracy_name(scene) +
+                     (has_step(scene) ? " [s]" : " [-]") + ",value [" + found.unit + "],difference [" + found.unit +
+                     "],work [element evaluations],events\n";
+  const auto number = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
+  for (const ConvergeLevel& level : found.levels) {
+    text += std::string(refined_names[static_cast<std::size_t>(level.refined)]) + "," +
+            std::to_string(level.setting.elements) + "," + std::to_string(level.setting.points) + "," +
+            number_text(level.setting.accuracy) + "," + number(level.value) + "," +
+            number(std::abs(level.value - found.answer)) + "," + number(level.work) + "," +
+            std::to_string(level.events) + "\n";
+  }
+  return text;
+}
+
+std::string convergence_summary(const Scene& scene, const Convergence& found) {
+  std::ostringstream text;
+  const auto setting = [&](const Setting& s) {
+    return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
+           accuracy_name(scene) + " " + number_text(s.accuracy);
+  };
+  text << found.quantity << " at t = " << number_text(found.t) << " s: " << digits(found.answer, 10) << " +- "
+       << digits(found.uncertainty, 2) << " " << found.unit << '\n';
+  for (std::size_t i = 0; i < refined_names.size(); ++i) {
+    if (!found.parts[i]) continue;
+    const GridConvergence& part = *found.parts[i];
+    text << "  " << refined_names[i] << std::string(12 - std::string_view(refined_names[i]).size(), ' ') << "+- "
+         << digits(part.uncertainty, 2)
+         << (part.order ? ", order " + digits(*part.order, 3) : ", no order: " + part.refusal) << '\n';
+  }
+  if (found.reached) {
+    text << "  the error wanted, " << digits(found.error, 3) << ", is reached\n";
+    if (found.cheapest) text << "  cheapest    " << setting(*found.cheapest) << '\n';
+  } else {
+    text << "  the error wanted, " << digits(found.error, 3) << ", is NOT reached: " << found.reason
+         << "\n  it is kept until t = " << number_text(found.predictable_until) << " s\n";
+  }
+  if (found.horizon) {
+    text << "  horizon     a density changed in its 8th digit matters less than that until t = "
+         << number_text(*found.horizon) << " s\n";
+  }
+  text << "  finest      " << setting(found.finest) << '\n'
+       << "  cost        " << found.levels.size() << " runs, worth " << digits(found.cost, 3) << " of the finest\n";
+  return text.str();
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,122 @@
+// What converge says of scenes whose answers are known, and what it says where there is none.
+#include "studies/harness/converge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "core/error.hpp"
+#include "studies/harness/scene_json.hpp"
+#include "studies/harness/scene_library.hpp"
+
+namespace vlbeam {
+namespace {
+
+const std::filesystem::path source = VLBEAM_SOURCE_DIR;
+
+Scene library_scene(const std::string& name) { return read_scene(source / "scenes" / (name + ".json")); }
+
+// One wanted error for all scenes, chosen before any was converged to it.
+TEST(Converge, UncertaintiesCoverTheTrueError) {
+  constexpr double wanted = 1e-4;
+  int known = 0, close = 0;
+  for (const SceneAnswer& answer : scene_answers(source / "reference" / "scenes.json")) {
+    if (answer.kind == "self-convergence") continue;
+    ++known;
+    const Convergence found =
+        converge(library_scene(answer.scene),
+                 {.quantity = answer.quantity, .error = wanted, .relative = true, .at = answer.t, .jobs = 2});
+    const double error = std::abs(found.answer - answer.value);
+    EXPECT_TRUE(found.reached) << answer.scene << ": " << found.reason;
+    EXPECT_LE(error, found.uncertainty + answer.uncertainty) << answer.scene;
+    EXPECT_LE(found.uncertainty, wanted * std::abs(found.answer) * (1 + 1e-3)) << answer.scene;
+    EXPECT_LE(found.cost, 15) << answer.scene;
+    EXPECT_TRUE(found.cheapest) << answer.scene;
+    // An error within what the answer itself is known to says nothing of how close the uncertainty is.
+    close += error > answer.uncertainty && found.uncertainty <= 20 * error ? 1 : 0;
+    std::cout << answer.scene << ": error " << error << ", uncertainty " << found.uncertainty << ", cost " << found.cost
+              << '\n';
+  }
+  EXPECT_GE(known, 10);
+  EXPECT_GE(close, 7);
+}
+
+TEST(Converge, TheCheapestSettingKeepsTheError) {
+  const Scene scene = library_scene("pendulum");
+  const Convergence found = converge(scene, {.quantity = "end.y", .error = 1e-3});
+  ASSERT_TRUE(found.cheapest);
+  const SceneAnswer answer = [] {
+    for (const SceneAnswer& a : scene_answers(source / "reference" / "scenes.json")) {
+      if (a.scene == "pendulum") return a;
+    }
+    return SceneAnswer{};
+  }();
+  for (const ConvergeLevel& level : found.levels) {
+    if (level.setting == *found.cheapest) {
+      EXPECT_LE(std::abs(level.value - answer.value), 1e-3);
+    }
+  }
+  EXPECT_LT(found.cheapest->elements, found.finest.elements);
+}
+
+TEST(Converge, DoesNotDependOnJobs) {
+  const Scene scene = library_scene("moving_string");
+  const ConvergeOptions options{.quantity = "load0_y", .error = 1e-3, .relative = true};
+  ConvergeOptions two = options;
+  two.jobs = 2;
+  EXPECT_EQ(convergence_to_json(scene, converge(scene, options)), convergence_to_json(scene, converge(scene, two)));
+}
+
+// Beyond the whip every mesh goes its own way.
+TEST(Converge, SaysWhereItCannotBeReachedAndUntilWhen) {
+  Scene scene = library_scene("falling_beam");
+  scene.beam.elements = 5;
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.duration = 0.6;
+  scene.output.configurations.clear();
+  const Convergence found =
+      converge(scene, {.quantity = "end.y", .error = 1e-2, .horizon = true, .jobs = 2, .most_elements = 20});
+  EXPECT_FALSE(found.reached);
+  EXPECT_FALSE(found.reason.empty());
+  EXPECT_GT(found.uncertainty, 1e-2);
+  EXPECT_GE(found.predictable_until, 0.1);
+  EXPECT_LE(found.predictable_until, 0.5);
+  ASSERT_TRUE(found.horizon);
+  EXPECT_GE(*found.horizon, found.predictable_until) << "the data are known better than the mesh";
+  EXPECT_FALSE(found.cheapest);
+}
+
+TEST(Converge, NodesNameTheSamePointsOnEveryMesh) {
+  const Scene scene = library_scene("drill_stem");
+  Setting setting = setting_of(scene);
+  setting.elements = 48;
+  const Scene finer = with_setting(scene, setting);
+  EXPECT_EQ(finer.flow->nodes[1].node, 2 * scene.flow->nodes[1].node);
+  EXPECT_EQ(finer.loads[0].node, 48);
+  setting.elements = 25;
+  EXPECT_THROW(with_setting(scene, setting), InvalidInput);
+}
+
+TEST(Converge, RefusesWhatItCannotShow) {
+  const Scene scene = library_scene("pulled_bar");
+  const auto field_of = [&](const ConvergeOptions& options) {
+    try {
+      converge(scene, options);
+    } catch (const InvalidInput& error) {
+      return error.field;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(field_of({.quantity = "end.z", .error = 1e-3}), "--quantity");
+  EXPECT_EQ(field_of({.quantity = "joint_position", .error = 1e-3}), "--quantity") << "never there";
+  EXPECT_EQ(field_of({.quantity = "end.x", .error = 0}), "--error");
+  EXPECT_EQ(field_of({.quantity = "end.x", .error = std::nan("")}), "--error");
+  EXPECT_EQ(field_of({.quantity = "end.x", .error = 1e-17}), "--error") << "below rounding";
+  EXPECT_EQ(field_of({.quantity = "end.x", .error = 1e-15, .relative = true}), "--error");
+  EXPECT_EQ(field_of({.quantity = "end.y", .error = 1e-3, .relative = true}), "--relative") << "of zero";
+  EXPECT_EQ(field_of({.quantity = "end.x", .error = 1e-3, .at = 2}), "--at");
+}
+
+}  // namespace
+}  // namespace vlbeam

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# A scene of one's own: print one, run it, draw it; what is not understood is said, and nothing is lost.
+#   own_scene_test.sh PROGRAM
+set -u
+vlbeam=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+check() {  # check WHAT EXPECTED ACTUAL
+  [[ $2 == "$3" ]] || { echo "FAILED: $1: expected '$2', got '$3'"; failures=$((failures + 1)); }
+}
+exit_of() { "$@" > out.txt 2> err.txt; echo $?; }
+says() { grep -c -- "$1" err.txt; }
+there() { [[ -e $1 ]] && echo yes || echo no; }
+
+# Scenes
+check "a scene" 0 "$(exit_of "$vlbeam" scene pendulum)"
+cp out.txt scene.json
+check "an unknown scene" 2 "$(exit_of "$vlbeam" scene pendulun)"
+check "the nearest one" 1 "$(says 'is "pendulum"')"
+"$vlbeam" list > out.txt
+check "the list has scenes" 1 "$(grep -c '^  pendulum  Flexible pendulum$' out.txt)"
+check "and studies" 1 "$(grep -c "^  torsion  Torsional" out.txt)"
+
+# A tree that was moved brings its scenes along.
+mkdir -p moved/bin moved/share/vlbeam/scenes && cp "$vlbeam" moved/bin/ && cp scene.json moved/share/vlbeam/scenes/falling_beam.json
+check "a moved tree" 0 "$(exit_of moved/bin/vlbeam scene falling_beam)"
+check "its own scene" 1 "$(grep -c '"Flexible pendulum"' out.txt)"
+
+# Shapes and figures
+check "a run" 0 "$(exit_of "$vlbeam" run scene.json --report r.json --shape shape.csv --points 4 -q)"
+check "points along the axis" $((6 * 8 * 5 + 1)) "$(wc -l < shape.csv)"
+check "their units" 1 "$(head -1 shape.csv | grep -c 'tension \[N\]')"
+check "the shape is not the report" 2 "$(exit_of "$vlbeam" run scene.json --report x.json --shape x.json)"
+sed 's/, "configurations": \[[^]]*\]//' scene.json > without.json
+check "no shapes to write" 2 "$(exit_of "$vlbeam" run without.json --shape none.csv)"
+check "said so" 1 "$(says '/output/configurations')"
+check "nothing written" no "$(there none.csv)"
+"$vlbeam" run without.json --report without.out -q
+if command -v gnuplot > /dev/null; then
+  for what in shape energy tip strain tension curvature; do
+    check "figure $what" 0 "$(exit_of "$vlbeam" plot r.json --what $what -o $what.svg)"
+    check "its title" 1 "$(grep -c '>Flexible pendulum<' $what.svg)"
+    check "its unit" 1 "$(grep -Ec '\((m|J|N|-|1/m)\)</' $what.svg | sed 's/[1-9][0-9]*/1/')"
+  done
+  check "an animation" 0 "$(exit_of "$vlbeam" plot r.json --what animation -o a.gif)"
+  check "is a GIF" GIF "$(head -c 3 a.gif)"
+  check "a PNG" 0 "$(exit_of "$vlbeam" plot r.json --quantity end.x end.y -o q.png)"
+  check "of two units" 2 "$(exit_of "$vlbeam" plot r.json --quantity end.x energy.total -o bad.svg)"
+  check "an animation is a GIF" 2 "$(exit_of "$vlbeam" plot r.json --what animation -o bad.svg)"
+  check "no joint" 2 "$(exit_of "$vlbeam" plot r.json --what joint -o bad.svg)"
+  check "no shapes" 2 "$(exit_of "$vlbeam" plot without.out -o bad.svg)"
+  check "an unknown figure" 2 "$(exit_of "$vlbeam" plot r.json --what shap -o bad.svg)"
+  check "the nearest" 1 "$(says 'is "shape"')"
+  check "another ending" 2 "$(exit_of "$vlbeam" plot r.json -o bad.jpg)"
+  check "no report" 2 "$(exit_of "$vlbeam" plot scene.json -o bad.svg)"
+  check "over the report" 2 "$(exit_of "$vlbeam" plot r.json -o r.json)"
+  check "no figure of these" no "$(there bad.svg)"
+fi
+
+check "nothing half-written" "" "$(find . -name '*.part')"
+[[ $failures -eq 0 ]] && echo "all checks passed"
+exit "$((failures > 0))"

@@ -1,0 +1,101 @@
+// Every scene of scenes/ runs as it stands, and its number is what it should be.
+#include "studies/harness/scene_library.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/scene/simulate.hpp"
+#include "studies/harness/files.hpp"
+#include "studies/harness/quantity.hpp"
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam {
+namespace {
+
+const std::filesystem::path source = VLBEAM_SOURCE_DIR;
+
+// What a scene's own setting promises, for all scenes alike.
+constexpr double promised = 1e-3;
+
+std::vector<SceneAnswer> answers() { return scene_answers(source / "reference" / "scenes.json"); }
+
+class LibraryScenes : public testing::TestWithParam<SceneAnswer> {};
+
+TEST_P(LibraryScenes, KeepItsAnswer) {
+  const SceneAnswer& answer = GetParam();
+  Scene scene = read_scene(source / "scenes" / (answer.scene + ".json"));
+  ASSERT_LE(answer.t, scene.duration);
+  scene.duration = answer.t;
+  std::erase_if(scene.output.configurations, [&](double t) { return t > answer.t; });
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  const double value = find_quantity(scene, answer.quantity).of(result.samples.back());
+  EXPECT_DOUBLE_EQ(result.samples.back().t, answer.t);
+  EXPECT_LE(std::abs(value - answer.value), promised * std::abs(answer.value) + answer.uncertainty) << answer.source;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LibraryScenes, testing::ValuesIn(answers()),
+                         [](const auto& instance) { return instance.param.scene; });
+
+TEST(SceneLibrary, EverySceneHasAnAnswer) {
+  const auto known = answers();
+  const auto scenes = library_scenes(source / "scenes");
+  EXPECT_GE(scenes.size(), 10U);
+  for (const LibraryScene& scene : scenes) {
+    EXPECT_NE(std::ranges::find(known, scene.name, &SceneAnswer::scene), known.end()) << scene.name;
+    EXPECT_FALSE(scene.title.empty()) << scene.name;
+  }
+}
+
+TEST(SceneLibrary, TheReadmeOpensWithOne) {
+  const std::string readme = read_text(source / "README.md");
+  EXPECT_NE(readme.find("```json\n" + library_scene_text(source / "scenes", "falling_beam") + "```"), std::string::npos);
+}
+
+TEST(SceneLibrary, NamesTheNearest) {
+  try {
+    library_scene_text(source / "scenes", "falling-baem");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(error.allowed.find("is \"falling_beam\""), std::string::npos) << error.what();
+  }
+}
+
+TEST(Quantities, HaveNamesWithPointsAndOfColumns) {
+  const Scene scene = read_scene(source / "scenes" / "falling_beam.json");
+  Sample sample;
+  sample.end = {3, 4, 0};
+  sample.energy.bending = 5;
+  EXPECT_EQ(find_quantity(scene, "end.y").of(sample), 4);
+  EXPECT_EQ(find_quantity(scene, "end_y").of(sample), 4);
+  EXPECT_EQ(find_quantity(scene, "energy.bending").of(sample), 5);
+  EXPECT_TRUE(std::isnan(find_quantity(scene, "joint_position").of(sample)));
+  EXPECT_EQ(find_quantity(scene, "angular_momentum").unit, "kg m^2/s");
+  try {
+    find_quantity(scene, "joint_postion");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, "--quantity");
+    EXPECT_NE(error.allowed.find("is \"joint_position\""), std::string::npos) << error.what();
+  }
+}
+
+TEST(Quantities, ReadBackFromAReport) {
+  const Json samples = parse_json(R"({"end": [[1, 2], [3, null]], "joint_position": [0.5, null],
+                                      "energy": {"kinetic": [1, 2]}, "flow": {"loads": [[[1, 2], [3, 4]]]}})");
+  const Scene falling = read_scene(source / "scenes" / "falling_beam.json");
+  const auto y = find_quantity(falling, "end.y").of(samples);
+  EXPECT_EQ(y[0], 2);
+  EXPECT_TRUE(std::isnan(y[1]));
+  EXPECT_TRUE(std::isnan(find_quantity(falling, "joint_position").of(samples)[1]));
+  EXPECT_EQ(find_quantity(falling, "energy.kinetic").of(samples)[1], 2);
+  const Scene loaded = read_scene(source / "scenes" / "moving_string.json");
+  EXPECT_EQ(find_quantity(loaded, "load0_y").of(samples)[0], 2);
+  EXPECT_THROW(find_quantity(falling, "beam_length").of(samples), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vlbeam
