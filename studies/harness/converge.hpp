@@ -29,13 +29,13 @@ Scene with_setting(const Scene& scene, const Setting& setting);
 
 struct ConvergeOptions {
   std::string quantity;
-  double error = 0;          ///< wanted, in the quantity's unit, or of its magnitude
-  bool relative = false;     ///< the latter
+  double error = 0;               ///< wanted, in the quantity's unit, or of its magnitude
+  bool relative = false;          ///< the latter
   std::optional<double> at = {};  ///< [s]; the scene's duration if not given
-  bool horizon = false;      ///< also until when the motion can be predicted at all
-  int jobs = 1;              ///< runs at a time; the answer does not depend on it
-  int most_elements = 1280;  ///< of the finest mesh
-  double budget = 15;        ///< all runs together, in runs of the finest setting
+  bool horizon = false;           ///< also until when the motion can be predicted at all
+  int jobs = 1;                   ///< runs at a time; the answer does not depend on it
+  int most_elements = 1280;       ///< of the finest mesh
+  double budget = 15;             ///< all runs together, in runs of the finest setting
 };
 
 enum class Refined { mesh, time, quadrature };

@@ -52,7 +52,8 @@ TEST(SceneLibrary, EverySceneHasAnAnswer) {
 
 TEST(SceneLibrary, TheReadmeOpensWithOne) {
   const std::string readme = read_text(source / "README.md");
-  EXPECT_NE(readme.find("```json\n" + library_scene_text(source / "scenes", "falling_beam") + "```"), std::string::npos);
+  EXPECT_NE(readme.find("```json\n" + library_scene_text(source / "scenes", "falling_beam") + "```"),
+            std::string::npos);
 }
 
 TEST(SceneLibrary, NamesTheNearest) {
