@@ -1,5 +1,5 @@
 # What makes a case hard against condition number, temporal error and energy error, a panel each.
-set terminal svg size 1200,400 font "Helvetica,13" enhanced background rgb "white" linewidth 1.2
+set terminal svg size 1200,440 font "Helvetica,13" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
 set datafile separator comma
@@ -18,7 +18,7 @@ array labels[3] = ["condition number of the scaled mass matrix", "position error
 array panels[3] = ["(a) mass matrix", "(b) position", "(c) energy"]
 array lowest[3] = [10, 3e-8, 1e-9]
 set xlabel "value of the sweep"
-set multiplot layout 1,3 title "Hard cases: what grows with what makes them hard" margins 0.06,0.78,0.15,0.84 spacing 0.07
+set multiplot layout 1,3 title "Hard cases: what grows with what makes them hard" margins 0.06,0.78,0.14,0.8 spacing 0.07
 do for [p = 1:3] {
   set title panels[p]
   set ylabel labels[p]

@@ -15,7 +15,7 @@ set ytics 1
 set ztics 1
 set xlabel "X_3 / l"
 set ylabel "U_2 / U_s"
-set zlabel "U_1 / U_s" rotate parallel
+set zlabel "U_1 / U_s" rotate parallel offset 1.2,0
 set xtics 0.5
 set key top right font ",12"
 letters = "(a) (b) (c) (d)"

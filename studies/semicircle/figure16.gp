@@ -23,12 +23,16 @@ set key vertical maxrows 6
 set title "(b) beam length"
 set xlabel "t (s)"
 set ylabel "length (m)"
-set yrange [6.2825:6.298]
-set format y "%.3f"
-set key top center horizontal
+set format y "%.2f"
+set key top left vertical
+# Coarse meshes have spikes when elements merge: all of them are in the frame, and the finest mesh is drawn last.
+set xrange [0:real(last)]
+set offsets 0, 0, graph 0.05, graph 0.02
 plot for [n in meshes] csv("meshes_history") using "t":"beam_length_n".n with lines linewidth 1.6 linecolor rgb mesh_colour(int(n)) title "N = ".n
 set format y
 set autoscale y
+set offsets 0, 0, 0, 0
+set autoscale x
 
 set key vertical
 set title "(c) trajectory of the sliding node"

@@ -1,7 +1,7 @@
 # Figure 14: shapes before and after length control, length of the beam, its rate, energies.
 width = 1200; height = 950
 load folder . "/style.gp"
-set multiplot layout 2,2 title "A suspended beam with a sliding mass of 5 kg, N = " . elements . "\n{/*0.85 " . setting . "; finer: ALE-ANCF, variational, N = " . finer . "}"
+set multiplot layout 2,2 margins 0.075,0.975,0.07,0.88 spacing 0.09,0.13 title "A suspended beam with a sliding mass of 5 kg, N = " . elements . "\n{/*0.85 " . setting . "; finer: ALE-ANCF, variational, N = " . finer . "}"
 histories = csv("histories_" . key)
 shapes = csv("length_control_" . key)
 set title "(a) configurations at the first two length controls (LC)"
@@ -28,12 +28,13 @@ unset key
 plot for [e in "finer ancf rancf"] histories using "t":e."_rate" with lines linewidth 1.3 \
        linecolor rgb element_colour(e)
 set title "(d) energies"
-set xlabel "t (s)" offset 0,0.7
 set ylabel "energy (J)"
-set key outside bottom center horizontal maxrows 2 width 3
+set yrange [*:10]
+set key inside top center horizontal maxrows 1 samplen 2 width -1
 quantities = "kinetic strain gravity total"
 dash(q) = q eq "kinetic" ? 1 : q eq "strain" ? 4 : q eq "gravity" ? 2 : 1
 plot for [e in "finer ancf rancf"] for [q in quantities] histories using "t":e."_".q with lines \
-       linewidth (q eq "total" ? 3 : 1.3) dashtype dash(q) linecolor rgb element_colour(e) \
-       title (e eq "rancf" ? q : "")
+       linewidth (q eq "total" ? 3 : 1.3) dashtype dash(q) linecolor rgb element_colour(e), \
+     for [q in quantities] keyentry with lines linewidth (q eq "total" ? 3 : 1.3) dashtype dash(q) \
+       linecolor rgb "#444444" title q
 unset multiplot
