@@ -9,8 +9,9 @@ namespace vlbeam {
 namespace {
 
 constexpr double slow_contraction = 0.2;  // of a modified Newton iteration: a new tangent is then worth its cost
-constexpr double stagnation = 0.5;       // contraction with tangents of the same step: rounding, or far from a solution
-constexpr double shortest_share = 1e-5;  // of the step: below, rounding of constraints over h would go into velocities
+constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
+// Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
+constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
 
 class GeneralizedAlpha final : public Stepper {
@@ -34,7 +35,8 @@ class GeneralizedAlpha final : public Stepper {
     if (!started_) start(t, n);
     start_ = end_;
     const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
-    if (h < shortest_share * options_.step && !stalled_ && system_.multipliers() > 0) {
+    const bool prescribed = system_.multipliers() > 0 || system_.driven();
+    if (h < shortest_share * options_.step && !stalled_ && prescribed) {
       drift(y, t, h);
       dt = options_.step;
       return true;

@@ -134,6 +134,7 @@ struct DrivenRun {
     Energy energy;                   ///< by the model's own points
     double largest_drift = 0;        ///< of total - supplied less jumps [J]
     double largest_kinetic = 0;      ///< [J]
+    std::vector<double> supplied;    ///< at each sample [J]
     std::size_t events = 0;
     SolverCounters counters;
   };
@@ -145,7 +146,7 @@ struct DrivenRun {
     return model;
   }
 
-  Seen operator()(IntegratorType type, double tolerance, double step = 1e-3) const {
+  Seen operator()(IntegratorType type, double tolerance, double step = 1e-3, int samples = 20) const {
     BeamSystem<2> system(model(), build_chain<2>(scene));
     Seen seen;
     double first = 0, jumps = 0;
@@ -158,6 +159,7 @@ struct DrivenRun {
       seen.position = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), static_cast<Eigen::Index>(chain.q.size()));
       seen.rate = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), static_cast<Eigen::Index>(chain.rate.size()));
       seen.energy = system.observe(y, t, system.model().quadrature_points).energy;
+      seen.supplied.push_back(seen.energy.supplied);
       if (t == 0) first = seen.energy.total();
       seen.largest_kinetic = std::max(seen.largest_kinetic, seen.energy.kinetic);
       seen.largest_drift =
@@ -170,7 +172,7 @@ struct DrivenRun {
     options.generalized_alpha.step = step;
     options.generalized_alpha.newton_tolerance = 1e-12;
     std::vector<double> times;
-    for (int i = 0; i <= 20; ++i) times.push_back(scene.duration * i / 20);
+    for (int i = 0; i <= samples; ++i) times.push_back(scene.duration * i / samples);
     Eigen::VectorXd y = system.initial_state();
     double t = 0;
     EXPECT_TRUE(integrate(system, y, t, scene.duration, times, options, seen.counters));
@@ -293,6 +295,25 @@ TEST(SupportMotion, IsTheSameEliminatedAndWithMultipliers) {
     EXPECT_NEAR(eliminated.energy.supplied, multipliers.energy.supplied, 1e-8 * eliminated.largest_kinetic);
     EXPECT_LE(multipliers.counters.newton.constraints.position, 1e-12);
     EXPECT_LE(multipliers.counters.newton.constraints.velocity, 1e-2);
+  }
+}
+
+/// Where rounding puts a sample just behind the end of a step, the step to it has next to no length.
+TEST(SupportMotion, SuppliesNoRoundingAtSamplesNextToTheEndsOfSteps) {
+  for (DrivenRun run : {shaken_beam(1e-3), shaken_bridge()}) {
+    run.scene.gravity_ramp = 0;
+    for (const double step : {1e-3, 1e-4}) {
+      const int samples = static_cast<int>(std::lround(run.scene.duration / step));
+      run.scene.constraints = Constraints::eliminated;
+      const auto seen = run(IntegratorType::generalized_alpha, 0, step, samples);
+      run.scene.constraints = Constraints::multipliers;
+      const auto expected = run(IntegratorType::generalized_alpha, 0, step, samples);
+      ASSERT_EQ(seen.supplied.size(), static_cast<std::size_t>(samples) + 1);
+      for (std::size_t i = 0; i < seen.supplied.size(); ++i) {
+        EXPECT_NEAR(seen.supplied[i], expected.supplied[i], 1e-7 * expected.largest_kinetic) << "sample " << i;
+      }
+      EXPECT_NEAR(seen.largest_drift, expected.largest_drift, 1e-7 * expected.largest_kinetic);
+    }
   }
 }
 
