@@ -28,6 +28,7 @@ struct FieldRun {
   Eigen::Index first, width = 1, stride = 1, count = 1;
 };
 
+/// A number for each kind.
 using FieldNorms = std::array<double, field_count>;
 
 /// Calls f(run, index) for each coordinate of the runs.
@@ -55,6 +56,12 @@ inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::Ve
     norms[static_cast<std::size_t>(run.field)] = largest;
   }
   return norms;
+}
+
+/// Position and slope of `nodes` nodes of a beam in `dimension` dimensions, node by node.
+inline std::vector<FieldRun> nodal_fields(Eigen::Index dimension, Eigen::Index nodes) {
+  return {{Field::position, 0, dimension, 2 * dimension, nodes},
+          {Field::slope, dimension, dimension, 2 * dimension, nodes}};
 }
 
 }  // namespace vlbeam

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "core/dynamics/second_order.hpp"
 
@@ -13,6 +14,8 @@ class Ode {
  public:
   virtual ~Ode() = default;
   virtual Eigen::Index size() const = 0;
+  /// What the coordinates q are, of y = (q, q', what is only counted). None where y is nothing of the kind.
+  virtual std::vector<FieldRun> fields() const { return {}; }
   /// Writes f(y, t) into `dydt`, already of the right size. Allocates nothing.
   virtual void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) = 0;
   /// Writes df/dy and df/dt, both already of the right size.

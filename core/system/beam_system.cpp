@@ -80,6 +80,15 @@ void BeamSystem<D>::set_end_limits() {
 }
 
 template <int D>
+std::vector<FieldRun> BeamSystem<D>::fields() const {
+  auto runs = nodal_fields(D, nodal_ / node_size<D>);
+  if (has_joint() || rider_) runs.push_back({Field::mark, nodal_});
+  if (kinked()) runs.push_back({Field::slope, behind_, D});
+  if (free_mass_) runs.push_back({Field::mass, nodal_, D});
+  return runs;
+}
+
+template <int D>
 Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
   y.head(nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal_);

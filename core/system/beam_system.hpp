@@ -104,6 +104,7 @@ class BeamSystem final : public EventedOde {
   Eigen::Index size() const override {
     return 2 * coordinates_ + (model_.dissipates() ? 1 : 0) + (model_.driven() ? 1 : 0);
   }
+  std::vector<FieldRun> fields() const override;
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;

@@ -153,6 +153,16 @@ Eigen::Index FlowingBeam<D>::size() const {
 }
 
 template <int D>
+std::vector<FieldRun> FlowingBeam<D>::fields() const {
+  auto runs = nodal_fields(D, nodes());
+  if (!spin_) return runs;
+  const Eigen::Index per_node = spin_->per_node();
+  runs.push_back({Field::angle, angle(0), 1, per_node, nodes()});
+  if (per_node == 2) runs.push_back({Field::twist, angle(0) + 1, 1, per_node, nodes()});
+  return runs;
+}
+
+template <int D>
 MovingCoordinates<double, D> FlowingBeam<D>::axis_of(const double* q, int k, double Prescribed::*x) const {
   return {element_nodes<D>(q, k), nodes_[static_cast<std::size_t>(k)].*x, nodes_[static_cast<std::size_t>(k) + 1].*x};
 }

@@ -123,6 +123,7 @@ class FlowingBeam final : public EventedOde {
   ~FlowingBeam() override;
 
   Eigen::Index size() const override;
+  std::vector<FieldRun> fields() const override;
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   /// Not there: throws InvalidInput.
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;

@@ -90,7 +90,7 @@ Eigen::Index ImplicitBeam<D>::coordinates() const {
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   refresh();
-  std::vector<FieldRun> runs{{Field::position, 0, D, B, nodes()}, {Field::slope, D, D, B, nodes()}};
+  auto runs = nodal_fields(D, nodes());
   if (system_.has_joint() || system_.rider()) {
     runs.push_back({Field::mark, after_nodes()});
   } else if (system_.model().joint) {

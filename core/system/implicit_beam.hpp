@@ -102,9 +102,11 @@ class ImplicitBeam final : public SecondOrderSystem {
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
   void add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                             double by_v, double by_a);
-  void add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
+  void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   /// What moving supports change of the Jacobian.
   void add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
+  double element_length() const;  ///< mean of the mesh [m]
+  double wave_time() const;       ///< of an axial wave through such an element [s]
   template <class Function>
   void at_end_nodes(const Function& function) const;
 

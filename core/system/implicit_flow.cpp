@@ -26,16 +26,6 @@ Eigen::Matrix4d angle_tangent(const SpinChain& chain, const SpinChain::Coordinat
 }  // namespace
 
 template <int D>
-std::vector<FieldRun> ImplicitFlow<D>::fields() const {
-  std::vector<FieldRun> runs{{Field::position, 0, D, B, beam_.nodes()}, {Field::slope, D, D, B, beam_.nodes()}};
-  if (!beam_.spin_) return runs;
-  const Eigen::Index per_node = beam_.spin_->per_node();
-  runs.push_back({Field::angle, beam_.angle(0), 1, per_node, beam_.nodes()});
-  if (per_node == 2) runs.push_back({Field::twist, beam_.angle(0) + 1, 1, per_node, beam_.nodes()});
-  return runs;
-}
-
-template <int D>
 void ImplicitFlow<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
   y_.setZero(beam_.size());
   dydt_.resize(beam_.size());

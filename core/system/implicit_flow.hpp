@@ -15,7 +15,7 @@ class ImplicitFlow final : public SecondOrderSystem {
   explicit ImplicitFlow(FlowingBeam<D>& beam) : beam_(beam), work_(2 * beam.nodes()) {}
 
   Eigen::Index coordinates() const override { return beam_.coordinates(); }
-  std::vector<FieldRun> fields() const override;
+  std::vector<FieldRun> fields() const override { return beam_.fields(); }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;

@@ -1,8 +1,8 @@
 // Jacobian of the equations of motion in first order, from the exact tangent of their residual r = M a - Q:
 //   d(q')/dt = a(q, q'),   da/dq = -M^-1 dr/dq,   da/dq' = -M^-1 dr/dq'.
-#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/system/implicit_beam.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 // The tangent is dr/dq + by_v dr/dv + by_a dr/da: a factor this large leaves nothing else of it, and a power of two is
 // taken out again without rounding.
-constexpr double dominant = 0x1p100;
+constexpr double dominant = 0x1p180;
 
 }  // namespace
 
@@ -49,56 +49,61 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
     solve(column_);
     dfdy.block(n, n + k, n, 1) = -column_;
   }
-  if (system_.model().dissipates()) add_dissipation_row(exact, t, dfdy);
+  if (y.size() > 2 * n) add_tallies(exact, t, dfdy);
 
   dfdt.setZero();
-  if (driven()) {
+  const auto& model = system_.model();
+  const bool rubs = model.joint && model.joint->friction;
+  if (driven() || (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
-    return;
-  }
-  const double ramp = system_.model().gravity_ramp;
-  if (t < ramp) {  // time is in the share of gravity alone, and f is affine in that
+  } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that
     weightless_.resize(y.size());
     system_.rhs(y, weightless_, 0);
-    system_.rhs(y, dfdt, ramp);
-    dfdt = smooth_ramp(t, ramp).rate * (dfdt - weightless_);
+    system_.rhs(y, dfdt, model.gravity_ramp);
+    dfdt = smooth_ramp(t, model.gravity_ramp).rate * (dfdt - weightless_);
   }
 }
 
-/// By differences: nothing depends on the dissipated energy, so that this row only serves its own accuracy.
+/// By differences: nothing depends on the energies that the state counts, so that their rows only serve their own
+/// accuracy. The step is a share of an element, of a slope, and of the speed of axial waves: powers are quadratic in
+/// velocities, however large, but for friction, which has a velocity of its own.
 template <int D>
-void ImplicitBeam<D>::add_dissipation_row(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy) {
-  const Eigen::Index n = coordinates(), last = 2 * n;
-  Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
-  column_.resize(n);
-  auto power = [&] { return residual(q, v, a_, t, column_); };
-  for (Eigen::Index k = 0; k < 2 * n; ++k) {
-    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * std::max(1.0, std::abs(y[k]));
-    double& entry = k < n ? q[k] : v[k - n];
-    entry = y[k] + step;
-    const double more = power();
-    entry = y[k] - step;
-    dfdy(last, k) = (more - power()) / (2 * step);
-    entry = y[k];
-  }
-}
-
-/// Nothing depends on driven entries of the state, everything on time. The work of the supports and the derivative by
-/// time are differenced: a function of time comes with two derivatives only, and accelerations take them both.
-template <int D>
-void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
-  const Eigen::Index n = coordinates(), last = y.size() - 1;
-  const double share = std::cbrt(std::numeric_limits<double>::epsilon());
+void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy) {
+  const Eigen::Index n = coordinates(), tallies = y.size() - 2 * n;
+  const auto& joint = system_.model().joint;
   Eigen::VectorXd at = y, more(y.size()), less(y.size());
-  for (Eigen::Index k = 0; k < 2 * n; ++k) {
-    const double step = share * std::max(1.0, std::abs(y[k]));
+  auto difference = [&](Eigen::Index k, double size) {
+    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * size;
     at[k] = y[k] + step;
+    const double above = at[k];
     system_.rhs(at, more, t);
     at[k] = y[k] - step;
     system_.rhs(at, less, t);
+    dfdy.col(k).tail(tallies) = (more - less).tail(tallies) / (above - at[k]);
     at[k] = y[k];
-    dfdy(last, k) = (more[last] - less[last]) / (2 * step);
-  }
+  };
+  for_each_coordinate(system_.fields(), [&](Field field, Eigen::Index k) {
+    const double size = field == Field::slope ? 1 : element_length();
+    difference(k, size);
+    difference(n + k, field == Field::mark && joint->friction ? joint->friction->velocity : size / wave_time());
+  });
+}
+
+template <int D>
+double ImplicitBeam<D>::element_length() const {
+  return system_.mesh().length() / system_.mesh().elements();
+}
+
+template <int D>
+double ImplicitBeam<D>::wave_time() const {
+  const BeamSection& section = system_.model().section;
+  return element_length() * std::sqrt(section.rhoA / section.stiffness.EA);
+}
+
+/// Nothing depends on driven entries of the state. The derivative by time is differenced: a support's function of time
+/// comes with two derivatives only, and accelerations take them both.
+template <int D>
+void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
   const auto& model = system_.model();
   for (const bool start : {true, false}) {
     if (!(start ? model.start_motion : model.end_motion)) continue;
@@ -106,21 +111,33 @@ void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::Matri
     const Eigen::Matrix<double, D, D> keep =
         support.frame * support.free_position.matrix().asDiagonal() * support.frame.transpose();
     const Eigen::Index position = start ? 0 : Eigen::Index{B} * (nodes() - 1);
-    for (const Eigen::Index first : {position, n + position}) {
+    for (const Eigen::Index first : {position, coordinates() + position}) {
       dfdy.middleCols<D>(first) = (dfdy.middleCols<D>(first) * keep).eval();
     }
   }
-  constexpr double instant = 1e-6;  // [s], far below the period of anything a beam is shaken with
-  system_.rhs(y, more, t + instant);
-  system_.rhs(y, less, t - instant);
-  dfdt = (more - less) / (2 * instant);
+  const double instant = 1e-3 * wave_time();  // far below the period of anything that the mesh follows
+  struct Look {
+    int step;
+    double weight;
+  };
+  const std::vector<Look> around{{-2, 1.0 / 12}, {-1, -2.0 / 3}, {1, 2.0 / 3}, {2, -1.0 / 12}};
+  const std::vector<Look> ahead{{0, -25.0 / 12}, {1, 4}, {2, -3}, {3, 4.0 / 3}, {4, -0.25}};  // none before t = 0
+  Eigen::VectorXd there(y.size());
+  for (const auto& [step, weight] : t < 2 * instant ? ahead : around) {
+    system_.rhs(y, there, t + step * instant);
+    dfdt += weight / instant * there;
+  }
 }
 
+template double ImplicitBeam<2>::element_length() const;
+template double ImplicitBeam<2>::wave_time() const;
 template void ImplicitBeam<2>::add_drive(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
+template double ImplicitBeam<3>::element_length() const;
+template double ImplicitBeam<3>::wave_time() const;
 template void ImplicitBeam<3>::add_drive(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
-template void ImplicitBeam<2>::add_dissipation_row(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
+template void ImplicitBeam<2>::add_tallies(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
 template void ImplicitBeam<2>::jacobian(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
-template void ImplicitBeam<3>::add_dissipation_row(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
+template void ImplicitBeam<3>::add_tallies(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
 template void ImplicitBeam<3>::jacobian(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
 
 }  // namespace vlbeam

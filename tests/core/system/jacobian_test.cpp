@@ -21,10 +21,11 @@ TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
                                        {.elements = 4, .rider = 0, .held = true}};
   unsigned seed = 21;
   for (const auto& shape : shapes) {
-    for (const double damping : {0.0, 0.01}) {
+    for (const auto& [damping, friction] : {std::pair{0.0, 0.0}, {0.01, 0.0}, {0.01, 0.3}}) {
       Random random(seed++);
       auto model = model_of<D>(shape, random);
       model.section.damping = damping;
+      if (model.joint && friction > 0) model.joint->friction = AxialFriction{friction, 0.5};
       model.gravity_ramp = 1;
       model.gravity = random.vector<D>();
       model.start = Support<D>::direction_clamp(random.vector<D>());
@@ -53,6 +54,9 @@ TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
         d.segment(n, n) = allowed();
         const Eigen::VectorXd expected = slope_of([&](double s) { return f(y + s * d, t); });
         EXPECT_LE((dfdy * d - expected).norm(), 1e-6 * expected.norm()) << "joint " << shape.joint;
+        if (damping == 0) continue;
+        const double terms = dfdy.row(size - 1).cwiseAbs() * d.cwiseAbs();
+        EXPECT_NEAR((dfdy * d)[size - 1], expected[size - 1], 1e-6 * terms) << "of the energy that is lost";
       }
       const Eigen::VectorXd in_time = slope_of([&](double s) { return f(y, t + s); });
       EXPECT_GT(in_time.norm(), 0);
