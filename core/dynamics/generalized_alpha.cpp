@@ -86,6 +86,7 @@ class GeneralizedAlpha final : public Stepper {
     if (&main != this) {
       system_.follow(main.system_);
       stop_.set_fields(main.stop_.fields());
+      allowed_ = main.allowed_;
     }
     end_ = main.start_;
     started_ = true;
@@ -110,6 +111,12 @@ class GeneralizedAlpha final : public Stepper {
     end_.dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
     end_.supply = system_.supplied_power(base_q_, base_v_, end_.true_acceleration, t);
     stop_.set_fields(system_.fields());
+    allowed_.setConstant(n, options_.tolerances.atol);
+    if (const auto& by_field = options_.tolerances.by_field) {
+      for_each_coordinate(stop_.fields(), [&](Field field, Eigen::Index i) {
+        allowed_[i] = by_field->of[static_cast<std::size_t>(field)];
+      });
+    }
     for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(n);
     started_ = true;
     tangent_by_a_ = 0;
@@ -208,8 +215,7 @@ class GeneralizedAlpha final : public Stepper {
     const double share = h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6);
     double largest = 0;
     for (Eigen::Index i = 0; i < q_.size() - system_.multipliers(); ++i) {
-      const double allowed =
-          options_.tolerances.atol + options_.tolerances.rtol * std::max(std::abs(base_q_[i]), std::abs(q_[i]));
+      const double allowed = allowed_[i] + options_.tolerances.rtol * std::max(std::abs(base_q_[i]), std::abs(q_[i]));
       largest = std::max(largest, share * std::abs(next_a_[i] - start_.a[i]) / allowed);
     }
     return largest;
@@ -256,6 +262,7 @@ class GeneralizedAlpha final : public Stepper {
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;
   Eigen::VectorXd other_q_, other_v_, other_a_, other_r_;  ///< perturbed by rounding
   NewtonStop stop_;
+  Eigen::VectorXd allowed_;      ///< absolute tolerances of the coordinates
   double noise_step_ = 0;        ///< [s], that its noise belongs to
   std::vector<double> history_;  ///< corrections of the current step, relative to its increment
 };

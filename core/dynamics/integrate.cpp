@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 
+#include "core/dynamics/in_tolerances.hpp"
 #include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
 
@@ -28,11 +29,16 @@ struct Method {
     } else if (options.type == IntegratorType::energy_momentum) {
       system = ode.new_second_order();
       stepper = make_energy_momentum(*system, options.energy_momentum);
-    } else if (of_sundials(options.type)) {
-      if (options.type == IntegratorType::ida) system = ode.new_second_order();
+    } else if (options.type == IntegratorType::ida) {
+      system = ode.new_second_order();
       stepper = make_sundials_stepper(options.type, options.tolerances, system.get(), &counters);
     } else {
-      stepper = make_odeint_stepper(options.type, options.tolerances, options.step);
+      const auto& by_field = options.tolerances.by_field;
+      const bool in_units = by_field && !has_fixed_step(options.type);
+      const Tolerances tolerances = in_units ? Tolerances{options.tolerances.rtol, 1} : options.tolerances;
+      stepper = of_sundials(options.type) ? make_sundials_stepper(options.type, tolerances, nullptr, nullptr)
+                                          : make_odeint_stepper(options.type, tolerances, options.step);
+      if (in_units) stepper = in_tolerances(std::move(stepper), *by_field);
     }
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/dynamics/ode.hpp"
 
@@ -31,9 +32,16 @@ constexpr bool of_sundials(IntegratorType type) {
   return type == IntegratorType::ida || type == IntegratorType::cvode || type == IntegratorType::arkode;
 }
 
+/// Absolute tolerances of coordinates and of their rates, kind by kind. What a state only counts, energies and the
+/// like, is not controlled. Those of multipliers are accelerations and velocities, or, on slopes, these times a length.
+struct FieldTolerances {
+  FieldNorms of{}, of_rate{};
+};
+
 struct Tolerances {
   double rtol = 1e-9;
-  double atol = 1e-9;
+  double atol = 1e-9;                            ///< of every entry of the state in its own unit
+  std::optional<FieldTolerances> by_field = {};  ///< in place of it
 };
 
 /// One step of a method.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #endif
 
 namespace vlbeam {
@@ -22,7 +23,8 @@ namespace {
 constexpr long most_steps = 20000;  // of SUNDIALS in one of ours
 constexpr int explicit_order = 5;
 // [s] Over a step shorter than this a multiplier's error is none of velocities yet. Newton's test sees multipliers,
-// too, and in the short steps of a start their rounding would never pass it.
+// too, and in the short steps of a start their rounding would never pass it. With tolerances by field the unit is the
+// time that those of position and velocity make.
 constexpr double unfelt = 1e-5;
 
 using State = Eigen::VectorXd;
@@ -224,8 +226,7 @@ class Ida final : public SundialsStepper {
     IDAInit(h.memory, residual, t, h.state, h.rate);
     IDASetUserData(h.memory, this);
     h.atol = h.vector(size);
-    values(h.atol).setConstant(tolerances_.atol);
-    values(h.atol).segment(2 * own_, 2 * multipliers_).setConstant(tolerances_.atol / unfelt);
+    set_tolerances(values(h.atol));
     IDASVtolerances(h.memory, tolerances_.rtol, h.atol);
     IDASetId(h.memory, h.id);
     IDASetSuppressAlg(h.memory, SUNTRUE);  // multipliers of a problem of index 2 would defeat the error test
@@ -233,6 +234,24 @@ class Ida final : public SundialsStepper {
     IDASetLinearSolver(h.memory, h.linear, h.matrix);
     IDASetJacFn(h.memory, jacobian);
     IDASetMaxNumSteps(h.memory, most_steps);
+  }
+
+  void set_tolerances(Map atol) const {
+    atol.setConstant(tolerances_.atol);
+    atol.segment(2 * own_, 2 * multipliers_).setConstant(tolerances_.atol / unfelt);
+    if (!tolerances_.by_field) return;
+    const FieldTolerances& by_field = *tolerances_.by_field;
+    atol.tail(tallies_).setConstant(std::numeric_limits<double>::max());
+    for_each_coordinate(system_.fields(), [&](Field field, Eigen::Index i) {
+      const auto f = static_cast<std::size_t>(field);
+      if (i < own_) {
+        atol[i] = by_field.of[f];
+        atol[own_ + i] = by_field.of_rate[f];
+      } else {
+        atol[own_ + i] = by_field.of[f] / unfelt;
+        atol[own_ + multipliers_ + i] = by_field.of_rate[f] / (unfelt * system_.multiplier_unit());
+      }
+    });
   }
 
   void unpack(N_Vector state, N_Vector rate) {

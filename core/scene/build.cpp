@@ -192,6 +192,12 @@ double end_merge(const Scene& scene) {
   return scene.length_control.end_merge.value_or(otherwise);
 }
 
+AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene) {
+  if (!atol.angle) atol.angle = atol.length / standard_length(scene);
+  if (!atol.spin) atol.spin = atol.velocity / standard_length(scene);
+  return atol;
+}
+
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;

@@ -25,6 +25,8 @@ double separation_distance(const Scene& scene);
 
 /// Length of the last element, over L_std, at which the sliding mass of the scene loses its node; 0 for never.
 double end_merge(const Scene& scene);
+/// With what is not given.
+AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 
 /// Material coordinates of the initial nodes, and which of them is the joint's. Throws InvalidInput where the sliding
 /// mass has no node of its own between two knots of a NURBS curve.

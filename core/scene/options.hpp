@@ -123,7 +123,9 @@ constexpr auto names(SceneSchema) { return std::to_array<Named<SceneSchema>>({{S
 ///   visitor.section(option)           for an object whose options follow, and which every scene needs if it is
 ///   required; visitor.present(option, optional) for a part that may be absent; the part's options follow if it says
 ///   true; visitor.list(option, vector)      for a list of any length; the options of its entries follow,
-///   "/loads/0/type".
+///   "/loads/0/type";
+///   visitor.number_or(option, number, optional)  for a number that may be a part instead, whose options follow if it
+///   says true.
 template <class Visitor, class SceneT>
 requires std::same_as<std::remove_const_t<SceneT>, Scene>
 void visit_options(Visitor&& visitor, SceneT& scene) {
@@ -619,11 +621,39 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "relative tolerance of a step, of the methods that choose their step",
                  .range = Range::closed(1e-14, 1)},
           scene.integrator.rtol);
-  visitor(Option{.pointer = "/integrator/atol",
-                 .unit = "m, m/s",
-                 .description = "absolute tolerance of a step, of the methods that choose their step",
+  if (visitor.number_or(
+          Option{.pointer = "/integrator/atol",
+                 .unit = "m, m/s, rad, rad/s, -, 1/s",
+                 .description = "absolute tolerance of a step, of the methods that choose their step: a number for all "
+                                "of the state in its own units, or an object with one for each kind",
                  .range = Range::positive()},
-          scene.integrator.atol);
+          scene.integrator.atol, scene.integrator.atol_by_kind)) {
+    auto& atol = *scene.integrator.atol_by_kind;
+    visitor(
+        Option{.pointer = "/integrator/atol/length",
+               .unit = "m",
+               .description = "of positions and material coordinates, and over the uniform element length of slopes",
+               .range = Range::positive(),
+               .required = true},
+        atol.length);
+    visitor(Option{.pointer = "/integrator/atol/velocity",
+                   .unit = "m/s",
+                   .description = "of their rates",
+                   .range = Range::positive(),
+                   .required = true},
+            atol.velocity);
+    visitor(Option{.pointer = "/integrator/atol/angle",
+                   .unit = "rad",
+                   .description = "of angles about the axis, and over the uniform element length of twist; if not "
+                                  "given that of slopes",
+                   .range = Range::positive()},
+            atol.angle);
+    visitor(Option{.pointer = "/integrator/atol/spin",
+                   .unit = "rad/s",
+                   .description = "of their rates; if not given that of the rates of slopes",
+                   .range = Range::positive()},
+            atol.spin);
+  }
   visitor(Option{.pointer = "/integrator/step",
                  .unit = "s",
                  .description = "length of a step, of the methods that do not choose it; at most the duration",

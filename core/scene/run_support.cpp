@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "core/scene/build.hpp"
 
 namespace vlbeam {
 namespace {
@@ -19,6 +20,27 @@ std::vector<double> sample_times(const Scene& scene) {
   for (long i = 0; i <= count; ++i) times.push_back(std::min(static_cast<double>(i) * interval, scene.duration));
   if (times.back() < scene.duration * (1 - 1e-12)) times.push_back(scene.duration);
   return times;
+}
+
+Tolerances tolerances_of(const Scene& scene) {
+  const auto& integrator = scene.integrator;
+  Tolerances tolerances{integrator.rtol, integrator.atol};
+  if (!integrator.atol_by_kind) return tolerances;
+  const AbsoluteTolerances atol = with_defaults(*integrator.atol_by_kind, scene);
+  const double length = atol.length, velocity = atol.velocity, unit = standard_length(scene);
+  FieldTolerances& by_field = tolerances.by_field.emplace();
+  const auto set = [&](Field field, double value, double rate) {
+    by_field.of[static_cast<std::size_t>(field)] = value;
+    by_field.of_rate[static_cast<std::size_t>(field)] = rate;
+  };
+  for (const Field field : {Field::position, Field::mark, Field::mass}) set(field, length, velocity);
+  set(Field::slope, length / unit, velocity / unit);
+  set(Field::angle, *atol.angle, *atol.spin);
+  set(Field::twist, *atol.angle / unit, *atol.spin / unit);
+  const double acceleration = velocity * velocity / length;  // over the time that the two make
+  set(Field::multiplier, acceleration, velocity);
+  set(Field::slope_multiplier, acceleration * unit, velocity * unit);
+  return tolerances;
 }
 
 }  // namespace
@@ -40,7 +62,7 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   const auto& integrator = scene.integrator;
   IntegrationOptions options;
   options.type = integrator.type;
-  options.tolerances = {integrator.rtol, integrator.atol};
+  options.tolerances = tolerances_of(scene);
   options.first_step = first_step_courant * wave_time;
   options.locate_events = integrator.locate_events;
   options.step = options.energy_momentum.step = integrator.step;
@@ -49,7 +71,7 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
                                .newton = integrator.newton,
                                .newton_tolerance = integrator.newton_tolerance,
                                .adaptive = integrator.adaptive,
-                               .tolerances = {integrator.rtol, integrator.atol}};
+                               .tolerances = options.tolerances};
   return options;
 }
 

@@ -177,15 +177,25 @@ struct LengthControlSpec {
   std::optional<double> end_merge;  ///< over L_std: a shorter last element loses its moving node; see end_merge()
 };
 
+/// Absolute tolerances by kind. That of slopes is the one of lengths over L_std, that of twist the one of angles; of
+/// rates likewise.
+struct AbsoluteTolerances {
+  double length = 0;            ///< positions and material coordinates [m]
+  double velocity = 0;          ///< of their rates [m/s]
+  std::optional<double> angle;  ///< about the axis [rad]; if not given that of slopes
+  std::optional<double> spin;   ///< of its rate [rad/s]; if not given that of the rates of slopes
+};
+
 struct IntegratorSpec {
   IntegratorType type = IntegratorType::dopri5;
-  double rtol = 1e-9;                        ///< error-controlled methods
-  double atol = 1e-9;                        ///< error-controlled methods
-  double step = 1e-3;                        ///< methods of fixed step [s]
-  double rho_inf = 0.9;                      ///< generalized-alpha: spectral radius at infinity
-  NewtonKind newton = NewtonKind::modified;  ///< generalized-alpha
-  double newton_tolerance = 1e-8;            ///< generalized-alpha: what Newton leaves, over the increment
-  bool adaptive = false;                     ///< generalized-alpha: the step follows rtol and atol
+  double rtol = 1e-9;  ///< error-controlled methods
+  double atol = 1e-9;  ///< error-controlled methods; of all of the state, in its own units
+  std::optional<AbsoluteTolerances> atol_by_kind = {};  ///< in place of it
+  double step = 1e-3;                                   ///< methods of fixed step [s]
+  double rho_inf = 0.9;                                 ///< generalized-alpha: spectral radius at infinity
+  NewtonKind newton = NewtonKind::modified;             ///< generalized-alpha
+  double newton_tolerance = 1e-8;                       ///< generalized-alpha: what Newton leaves, over the increment
+  bool adaptive = false;                                ///< generalized-alpha: the step follows rtol and atol
   bool locate_events = true;
 };
 

@@ -37,6 +37,12 @@ class RangeCheck {
   }
 
   template <class T>
+  bool number_or(const Option& option, double number, const std::optional<T>& part) const {
+    if (!part) (*this)(option, number);
+    return part.has_value();
+  }
+
+  template <class T>
   void list(const Option&, const std::vector<T>&) const {}
   void section(const Option&) const {}
 

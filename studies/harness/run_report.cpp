@@ -241,8 +241,11 @@ std::string beam_text(const Scene& scene) {
 std::string integrator_text(const IntegratorSpec& integrator) {
   const std::string type(to_string(integrator.type));
   const bool fixed = has_fixed_step(integrator.type) && !integrator.adaptive;
-  return type + (fixed ? ", steps of " + number_text(integrator.step) + " s"
-                       : ", rtol " + number_text(integrator.rtol) + ", atol " + number_text(integrator.atol));
+  if (fixed) return type + ", steps of " + number_text(integrator.step) + " s";
+  const auto& by_kind = integrator.atol_by_kind;
+  const std::string atol = by_kind ? number_text(by_kind->length) + " m, " + number_text(by_kind->velocity) + " m/s"
+                                   : number_text(integrator.atol);
+  return type + ", rtol " + number_text(integrator.rtol) + ", atol " + atol;
 }
 
 std::string events_text(const std::vector<Event>& events) {

@@ -22,7 +22,8 @@ namespace {
 Json::json_pointer pointer(std::string_view text) { return Json::json_pointer(std::string(text)); }
 
 /// The option table as a tree of keys; its leaves are null. A list is an object whose keys are "at=start", ...: one for
-/// each entry it may have; or, if it may have any number of them, an array with one.
+/// each entry it may have; or, if it may have any number of them, an array with one. A part that may be a number has
+/// the key "".
 class KeyTree {
  public:
   KeyTree() { visit_options(*this, scene_); }
@@ -33,6 +34,11 @@ class KeyTree {
   }
   template <class T>
   bool present(const Option&, const std::optional<T>&) {
+    return true;
+  }
+  template <class T>
+  bool number_or(const Option& option, double, const std::optional<T>&) {
+    tree_[pointer(option.pointer)][""] = nullptr;  // the number is the part's entry without a name
     return true;
   }
   template <class T>
@@ -56,7 +62,9 @@ std::string list_key(const Json& node) {
 
 std::string unknown_key_hint(const std::string& key, const Json& node, const std::string& discriminator) {
   std::vector<std::string> known;
-  for (const auto& item : node.items()) known.push_back(item.key());
+  for (const auto& item : node.items()) {
+    if (!item.key().empty()) known.push_back(item.key());
+  }
   if (!discriminator.empty()) known.push_back(discriminator);
   return "the nearest known key is \"" + nearest_of(key, known) + "\" (known here: " + quoted_list(known) + ")";
 }
@@ -95,7 +103,7 @@ class Canonical {
       const std::string at = here + "/" + escaped(key);
       const std::string at_shown = shown + "/" + escaped(key);
       if (key == discriminator && !key.empty()) continue;
-      if (!node.contains(key)) {
+      if (key.empty() || !node.contains(key)) {
         throw InvalidInput(at_shown, "an unknown key", unknown_key_hint(key, node, discriminator));
       }
       const Json& child = node.at(key);
@@ -108,7 +116,7 @@ class Canonical {
         }
       } else if (!list_key(child).empty()) {
         result[key] = list(item.value(), child, at, at_shown);
-      } else if (child.is_object()) {
+      } else if (child.is_object() && !(child.contains("") && !item.value().is_object())) {
         result[key] = object(item.value(), child, at, at_shown, "");
       } else {
         result[key] = item.value();
@@ -174,6 +182,19 @@ class Reader {
   template <class T>
   bool present(const Option& option, std::optional<T>& part) const {
     if (file_.find(option.pointer) != nullptr) part.emplace();
+    return part.has_value();
+  }
+
+  template <class T>
+  bool number_or(const Option& option, double& number, std::optional<T>& part) const {
+    const Json* const file = file_.find(option.pointer);
+    if (file == nullptr) return false;
+    if (file->is_object()) {
+      part.emplace();
+    } else if (!read(*file, option, number)) {
+      throw InvalidInput(file_.in_file(option.pointer), excerpt(*file),
+                         "it must be " + allowed_text<double>(option) + ", or an object");
+    }
     return part.has_value();
   }
 
@@ -251,6 +272,11 @@ class Writer {
     return part.has_value();
   }
   template <class T>
+  bool number_or(const Option& option, double number, const std::optional<T>& part) {
+    if (!part) (*this)(option, number);
+    return part.has_value();
+  }
+  template <class T>
   void list(const Option&, const std::vector<T>&) {}
   void section(const Option&) {}
 
@@ -310,6 +336,7 @@ Scene scene_with_every_part() {
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();
+  scene.integrator.atol_by_kind.emplace();
   return scene;
 }
 
@@ -346,6 +373,7 @@ Json scene_to_json(const Scene& scene) {
     mass->separation_distance = separation_distance(scene);
   }
   filled.length_control.end_merge = end_merge(scene);
+  if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);
   if (filled.spin) filled.spin->rate = initial_spin(scene);
   if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;

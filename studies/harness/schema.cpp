@@ -74,6 +74,17 @@ class SceneSchemaBuilder {
   }
 
   template <class T>
+  bool number_or(const Option& option, double standard, const std::optional<T>&) {
+    const auto path = segments(option.pointer);
+    Json& schema = object(path, path.size());  // what is said of objects does not hold for numbers, and the reverse
+    schema.update(number("number", option.range));
+    schema["type"] = {"number", "object"};
+    schema["description"] = description(option);
+    schema["default"] = standard;
+    return true;
+  }
+
+  template <class T>
   void list(const Option& option, const std::vector<T>&) {
     const auto path = segments(option.pointer);
     Json& parent = object(path, path.size() - 1);

@@ -97,6 +97,20 @@ TEST(SceneJson, AutoStandsForTheIntegratorThatTheEchoShows) {
   EXPECT_THROW(scene_from_json(json), InvalidInput);
 }
 
+TEST(SceneJson, AnAbsoluteToleranceMayBeOneForEachKind) {
+  Json json = example_scene();
+  EXPECT_FALSE(scene_from_json(json).integrator.atol_by_kind);
+  EXPECT_EQ(scene_to_json(scene_from_json(json))["integrator"]["atol"], 1e-8);
+  json["integrator"]["atol"] = {{"length", 1e-8}, {"velocity", 1e-6}, {"spin", 1e-3}};
+  const Scene scene = scene_from_json(json);
+  ASSERT_TRUE(scene.integrator.atol_by_kind);
+  EXPECT_EQ(scene.integrator.atol_by_kind->velocity, 1e-6);
+  const Json echo = scene_to_json(scene);
+  EXPECT_EQ(echo["integrator"]["atol"],
+            (Json{{"length", 1e-8}, {"velocity", 1e-6}, {"angle", 1e-8 / 0.05}, {"spin", 1e-3}}));
+  EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo);
+}
+
 TEST(SceneJson, MethodsOfFixedStepShareTheirOption) {
   for (const char* type : {"adams-bashforth-moulton", "generalized-alpha"}) {
     Json json = example_scene();
@@ -136,27 +150,35 @@ TEST_P(BadInput, NamesTheFieldTheValueAndWhatIsAllowed) {
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, BadInput,
-    testing::Values(BadScene{"/gravty", "[0, 0]", "/gravty", "nearest known key is \"gravity\""},
-                    BadScene{"/beam/elemnets", "5", "/beam/elemnets", "nearest known key is \"elements\""},
-                    BadScene{"/beam/material/youngs modulus", "5", "/beam/material/youngs modulus",
-                             "\"youngs_modulus\""},
-                    BadScene{"/sliding_mass/friction/mu", "0.1"}, BadScene{"/constraint", "\"eliminated\""},
-                    BadScene{"/supports/0/clmap", "\"full\"", "/supports/0/clmap", "\"clamp\""}, BadScene{"/a~1b", "1"},
-                    BadScene{"/beam/curve/radius", "1"}, BadScene{"/supports/0/at=start", "1"}));
+    testing::Values(
+        BadScene{"/gravty", "[0, 0]", "/gravty", "nearest known key is \"gravity\""},
+        BadScene{"/beam/elemnets", "5", "/beam/elemnets", "nearest known key is \"elements\""},
+        BadScene{"/beam/material/youngs modulus", "5", "/beam/material/youngs modulus", "\"youngs_modulus\""},
+        BadScene{"/sliding_mass/friction/mu", "0.1"}, BadScene{"/constraint", "\"eliminated\""},
+        BadScene{"/integrator/atol", R"({"length": 1, "velocity": 1, "lenght": 1})", "/integrator/atol/lenght",
+                 "\"length\" (known here: \"length\", \"velocity\", \"angle\", \"spin\")"},
+        BadScene{"/integrator/atol", R"({"length": 1, "velocity": 1, "": 1})", "/integrator/atol/"},
+        BadScene{"/supports/0/clmap", "\"full\"", "/supports/0/clmap", "\"clamp\""}, BadScene{"/a~1b", "1"},
+        BadScene{"/beam/curve/radius", "1"}, BadScene{"/supports/0/at=start", "1"}));
 
 INSTANTIATE_TEST_SUITE_P(
     MistypedValues, BadInput,
-    testing::Values(BadScene{"/dimension", "\"2\""}, BadScene{"/dimension", "2.5"}, BadScene{"/dimension", "4"},
-                    BadScene{"/dimension", "4294967298"}, BadScene{"/title", "5"},
-                    BadScene{"/schema", "\"vlbeam.scene/2\""}, BadScene{"/gravity", "-9.81"},
-                    BadScene{"/gravity", "[0, 0, -9.81]"}, BadScene{"/gravity", "[0, \"g\"]"},
-                    BadScene{"/gravity", "[0, null]"}, BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
-                    BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""},
-                    BadScene{"/sliding_mass/friction", "0.1"}, BadScene{"/beam/weights", "[1, 1, 1]"},
-                    BadScene{"/beam/elements", "20.5"}, BadScene{"/length_control/enabled", "1"},
-                    BadScene{"/integrator/locate_events", "\"no\""}, BadScene{"/supports", "{}"},
-                    BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
-                    BadScene{"/output/configurations", "0.5"}, BadScene{"/output/configurations", "[0, true]"}));
+    testing::Values(
+        BadScene{"/dimension", "\"2\""}, BadScene{"/dimension", "2.5"}, BadScene{"/dimension", "4"},
+        BadScene{"/dimension", "4294967298"}, BadScene{"/title", "5"}, BadScene{"/schema", "\"vlbeam.scene/2\""},
+        BadScene{"/gravity", "-9.81"}, BadScene{"/gravity", "[0, 0, -9.81]"}, BadScene{"/gravity", "[0, \"g\"]"},
+        BadScene{"/gravity", "[0, null]"}, BadScene{"/duration", "\"NaN\""}, BadScene{"/duration", "null"},
+        BadScene{"/beam", "[]"}, BadScene{"/beam/curve", "\"line\""}, BadScene{"/sliding_mass/friction", "0.1"},
+        BadScene{"/beam/weights", "[1, 1, 1]"}, BadScene{"/beam/elements", "20.5"},
+        BadScene{"/length_control/enabled", "1"}, BadScene{"/integrator/locate_events", "\"no\""},
+        BadScene{"/supports", "{}"}, BadScene{"/supports/0", "\"clamp\""}, BadScene{"/sliding_mass", "null"},
+        BadScene{"/integrator/atol", "\"tight\"", "/integrator/atol", "or an object"},
+        BadScene{"/integrator/atol", "[1e-9]"}, BadScene{"/integrator/atol", "null"},
+        BadScene{"/integrator/atol", "-1", "/integrator/atol", "> 0"},
+        BadScene{"/integrator/atol", R"({"length": "m", "velocity": 1})", "/integrator/atol/length", "> 0"},
+        BadScene{"/integrator/atol", R"({"length": 1, "velocity": 0})", "/integrator/atol/velocity", "> 0"},
+        BadScene{"/integrator/atol", R"({"length": 1, "velocity": 1, "spin": -1})", "/integrator/atol/spin", "> 0"},
+        BadScene{"/output/configurations", "0.5"}, BadScene{"/output/configurations", "[0, true]"}));
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownChoices, BadInput,
@@ -191,6 +213,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"/sliding_mass", R"({"mass": 0.1})", "/sliding_mass/position", "missing"},
         BadScene{"/sliding_mass/friction", R"({"velocity": 0.1})", "/sliding_mass/friction/coefficient", "missing"},
         BadScene{"/beam/section", R"({"type": "stiffness", "EA": 1, "EI": 1})", "/beam/section/rhoA", "missing"},
+        BadScene{"/integrator/atol", "{}", "/integrator/atol/length", "missing"},
+        BadScene{"/integrator/atol", R"({"length": 1e-9})", "/integrator/atol/velocity", "missing"},
         BadScene{"/supports/0", R"({"at": "start"})", "/supports/0/type", "missing"},
         BadScene{"/supports/0", R"({"type": "pin"})", "/supports/0/at", "missing"}));
 

@@ -40,6 +40,8 @@ TEST(SceneSchema, ComesFromTheOptionTable) {
   EXPECT_EQ(at("/properties/sliding_mass/required"), (Json{"mass", "position"}));
   EXPECT_EQ(at("/properties/supports/items/properties/at/enum"), (Json{"start", "end"}));
   EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/rtol/minimum"), 1e-14);
+  EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/atol/type"), (Json{"number", "object"}));
+  EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/atol/required"), (Json{"length", "velocity"}));
 }
 
 }  // namespace

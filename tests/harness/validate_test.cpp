@@ -78,6 +78,14 @@ const Rule ranges[] = {
     {"/length_control/hysteresis", [](Scene& s) { s.length_control.hysteresis = -0.1; }},
     {"/integrator/rtol", [](Scene& s) { s.integrator.rtol = 0; }},
     {"/integrator/atol", [](Scene& s) { s.integrator.atol = nan; }},
+    {"/integrator/atol/length",
+     [](Scene& s) {
+       s.integrator.atol_by_kind = {0, 1, {}, {}};
+     }},
+    {"/integrator/atol/angle",
+     [](Scene& s) {
+       s.integrator.atol_by_kind = {1, 1, inf, {}};
+     }},
     {"/integrator/step",
      [](Scene& s) {
        s.integrator.type = IntegratorType::adams_bashforth_moulton;

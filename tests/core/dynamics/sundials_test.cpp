@@ -50,6 +50,15 @@ class Sundials : public ::testing::TestWithParam<IntegratorType> {
 INSTANTIATE_TEST_SUITE_P(All, Sundials,
                          ::testing::Values(IntegratorType::ida, IntegratorType::cvode, IntegratorType::arkode));
 
+TEST_P(Sundials, TakesAbsoluteTolerancesByKind) {
+  const RunResult exact = finished(scene_for(IntegratorType::fehlberg78, 1e-12, 1e-4));
+  for (const double tolerance : {1e-6, 1e-8}) {
+    Scene scene = scene_for(GetParam(), tolerance, 1e-4);
+    scene.integrator.atol_by_kind = {tolerance, 3 * tolerance, {}, {}};
+    EXPECT_LE(difference(finished(scene), exact), 2000 * tolerance);
+  }
+}
+
 TEST_P(Sundials, AgreesWithFehlbergToItsTolerance) {
   const RunResult exact = finished(scene_for(IntegratorType::fehlberg78, 1e-12));
   ASSERT_GE(exact.events.size(), 2u);

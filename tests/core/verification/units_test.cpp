@@ -67,6 +67,11 @@ Scene in_units(Scene scene, const Units& u) {
   }
   auto& integrator = scene.integrator;
   integrator.step *= second;
+  if (auto& atol = integrator.atol_by_kind) {
+    atol->length *= metre;
+    atol->velocity *= metre / second;
+    if (atol->spin) *atol->spin /= second;
+  }
   scene.duration *= second;
   scene.output.interval *= second;
   for (double& t : scene.output.configurations) t *= second;
@@ -168,6 +173,51 @@ TEST(Units, ChangeNoBitOfEnergyMomentum) {
 
 TEST(Units, ChangeNoBitOfAdamsBashforthMoulton) {
   expect_same_bits(with_step(with_events(), IntegratorType::adams_bashforth_moulton, 2e-5));
+}
+
+Scene with_tolerance(Scene scene, IntegratorType type, double tolerance) {
+  scene.integrator.type = type;
+  scene.integrator.rtol = tolerance;
+  scene.integrator.atol_by_kind = {tolerance, 3 * tolerance, {}, {}};
+  return scene;
+}
+
+TEST(Units, ChangeNoBitOfExplicitMethodsThatChooseTheirSteps) {
+  for (const auto type : {IntegratorType::dopri5, IntegratorType::cash_karp, IntegratorType::fehlberg78,
+                          IntegratorType::bulirsch_stoer}) {
+    SCOPED_TRACE(static_cast<int>(type));
+    Scene scene = with_tolerance(with_events(), type, 1e-6);
+    scene.duration = 0.25;
+    expect_same_bits(scene);
+  }
+  Scene loaded = with_tolerance(shaft(), IntegratorType::dopri5, 1e-5);
+  loaded.integrator.atol_by_kind->angle = 1e-6;
+  loaded.integrator.atol_by_kind->spin = 1e-4;
+  loaded.duration = 0.002;
+  loaded.output.interval = 0.001;
+  expect_same_bits(loaded);
+}
+
+TEST(Units, ChangeNoBitOfAdaptiveGeneralizedAlpha) {
+  Scene scene = with_tolerance(with_events(), IntegratorType::generalized_alpha, 1e-6);
+  scene.integrator.adaptive = true;
+  expect_same_bits(scene);
+  scene.constraints = Constraints::multipliers;
+  expect_same_bits(scene);
+}
+
+/// With all that its Jacobian takes from differences: what damping, friction and moving supports do, and when.
+TEST(Units, ChangeNoBitOfRosenbrock4) {
+  Scene scene = with_tolerance(falling_beam(ElementKind::ale_rancf, 4), IntegratorType::rosenbrock4, 1e-5);
+  scene.duration = 0.2;
+  scene.output.interval = 0.1;
+  scene.gravity_ramp = 0.05;
+  expect_same_bits(scene);
+  scene.beam.material.damping = 1e-3;
+  scene.sliding_mass->friction = AxialFriction{0.1, 0.05};
+  scene.start.motion =
+      SupportMotionSpec{{1, 2, 0}, {.value = 0.01, .amplitude = -0.01, .frequency = 3, .phase_degrees = 90}};
+  expect_same_bits(scene);
 }
 
 TEST(Units, ChangeNoBitOfLengthControl) {
