@@ -56,6 +56,13 @@ std::vector<double> Stops::all() const {
   return stops;
 }
 
+bool Stops::end_at(double t) {
+  samples.erase(std::upper_bound(samples.begin(), samples.end(), t), samples.end());
+  if (!samples.empty() && samples.back() == t) return false;
+  samples.push_back(t);
+  return true;
+}
+
 IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest) {
   const double stiffness = std::max(section.stiffness.EA, section.stiffness.EI / (shortest * shortest));
   const double wave_time = shortest * std::sqrt(section.rhoA / stiffness);
@@ -75,13 +82,14 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   return options;
 }
 
-void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial,
-                const Stops& stops, const IntegrationOptions& options, RunResult& result) {
+void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial, Stops& stops,
+                const IntegrationOptions& options, RunResult& result) {
   double t = 0;
+  Eigen::VectorXd y;
   const auto started = std::chrono::steady_clock::now();
   try {
     result.samples.reserve(stops.samples.size());
-    Eigen::VectorXd y = initial();
+    y = initial();
     if (!integrate(ode, y, t, scene.duration, stops.all(), options, result.solver)) {
       result.status = RunStatus::interrupted;
     }
@@ -89,6 +97,11 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
     result.status = RunStatus::failed;
     result.failure = failure.what();
     result.failure_time = failure.t;
+    try {
+      if (y.size() > 0 && stops.end_at(t)) ode.sample(y, t);
+    } catch (const ComputationFailed&) {
+      // looking at it is what failed
+    }
   } catch (const std::bad_alloc&) {
     result.status = RunStatus::failed;
     result.failure = "out of memory after " + std::to_string(result.samples.size()) + " samples and " +

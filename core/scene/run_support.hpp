@@ -32,6 +32,8 @@ struct Stops {
 
   explicit Stops(const Scene& scene);
   std::vector<double> all() const;
+  /// The run ends at t, which becomes the last sample; false if it has that already.
+  bool end_at(double t);
   bool samples_at(double t) const { return std::binary_search(samples.begin(), samples.end(), t); }
   bool keeps_shape_at(double t) const { return std::binary_search(configurations.begin(), configurations.end(), t); }
 };
@@ -39,9 +41,10 @@ struct Stops {
 /// `shortest` is the length of the shortest element at t = 0 [m].
 IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest);
 
-/// Runs to the end of the scene, from the state that `initial` makes, and notes how it went.
-void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial,
-                const Stops& stops, const IntegrationOptions& options, RunResult& result);
+/// Runs to the end of the scene, from the state that `initial` makes, and notes how it went. The last sample of a run
+/// that fails is its last good state.
+void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial, Stops& stops,
+                const IntegrationOptions& options, RunResult& result);
 
 /// Runs a scene whose beam is a FlowingBeam.
 template <int D>
