@@ -120,6 +120,59 @@ TEST(ModifiedNewton, IsFullNewtonAtEveryStep) {
   }
 }
 
+/// Positions of all nodes at the end.
+Eigen::VectorXd shape(Scene scene, double step, NewtonKind newton) {
+  scene.integrator.step = step;
+  scene.integrator.newton = newton;
+  const RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
+  const auto& r = result.configurations.back().r;
+  Eigen::VectorXd all(3 * static_cast<Eigen::Index>(r.size()));
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    all.segment<3>(3 * static_cast<Eigen::Index>(k)) = Eigen::Map<const Eigen::Vector3d>(r[k].data());
+  }
+  return all;
+}
+
+/// A mass that slides along a soft beam, which gravity bends smoothly.
+Scene sliding_mass() {
+  Scene scene;
+  scene.beam.elements = 4;
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.material.youngs_modulus = 2e5;
+  scene.gravity = {0, -1, 0};
+  scene.gravity_ramp = 0.1;
+  scene.start.type = SupportType::clamp;
+  scene.sliding_mass = SlidingMassSpec{};
+  scene.sliding_mass->mass = 0.2;
+  scene.sliding_mass->position = 0.3;
+  scene.sliding_mass->velocity = 0.3;
+  scene.duration = scene.output.interval = 0.2;
+  scene.output.configurations = {0.2};
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  return scene;
+}
+
+/// Errors against the limit of the other kind, extrapolated.
+TEST(ModifiedNewton, AndFullNewtonHaveOneLimitOfOrderTwo) {
+  Scene smooth = shaft(0.02, 1e-4, NewtonKind::full);
+  smooth.loads.front().magnitude.ramp = 0.01;  // a blow would ring in modes that no such step resolves
+  for (const auto& [scene, coarsest] : {std::pair{smooth, 1e-4}, {sliding_mass(), 2e-3}}) {
+    for (const auto own : {NewtonKind::modified, NewtonKind::full}) {
+      const auto other = own == NewtonKind::full ? NewtonKind::modified : NewtonKind::full;
+      const Eigen::VectorXd limit = (4 * shape(scene, coarsest / 16, other) - shape(scene, coarsest / 8, other)) / 3;
+      double last = 0;
+      for (const double step : {coarsest, coarsest / 2, coarsest / 4}) {
+        const double error = (shape(scene, step, own) - limit).lpNorm<Eigen::Infinity>();
+        if (last > 0) {
+          EXPECT_NEAR(std::log2(last / error), 2, 0.2) << step;
+        }
+        last = error;
+      }
+    }
+  }
+}
+
 TEST(ModifiedNewton, StopsAtRoundingWhateverIsAskedFor) {
   Scene scene = shaft(0.002, 1e-5, NewtonKind::modified);
   scene.integrator.newton_tolerance = 1e-15;
