@@ -443,7 +443,14 @@ Scene with_setting(const Scene& scene, const Setting& setting) {
   if (has_step(scene)) {
     changed.integrator.step = setting.accuracy;
   } else {
-    changed.integrator.atol = scene.integrator.atol * (setting.accuracy / scene.integrator.rtol);
+    const double share = setting.accuracy / scene.integrator.rtol;
+    changed.integrator.atol *= share;
+    if (auto& atol = changed.integrator.atol_by_kind) {
+      atol->length *= share;
+      atol->velocity *= share;
+      if (atol->angle) *atol->angle *= share;
+      if (atol->spin) *atol->spin *= share;
+    }
     changed.integrator.rtol = setting.accuracy;
   }
   validate(changed);
