@@ -7,7 +7,9 @@ set -euo pipefail
 
 packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libgtest-dev libgmock-dev
           libbenchmark-dev gnuplot-nox)
-[[ ${1:-build} == ci ]] && packages+=(clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
+if [[ ${1:-build} == ci ]]; then
+  packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
+fi
 
 command -v dpkg-query > /dev/null || exit 0  # not Debian: CMake will name what it misses
 

@@ -135,7 +135,7 @@ void ImplicitBeam<D>::contract(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   auto gather = [&](const Eigen::VectorXd& from, auto to) {
     to.head(before) = from.head(before);
     to.segment(before, behind) = from.segment(before + B * cut(), behind);
-    to.tail(kink) = from.segment(before + D, kink);
+    if (kink > 0) to.tail(kink) = from.segment(before + D, kink);
   };
   gather(q, y.head(own));
   gather(v, y.segment(own, own));
