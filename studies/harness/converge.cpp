@@ -484,6 +484,7 @@ Json convergence_to_json(const Scene& scene, const Convergence& found) {
     row.update(setting_json(scene, level.setting));
     row["value"] = number_or_null(level.value);
     row["difference"] = number_or_null(std::abs(level.value - found.answer));
+    row["error_bound"] = number_or_null(std::abs(level.value - found.answer) + found.uncertainty);
     row["work"] = level.work;
     row["events"] = level.events;
     if (!level.failure.empty()) row["failure"] = level.failure;
@@ -498,13 +499,14 @@ Json convergence_to_json(const Scene& scene, const Convergence& found) {
 std::string convergence_table(const Scene& scene, const Convergence& found) {
   std::string text = "refined,elements,quadrature_points," + accuracy_name(scene) +
                      (has_step(scene) ? " [s]" : " [-]") + ",value [" + found.unit + "],difference [" + found.unit +
-                     "],work [element evaluations],events\n";
+                     "],error_bound [" + found.unit + "],work [element evaluations],events\n";
   const auto number = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
   for (const ConvergeLevel& level : found.levels) {
     text += std::string(refined_names[static_cast<std::size_t>(level.refined)]) + "," +
             std::to_string(level.setting.elements) + "," + std::to_string(level.setting.points) + "," +
             number_text(level.setting.accuracy) + "," + number(level.value) + "," +
-            number(std::abs(level.value - found.answer)) + "," + number(level.work) + "," +
+            number(std::abs(level.value - found.answer)) + "," +
+            number(std::abs(level.value - found.answer) + found.uncertainty) + "," + number(level.work) + "," +
             std::to_string(level.events) + "\n";
   }
   return text;

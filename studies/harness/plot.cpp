@@ -303,19 +303,15 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
 void plot_convergence(const Json& report, const std::filesystem::path& figure) {
   Diagram diagram{.title = report.value("title", "") + ": " + report.value("quantity", ""),
                   .x_label = "work (element evaluations)",
-                  .y_label = "difference from the answer (" + report.value("unit", "") + ")",
+                  .y_label = "bound of the error (" + report.value("unit", "") + ")",
                   .series = {},
                   .logarithmic = true};
-  std::vector<std::pair<std::string, std::string>> kinds = {
-      {"mesh", "finer meshes"}, {"time", "finer time steps or tolerances"}, {"quadrature", "more quadrature points"}};
-  for (const auto& [kind, title] : kinds) {
-    Series series{title, {}, {}, Series::Style::line_with_points};
+  for (const std::string kind : {"mesh", "time", "quadrature"}) {
+    Series series{kind + " refined", {}, {}, Series::Style::points};
     for (const Json& row : report.at("levels")) {
-      if (row.value("refined", "") != kind || !row.at("difference").is_number() || !row.at("work").is_number())
-        continue;
-      if (!(row.at("difference").get<double>() > 0)) continue;
+      if (row.value("refined", "") != kind || !row.at("error_bound").is_number()) continue;
       series.x.push_back(row.at("work").get<double>());
-      series.y.push_back(row.at("difference").get<double>());
+      series.y.push_back(row.at("error_bound").get<double>());
     }
     if (!series.x.empty()) diagram.series.push_back(std::move(series));
   }

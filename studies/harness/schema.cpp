@@ -546,11 +546,13 @@ Json converge_schema() {
                            {"refusal"});
   Json level = record({{"refined", choice({"mesh", "time", "quadrature"})}}, {});
   level["properties"].update(setting.at("properties"));
-  level["properties"].update(Json{{"value", number_or_null},
-                                  {"difference", described(number_or_null, "from the answer, its magnitude")},
-                                  {"work", described(number, "evaluations times elements and quadrature points", "-")},
-                                  {"events", described(whole, "of length control, contacts and separation")},
-                                  {"failure", described(text, "why there is no value")}});
+  level["properties"].update(
+      Json{{"value", number_or_null},
+           {"difference", described(number_or_null, "from the answer, its magnitude")},
+           {"error_bound", described(number_or_null, "difference and uncertainty of the answer together")},
+           {"work", described(number, "evaluations times elements and quadrature points", "-")},
+           {"events", described(whole, "of length control, contacts and separation")},
+           {"failure", described(text, "why there is no value")}});
   Json properties = {
       {"schema_version", {{"const", "vlbeam.converge/1"}}},
       {"title", text},

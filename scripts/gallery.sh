@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Draws a picture of every example scene.
+#   gallery.sh PROGRAM [OUT]
+set -euo pipefail
+program=$1
+out=${2:-docs/scenes}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir -p "$out"
+for file in scenes/*.json; do
+  name=$(basename "$file" .json)
+  case $name in
+    torsion) what=(--quantity angle_start angle_end) ;;
+    drill_stem) what=(--quantity end.x end.y) ;;
+    rotating_load) what=(--quantity load0_x load0_y) ;;
+    incline | suspended_beam_friction) what=(--what joint) ;;
+    hanging_cable) what=(--what tension) ;;
+    pulled_bar) what=(--what strain) ;;
+    *) what=(--what shape) ;;
+  esac
+  "$program" run "$file" --report "$scratch/r.json" --quiet
+  "$program" plot "$scratch/r.json" "${what[@]}" -o "$out/$name.svg"
+done
