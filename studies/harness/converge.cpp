@@ -216,7 +216,12 @@ class Converger {
 
   /// The first three meshes; the wanted error in the quantity's unit.
   void start() {
-    while (ladder(Refined::mesh, now_).size() < 3 && now_.elements * 2 <= options_.most_elements) now_.elements *= 2;
+    while (ladder(Refined::mesh, now_).size() < 3) {
+      Setting finer_mesh = now_;
+      finer_mesh.elements *= 2;
+      if (finer_mesh.elements > options_.most_elements || !possible(finer_mesh)) break;
+      now_ = finer_mesh;
+    }
     ensure(last(ladder(Refined::mesh, now_), 3), Refined::mesh);
     const ConvergeLevel* level = at(now_);
     found_.error = options_.error;
@@ -281,6 +286,7 @@ class Converger {
       next.points += extra_points;
       if (next.points > most_points) return give_up("more quadrature points change the answer still");
     } else {
+      if (fails_again()) return give_up("finer meshes fail, too: " + at(now_)->failure);
       next.elements *= 2;
       growth = growth_of_mesh();
       if (next.elements > options_.most_elements) {
@@ -289,6 +295,7 @@ class Converger {
       if (diverges())
         return give_up("two finer meshes have brought it no nearer: this motion does not converge at this time");
     }
+    if (!possible(next)) return give_up("the scene cannot be modelled any finer");
     const ConvergeLevel* finest = at(now_);
     const double next_work = growth * finest->work;
     // The finer setting costs its own run, and about as much again for what is judged on the mesh before it.
@@ -306,6 +313,14 @@ class Converger {
     return before != nullptr && before->work > 0 && finest->work > before->work ? finest->work / before->work : 2;
   }
 
+  /// Whether the finest mesh gives no value, nor the one before.
+  bool fails_again() const {
+    Setting half = now_;
+    half.elements /= 2;
+    const ConvergeLevel* before = at(half);
+    return !at(now_)->failure.empty() && (before == nullptr || !before->failure.empty());
+  }
+
   /// Whether the last two refinements of the mesh gained nothing, beyond where that is common.
   bool diverges() const {
     const std::size_t n = history_.size();
@@ -321,7 +336,7 @@ class Converger {
     const ConvergeLevel* finest = at(found_.finest);
     if (finest == nullptr) finest = at(now_);
     if (finest != nullptr && !finest->failure.empty() && found_.reason != "interrupted") {
-      found_.reason = finest->failure;
+      if (found_.reason.empty()) found_.reason = finest->failure;
       found_.answer = found_.uncertainty = nan;
     }
     if (interrupted() || finest == nullptr) return;

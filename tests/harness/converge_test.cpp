@@ -87,6 +87,17 @@ TEST(Converge, SaysWhereItCannotBeReachedAndUntilWhen) {
   EXPECT_FALSE(found.cheapest);
 }
 
+// The mass runs into the far support, which ends every run, on every mesh.
+TEST(Converge, GivesUpWhereFinerMeshesFailToo) {
+  Scene scene = library_scene("incline");
+  scene.sliding_mass->position = 0.9;
+  const Convergence found = converge(scene, {.quantity = "joint_position", .error = 1e-3});
+  EXPECT_FALSE(found.reached);
+  EXPECT_NE(found.reason.find("finer meshes fail, too"), std::string::npos) << found.reason;
+  EXPECT_TRUE(std::isnan(found.answer));
+  EXPECT_LE(found.finest.elements, 4 * scene.beam.elements);
+}
+
 TEST(Converge, NodesNameTheSamePointsOnEveryMesh) {
   const Scene scene = library_scene("drill_stem");
   Setting setting = setting_of(scene);
