@@ -8,24 +8,16 @@
 namespace vlbeam {
 namespace {
 
-std::size_t most_points(const std::vector<FixedBasis<double>>& lanes) {
-  std::size_t most = 0;
-  for (const auto& lane : lanes) most = std::max(most, lane.points.size());
-  return most;
-}
-
-/// Basis of neighbouring elements as one pack; lanes beyond the last element, and points beyond an element's last,
-/// repeat the last with zero weight.
+/// Basis of neighbouring elements as one pack; lanes beyond the last element repeat it with zero weight.
 FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
   FixedBasis<Pack> basis;
-  const std::size_t count = lanes.size(), points = most_points(lanes);
-  for (std::size_t g = 0; g < points; ++g) {
+  const std::size_t count = lanes.size();
+  for (std::size_t g = 0; g < lanes.front().points.size(); ++g) {
     FixedBasis<Pack>::Point point;
     for (int lane = 0; lane < Pack::width; ++lane) {
       const auto i = static_cast<std::size_t>(lane);
-      const auto& of_lane = lanes[std::min(i, count - 1)].points;
-      const auto& from = of_lane[std::min(g, of_lane.size() - 1)];
-      point.weight.set(lane, i < count && g < of_lane.size() ? from.weight : 0.0);
+      const auto& from = lanes[std::min(i, count - 1)].points[g];
+      point.weight.set(lane, i < count ? from.weight : 0.0);
       for (std::size_t c = 0; c < 3; ++c) {
         point.s_x[c].set(lane, from.s_x[c]);
         point.s_xx[c].set(lane, from.s_xx[c]);
@@ -36,37 +28,27 @@ FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
   return basis;
 }
 
-/// The rule on each piece of the rest shape that an element from x_a to x_b reaches over, in the element's parameter,
-/// and the rest strains there.
+/// Strains of an element with the nodes `e` at the points of its basis.
 template <int D>
-std::pair<QuadratureRule, std::vector<RestStrain<double>>> points_by_piece(const RestCurve<D>& rest, double x_a,
-                                                                           double x_b, const QuadratureRule& rule) {
-  std::pair<QuadratureRule, std::vector<RestStrain<double>>> points;
-  double from = x_a;
-  for (int piece = rest.piece_at(x_a); from < x_b; ++piece) {
-    const double to = piece + 1 < rest.pieces() ? std::min(rest.end_of(piece), x_b) : x_b;
-    for (const auto& [u, weight] : rule) {
-      const double x = from + u * (to - from);
-      points.first.push_back({(x - x_a) / (x_b - x_a), weight * (to - from) / (x_b - x_a)});
-      points.second.push_back(rest.at(x, piece));
-    }
-    from = to;
+std::vector<RestStrain<double>> strains_of(const NodalCubic<double, D>& e, const FixedBasis<double>& basis,
+                                           const BeamSection& section) {
+  std::vector<RestStrain<double>> strains;
+  const Vec<double, D> chord = e.r_b - e.r_a;
+  for (const auto& point : basis.points) {
+    const Vec<double, D> r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+    const Vec<double, D> r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+    strains.push_back(rest_strain<D>(r_x, r_xx, section));
   }
-  return points;
+  return strains;
 }
 
 std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain<double>>>& lanes) {
-  std::size_t points = 0;
-  for (const auto& lane : lanes) points = std::max(points, lane.size());
-  std::vector<RestStrain<Pack>> rest(points);
-  for (std::size_t g = 0; g < points; ++g) {
+  std::vector<RestStrain<Pack>> rest(lanes.front().size());
+  for (std::size_t g = 0; g < rest.size(); ++g) {
     for (int lane = 0; lane < Pack::width; ++lane) {
-      const auto& of_lane = lanes[std::min(static_cast<std::size_t>(lane), lanes.size() - 1)];
-      const auto& from = of_lane[std::min(g, of_lane.size() - 1)];
+      const auto& from = lanes[std::min(static_cast<std::size_t>(lane), lanes.size() - 1)][g];
       rest[g].axial.set(lane, from.axial);
       rest[g].curvature.set(lane, from.curvature);
-      rest[g].axial_x.set(lane, from.axial_x);
-      rest[g].curvature_x.set(lane, from.curvature_x);
     }
   }
   return rest;
@@ -76,7 +58,7 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const QuadratureRule& rule, const RestCurve<D>* rest)
+              const QuadratureRule& rule, const double* rest)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
@@ -88,7 +70,7 @@ Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, 
 }
 
 template <int D>
-void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const RestCurve<D>* rest) {
+void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest) {
   const int low = std::min(outer_, open_), high = std::max(outer_, open_);
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
   auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
@@ -110,14 +92,8 @@ void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const Re
     auto tables = std::make_shared<Tables>();
     for (int k = first; k < first + count; ++k) {
       const auto& weights = mesh.weights[static_cast<std::size_t>(k)].w;
-      if (rest != nullptr) {
-        const auto i = static_cast<std::size_t>(k);
-        auto [points, strains] = points_by_piece(*rest, mesh.x[i], mesh.x[i + 1], rule);
-        lanes.push_back(fixed_basis(length(k), weights, points));
-        rest_lanes.push_back(std::move(strains));
-      } else {
-        lanes.push_back(fixed_basis(length(k), weights, rule));
-      }
+      lanes.push_back(fixed_basis(length(k), weights, rule));
+      if (rest != nullptr) rest_lanes.push_back(strains_of<D>(element_nodes<D>(rest, k), lanes.back(), section_));
       auto& mass = tables->mass[static_cast<std::size_t>(k - first)];
       mass = fixed_inertia(length(k), weights, rule).mass;
       for (auto& row : mass) {

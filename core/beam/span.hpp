@@ -9,7 +9,7 @@
 #include "core/beam/support.hpp"
 #include "core/element/fixed_element.hpp"
 #include "core/element/pack.hpp"
-#include "core/element/rest_curve.hpp"
+#include "core/element/rest_strain.hpp"
 
 namespace vlbeam {
 
@@ -26,11 +26,11 @@ class Span {
   using Vector = Vec<double, D>;
   using Components = typename Support<D>::Components;
 
-  /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` is null for a straight,
-  /// unstrained rest shape. Throws std::invalid_argument for a mass matrix that is not positive definite (too few
-  /// quadrature points).
+  /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` holds the nodes of the
+  /// rest shape, null for a straight, unstrained one. Throws std::invalid_argument for a mass matrix that is not
+  /// positive definite (too few quadrature points).
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-       const QuadratureRule& rule, const RestCurve<D>* rest);
+       const QuadratureRule& rule, const double* rest);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -80,7 +80,7 @@ class Span {
   void tangents(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                 NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
-  void build_packs(const Mesh& mesh, const QuadratureRule& rule, const RestCurve<D>* rest);
+  void build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest);
   void factor(const Mesh& mesh, const QuadratureRule& rule);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one

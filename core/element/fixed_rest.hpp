@@ -17,7 +17,7 @@ FixedForce<Real, D> rest_force(const FixedBasis<Real>& basis, const std::vector<
     const auto& point = basis.points[g];
     const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
     const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    const RestStress<Real, D> stress(r_x, r_xx, rest[g], section.stiffness, section.curvature_regularization);
+    const RestStress<Real, D> stress(r_x, r_xx, rest[g], section);
     const Vector p = stress.p * Real(-point.weight), m = stress.m * Real(-point.weight);
     force.r_b += p * point.s_x[0] + m * point.s_xx[0];
     force.s_a += p * point.s_x[1] + m * point.s_xx[1];
@@ -39,8 +39,8 @@ ChordTangent<double, D> rest_tangent(const FixedBasis<Pack>& basis, const std::v
     const auto& point = basis.points[g];
     const Vector r_x = chord * point.s_x[0][lane] + e.s_a * point.s_x[1][lane] + e.s_b * point.s_x[2][lane];
     const Vector r_xx = chord * point.s_xx[0][lane] + e.s_a * point.s_xx[1][lane] + e.s_b * point.s_xx[2][lane];
-    const RestStrain<double> strain{rest[g].axial[lane], rest[g].curvature[lane], 0, 0};
-    const RestTangent<D> k(r_x, r_xx, strain, section.stiffness, section.curvature_regularization);
+    const RestStrain<double> strain{rest[g].axial[lane], rest[g].curvature[lane], {}, {}, {}};
+    const RestTangent<D> k(r_x, r_xx, strain, section);
     for (std::size_t j = 0; j < 3; ++j) {
       const Matrix by_p = point.weight[lane] * (k.pp * point.s_x[j][lane] + k.pm * point.s_xx[j][lane]);
       const Matrix by_m = point.weight[lane] * (k.pm.transpose() * point.s_x[j][lane] + k.mm * point.s_xx[j][lane]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/element/moving_points.hpp"
 #include "core/element/section.hpp"
@@ -26,7 +27,7 @@ struct MovingLaw {
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2], at the current time
-  const RestCurve<D>* rest = nullptr;               ///< null for a straight, unstrained one
+  const RestElement<D>* rest = nullptr;             ///< of the element, null for a straight, unstrained one
 };
 
 /// Mass matrix and generalized forces of one variable-length element.
@@ -37,8 +38,9 @@ struct MovingLaw {
 /// x_A), which adds to the virtual work
 ///   - sum w rhoA (l' N^T v + l c (N_x^T v + N^T v_x)),  sum w (L + l u L_x) on x_B,  sum w (-L + l (1 - u) L_x) on
 ///   x_A,
-/// L the Lagrangian per length: between events energy is conserved for any number of points. Where the rest strains
-/// jump inside the element its pieces have points of their own, and the same holds for each piece.
+/// L the Lagrangian per length: between events energy is conserved for any number of points. A rest shape moves with
+/// the ends, too: its strains' derivatives by x_A and x_B do the work sum w l (N deps_0/dx_A + M dkappa_0/dx_A) on x_A,
+/// and so on x_B, N and M the tension and the moment.
 template <class Real, int D, MovingEnds Ends = MovingEnds::both>
 MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
                                           const WeightFunction& weights, const ShapeTabulation& table,
@@ -60,59 +62,67 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   const Vector gravity = law.gravity.template cast<Real>();
   const bool variational = law.formulation == Formulation::variational;
 
+  using Rest = RestKinematics<Real, D, Ends>;
+  const auto at_rest =
+      law.rest ? std::optional<Rest>(std::in_place, *law.rest, q.x_a, q.x_b, law.transport, weights, law.section)
+               : std::nullopt;
   const auto motion = [&](const auto& u, const auto& shape) { return kinematics.at(u, shape); };
-  for_each_point(
-      kinematics, table, reshaped, law.rest, motion, [&](const auto& point, const auto& at, const auto* rest) {
-        const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
-        Vector p = elastic.p, m = elastic.m;
-        Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
-        Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
-        if (rest != nullptr) {
-          const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, law.section.stiffness,
-                                              law.rest->curvature_regularization());
-          p += from_rest.p;
-          m += from_rest.m;
-          stored += from_rest.axial + from_rest.bending;
-          stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) + from_rest.along;
-        }
-        const Real& wl = point.weight;
-        if (law.section.damped()) {
-          const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
-                                               law.section.damping, law.section.curvature_regularization);
-          p += viscous.p;
-          m += viscous.m;
-          eq.dissipation += wl * viscous.power;
-        }
+  for_each_point(kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion,
+                 [&](const auto& point, const auto& at, const auto* rest) {
+                   const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+                   Vector p = elastic.p, m = elastic.m;
+                   Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
+                   Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
+                   if (rest != nullptr) {
+                     const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, law.section);
+                     p += from_rest.p;
+                     m += from_rest.m;
+                     stored = from_rest.axial + from_rest.bending;
+                     stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) - from_rest.work(rest->along);
+                     if constexpr (Kinematics::a_moves) eq.force_a += point.weight * from_rest.work(rest->by_a);
+                     if constexpr (Kinematics::b_moves) eq.force_b += point.weight * from_rest.work(rest->by_b);
+                   }
+                   const Real& wl = point.weight;
+                   if (law.section.damped()) {
+                     const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
+                                                          law.section.damping, law.section.curvature_regularization);
+                     p += viscous.p;
+                     m += viscous.m;
+                     eq.dissipation += wl * viscous.power;
+                   }
 
-        const Real mu = wl * rhoA;
-        // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
-        Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
-        if (variational) {
-          const Real mu_c = mu * point.mesh_velocity;
-          f0 -= at.v * Real(point.weight_rate * rhoA) + at.v_x * mu_c;
-          f1 -= at.v * mu_c;
-          const Real lagrangian = Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
-          const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
-          if constexpr (Kinematics::a_moves) eq.force_a += lagrangian_x * point.reach_a - lagrangian * point.grows_a;
-          if constexpr (Kinematics::b_moves) eq.force_b += lagrangian_x * point.reach_b + lagrangian * point.grows_b;
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-          eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
-          const Real mi = mu * at.s[i];
-          for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] += mi * at.s[j];
-          if constexpr (Kinematics::a_moves) eq.mass_a[i] += at.y_a * mi;
-          if constexpr (Kinematics::b_moves) eq.mass_b[i] += at.y_b * mi;
-        }
-        if constexpr (Kinematics::a_moves) {
-          eq.force_a += f0.dot(at.y_a) + f1.dot(at.y_a_x) + f2.dot(at.y_a_xx);
-          eq.mass_aa += mu * at.y_a.dot(at.y_a);
-        }
-        if constexpr (Kinematics::b_moves) {
-          eq.force_b += f0.dot(at.y_b) + f1.dot(at.y_b_x) + f2.dot(at.y_b_xx);
-          eq.mass_bb += mu * at.y_b.dot(at.y_b);
-        }
-        if constexpr (Kinematics::a_moves && Kinematics::b_moves) eq.mass_ab += mu * at.y_a.dot(at.y_b);
-      });
+                   const Real mu = wl * rhoA;
+                   // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
+                   Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
+                   if (variational) {
+                     const Real mu_c = mu * point.mesh_velocity;
+                     f0 -= at.v * Real(point.weight_rate * rhoA) + at.v_x * mu_c;
+                     f1 -= at.v * mu_c;
+                     const Real lagrangian =
+                         Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
+                     const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
+                     if constexpr (Kinematics::a_moves)
+                       eq.force_a += lagrangian_x * Real(1 - point.u) - lagrangian * point.share;
+                     if constexpr (Kinematics::b_moves)
+                       eq.force_b += lagrangian_x * Real(point.u) + lagrangian * point.share;
+                   }
+                   for (std::size_t i = 0; i < 4; ++i) {
+                     eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
+                     const Real mi = mu * at.s[i];
+                     for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] += mi * at.s[j];
+                     if constexpr (Kinematics::a_moves) eq.mass_a[i] += at.y_a * mi;
+                     if constexpr (Kinematics::b_moves) eq.mass_b[i] += at.y_b * mi;
+                   }
+                   if constexpr (Kinematics::a_moves) {
+                     eq.force_a += f0.dot(at.y_a) + f1.dot(at.y_a_x) + f2.dot(at.y_a_xx);
+                     eq.mass_aa += mu * at.y_a.dot(at.y_a);
+                   }
+                   if constexpr (Kinematics::b_moves) {
+                     eq.force_b += f0.dot(at.y_b) + f1.dot(at.y_b_x) + f2.dot(at.y_b_xx);
+                     eq.mass_bb += mu * at.y_b.dot(at.y_b);
+                   }
+                   if constexpr (Kinematics::a_moves && Kinematics::b_moves) eq.mass_ab += mu * at.y_a.dot(at.y_b);
+                 });
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) eq.mass[i][j] = eq.mass[j][i];
   }

@@ -2,16 +2,24 @@
 
 #include <cmath>
 
+#include "core/element/section.hpp"
 #include "core/element/strain.hpp"
 
 namespace vlbeam {
 
-/// Strains of the stress-free shape at one material point, and their derivatives along the beam. In the plane the
-/// curvature is signed; in space it is a magnitude.
+/// Changes of both strains along one direction.
+template <class Real>
+struct StrainChange {
+  Real axial = Real(0), curvature = Real(0);
+};
+
+/// Strains of the stress-free shape at one point of an element. In the plane the curvature is signed; in space it is a
+/// magnitude.
 template <class Real>
 struct RestStrain {
   Real axial, curvature;
-  Real axial_x, curvature_x;
+  StrainChange<Real> along;       ///< derivatives along the beam
+  StrainChange<Real> by_a, by_b;  ///< by x_A and x_B at a fixed material point, as far as the ends move
 };
 
 /// Signed curvature f/g^(n/2) in the plane, f = r_x x r_xx, g = r_x.r_x, n = 3 (green) or 2 (engineering); in space
@@ -45,44 +53,76 @@ struct Curvature {
   }
 };
 
-/// What a rest shape other than a straight unstrained one adds to the strain energy per length and its gradients:
-///   W_0 = - EA eps_0 (eps - eps_0/2) - EI kappa_0 (kappa - kappa_0/2),
-/// so that W + W_0 = EA (eps - eps_0)^2/2 + EI (kappa - kappa_0)^2/2. `along` is the part of its derivative along the
-/// beam that comes from the rest strains themselves.
+/// Axial strain and curvature with their gradients by r_x and r_xx; without stiffness in bending no curvature.
+template <class Real, int D>
+struct StrainGradients {
+  Real axial, curvature;
+  Vec<Real, D> axial_by_slope, curvature_by_slope, curvature_by_second;
+
+  StrainGradients(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, const BeamSection& section) {
+    using std::sqrt;
+    const Real g = rx.dot(rx);
+    if (section.stiffness.green()) {
+      axial = Real(0.5) * (g - Real(1));
+      axial_by_slope = rx;
+    } else {
+      const Real stretch = sqrt(g);
+      axial = stretch - Real(1);
+      axial_by_slope = rx * Real(Real(1) / stretch);
+    }
+    curvature = Real(0);
+    curvature_by_slope.setZero();
+    curvature_by_second.setZero();
+    if constexpr (D > 1) {  // the angle of a section, D = 1, has no curvature
+      if (!section.bends()) return;
+      const Curvature<Real, D> kappa(rx, rxx, section.stiffness.law, section.curvature_regularization);
+      curvature = kappa.value;
+      curvature_by_slope = kappa.by_slope;
+      curvature_by_second = kappa.by_second;
+    }
+  }
+
+  /// Of strains whose r_x and r_xx change like this.
+  StrainChange<Real> change(const Vec<Real, D>& by_rx, const Vec<Real, D>& by_rxx) const {
+    return {axial_by_slope.dot(by_rx), curvature_by_slope.dot(by_rx) + curvature_by_second.dot(by_rxx)};
+  }
+};
+
+/// Strains of the rest shape at r_x and r_xx of it, where they need no derivatives.
+template <int D>
+RestStrain<double> rest_strain(const Vec<double, D>& r_x, const Vec<double, D>& r_xx, const BeamSection& section) {
+  const StrainGradients<double, D> strain(r_x, r_xx, section);
+  return {strain.axial, strain.curvature, {}, {}, {}};
+}
+
+/// Stress of a beam with the rest strains eps_0 and kappa_0: tension EA (eps - eps_0), moment EI (kappa - kappa_0), the
+/// energies per length EA (eps - eps_0)^2/2 and EI (kappa - kappa_0)^2/2, and what is added to the p and m of
+/// ElasticStress, - EA eps_0 deps - EI kappa_0 dkappa. In space both curvatures are regularized.
 template <class Real, int D>
 struct RestStress {
   Vec<Real, D> p, m;
-  Real axial, bending, along;
+  Real axial, bending;
+  Real tension, moment;
 
-  RestStress(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, const RestStrain<Real>& rest, const Stiffness& k,
-             double curvature_regularization) {
-    using std::sqrt;
-    const Real g = rx.dot(rx);
-    Real eps;
-    if (k.green()) {
-      eps = Real(0.5) * (g - Real(1));
-      p = rx * Real(Real(-k.EA) * rest.axial);
-    } else {
-      const Real stretch = sqrt(g);
-      eps = stretch - Real(1);
-      p = rx * Real(Real(-k.EA) * rest.axial / stretch);
-    }
-    axial = Real(-k.EA) * rest.axial * (eps - Real(0.5) * rest.axial);
-    along = Real(-k.EA) * (eps - rest.axial) * rest.axial_x;
+  RestStress(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, const RestStrain<Real>& rest,
+             const BeamSection& section) {
+    const auto& k = section.stiffness;
+    const StrainGradients<Real, D> strain(rx, rxx, section);
+    const Real eps = strain.axial - rest.axial, kappa = strain.curvature - rest.curvature;
+    tension = Real(k.EA) * eps;
+    moment = Real(k.EI) * kappa;
+    axial = Real(0.5) * tension * eps;
+    bending = Real(0.5) * moment * kappa;
+    p = strain.axial_by_slope * Real(Real(-k.EA) * rest.axial);
     m.setZero();
-    bending = Real(0);
-    if constexpr (D > 1) {  // the angle of a section, D = 1, has no curvature
-      if (!k.bends()) return;
-      const Curvature<Real, D> kappa(rx, rxx, k.law, curvature_regularization);
-      const Real moment = Real(-k.EI) * rest.curvature;
-      p += kappa.by_slope * moment;
-      m = kappa.by_second * moment;
-      bending = moment * (kappa.value - Real(0.5) * rest.curvature);
-      // in space both curvatures are regularized, the one of W is not
-      if constexpr (D == 3) bending += Real(0.5 * k.EI * curvature_regularization * curvature_regularization);
-      along += Real(-k.EI) * (kappa.value - rest.curvature) * rest.curvature_x;
-    }
+    if (!section.bends()) return;
+    const Real missing = Real(-k.EI) * rest.curvature;
+    p += strain.curvature_by_slope * missing;
+    m = strain.curvature_by_second * missing;
   }
+
+  /// Work per length of the stresses on a change of the rest strains.
+  Real work(const StrainChange<Real>& change) const { return tension * change.axial + moment * change.curvature; }
 };
 
 }  // namespace vlbeam

@@ -8,17 +8,25 @@
 namespace vlbeam {
 
 /// RestStress with its derivatives by r_x and r_xx, by automatic differentiation: dp/dr_x, dp/dr_xx, dm/dr_xx (dm/dr_x
-/// is the transpose of dp/dr_xx), and those of `along`.
+/// is the transpose of dp/dr_xx), and those of the work of its stresses on a change of the rest strains.
 template <int D>
 struct RestTangent {
   using Vector = Vec<double, D>;
   using Matrix = Eigen::Matrix<double, D, D>;
 
-  Vector p, m, along_by_slope, along_by_second;
+  Vector p, m;
   Matrix pp, pm, mm;
 
-  RestTangent(const Vector& rx, const Vector& rxx, const RestStrain<double>& rest, const Stiffness& k,
-              double curvature_regularization) {
+  /// Gradients of RestStress::work.
+  struct Work {
+    Vector by_slope, by_second;
+  };
+  Work work(const StrainChange<double>& change) const {
+    return {tension_by_slope_ * change.axial + moment_by_slope_ * change.curvature,
+            moment_by_second_ * change.curvature};
+  }
+
+  RestTangent(const Vector& rx, const Vector& rxx, const RestStrain<double>& rest, const BeamSection& section) {
     constexpr int N = 2 * D;
     using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
     auto seed = [](const Vector& value, int first) {
@@ -27,23 +35,29 @@ struct RestTangent {
       return result;
     };
     auto constant = [](double value) { return Real(value, Eigen::Matrix<double, N, 1>::Zero()); };
-    const RestStrain<Real> fixed{constant(rest.axial), constant(rest.curvature), constant(rest.axial_x),
-                                 constant(rest.curvature_x)};
-    const RestStress<Real, D> stress(seed(rx, 0), seed(rxx, D), fixed, k, curvature_regularization);
+    const RestStrain<Real> fixed{constant(rest.axial), constant(rest.curvature), {}, {}, {}};
+    const RestStress<Real, D> stress(seed(rx, 0), seed(rxx, D), fixed, section);
     m.setZero();
     mm.setZero();
+    moment_by_slope_.setZero();
+    moment_by_second_.setZero();
+    tension_by_slope_ = stress.tension.derivatives().template head<D>();
     for (int c = 0; c < D; ++c) {
       p[c] = stress.p[c].value();
       pp.row(c) = stress.p[c].derivatives().template head<D>().transpose();
       pm.row(c) = stress.p[c].derivatives().template tail<D>().transpose();
-      if (k.bends()) {
+      if (section.bends()) {
         m[c] = stress.m[c].value();
         mm.row(c) = stress.m[c].derivatives().template tail<D>().transpose();
       }
     }
-    along_by_slope = stress.along.derivatives().template head<D>();
-    along_by_second = stress.along.derivatives().template tail<D>();
+    if (!section.bends()) return;
+    moment_by_slope_ = stress.moment.derivatives().template head<D>();
+    moment_by_second_ = stress.moment.derivatives().template tail<D>();
   }
+
+ private:
+  Vector tension_by_slope_, moment_by_slope_, moment_by_second_;
 };
 
 }  // namespace vlbeam

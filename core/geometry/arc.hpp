@@ -23,4 +23,16 @@ RationalCubic<double, D> circular_arc(const Vec<double, D>& center, double radiu
       {1, w, w, 1}};
 }
 
+/// Weights (1, w, w, 1) of a cubic between unit slopes `s_a` and `s_b`, as long as the arc between them, that passes
+/// through the middle of that arc: w = (theta cot(theta/4) - 1)/3 = 1 - theta^2/36 - ..., theta its turn (derived). Its
+/// distance from the arc falls with theta^6, and its speed is even to theta^4.
+template <int D>
+Weights<double> even_arc_weights(const Vec<double, D>& s_a, const Vec<double, D>& s_b) {
+  const Vec<double, D> a = s_a.normalized(), b = s_b.normalized();
+  const double turn = 2 * std::atan2((a - b).norm(), (a + b).norm());
+  if (turn == 0) return unit_weights;
+  const double w = (turn / std::tan(turn / 4) - 1) / 3;
+  return {1, w, w, 1};
+}
+
 }  // namespace vlbeam

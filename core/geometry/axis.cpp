@@ -11,18 +11,47 @@
 namespace vlbeam {
 namespace {
 
-constexpr int length_pieces = 8;
+constexpr int length_pieces = 64;  // of a span; 10 points on each leave rounding alone
 
-/// Arc length of `curve` from its start to the parameter u.
+/// Arc length of `curve` between two values of its parameter.
 template <int D>
-double arc_length(const RationalCubic<double, D>& curve, double u) {
+double arc_length(const RationalCubic<double, D>& curve, double from, double to) {
   auto speed = [&](double at) { return curve.evaluate(at)[1].norm(); };
-  double sum = 0;
-  for (int i = 0; i < length_pieces; ++i) {
-    sum += boost::math::quadrature::gauss<double, 25>::integrate(speed, u * i / length_pieces,
-                                                                 u * (i + 1) / length_pieces);
+  return boost::math::quadrature::gauss<double, 10>::integrate(speed, from, to);
+}
+
+/// The parameter at `length` from the start of `curve`: Newton's iteration inside the piece that holds it.
+template <int D>
+double parameter_at(const RationalCubic<double, D>& curve, const std::vector<double>& lengths, double length) {
+  const auto after = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, length);
+  const auto piece = static_cast<std::size_t>(after - lengths.begin()) - 1;
+  const double start = static_cast<double>(piece) / length_pieces, target = length - lengths[piece];
+  double low = start, high = static_cast<double>(piece + 1) / length_pieces;
+  double u = low + (high - low) * std::clamp(target / (lengths[piece + 1] - lengths[piece]), 0.0, 1.0);
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const double excess = arc_length(curve, start, u) - target;
+    if (std::abs(excess) <= 2e-16 * lengths.back()) break;
+    (excess > 0 ? high : low) = u;
+    double next = u - excess / curve.evaluate(u)[1].norm();
+    if (!(low <= next && next <= high)) next = (low + high) / 2;
+    const bool settled = std::abs(next - u) <= 1e-15;
+    u = next;
+    if (settled) break;
   }
-  return sum;
+  return u;
+}
+
+/// Position and its first three derivatives by arc length, of a curve at its parameter u.
+template <int D>
+std::array<Vec<double, D>, 4> by_arc_length(const RationalCubic<double, D>& curve, double u) {
+  const auto r = curve.evaluate(u);
+  const double speed = r[1].norm();
+  const Vec<double, D> tangent = r[1] / speed;
+  const double speed_u = tangent.dot(r[2]);
+  const Vec<double, D> second = (r[2] - tangent * speed_u) / (speed * speed);
+  const double speed_uu = speed * second.dot(r[2]) + tangent.dot(r[3]);
+  const Vec<double, D> third = (r[3] - tangent * speed_uu - second * (3 * speed * speed_u)) / (speed * speed * speed);
+  return {r[0], tangent, second, third};
 }
 
 }  // namespace
@@ -44,8 +73,14 @@ Axis<D> Axis<D>::nurbs(const Nurbs<D>& curve) {
   Spans chain;
   std::vector<double> breaks{0};
   for (const auto& span : rational_spans(curve)) {
+    std::vector<double> lengths{0};
+    for (int k = 0; k < length_pieces; ++k) {
+      lengths.push_back(lengths.back() + arc_length(span.curve, k / static_cast<double>(length_pieces),
+                                                    (k + 1) / static_cast<double>(length_pieces)));
+    }
+    breaks.push_back(breaks.back() + lengths.back());
     chain.spans.push_back(span.curve);
-    breaks.push_back(breaks.back() + arc_length(span.curve, 1));
+    chain.lengths.push_back(std::move(lengths));
   }
   return {chain, breaks};
 }
@@ -54,20 +89,7 @@ template <int D>
 std::pair<std::size_t, double> Axis<D>::locate(const Spans& chain, double x) const {
   const auto after = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, x);
   const auto i = static_cast<std::size_t>(after - breaks_.begin()) - 1;
-  const auto& span = chain.spans[i];
-  const double target = x - breaks_[i], whole = breaks_[i + 1] - breaks_[i];
-  // Newton's iteration, kept inside what is known of the root
-  double low = 0, high = 1, u = std::clamp(target / whole, 0.0, 1.0);
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const double excess = arc_length(span, u) - target;
-    if (std::abs(excess) <= 1e-15 * whole) break;
-    (excess > 0 ? high : low) = u;
-    double next = u - excess / span.evaluate(u)[1].norm();
-    if (!(next > low && next < high)) next = (low + high) / 2;
-    if (next == u) break;
-    u = next;
-  }
-  return {i, u};
+  return {i, parameter_at(chain.spans[i], chain.lengths[i], x - breaks_[i])};
 }
 
 template <int D>
@@ -79,29 +101,21 @@ bool Axis<D>::in_one_piece(double x_a, double x_b) const {
 }
 
 template <int D>
-Vec<double, D> Axis<D>::position(double x) const {
-  if (const auto* shape = std::get_if<Line>(&shape_)) return shape->start + x * shape->tangent;
-  if (const auto* shape = std::get_if<Arc>(&shape_)) {
-    return circular_arc<D>(shape->center, shape->radius, shape->from + x * shape->turn_per_length, 0).points[0];
-  }
-  const auto& chain = std::get<Spans>(shape_);
-  const auto [i, u] = locate(chain, x);
-  return chain.spans[i].evaluate(u)[0];
-}
-
-template <int D>
-Vec<double, D> Axis<D>::tangent(double x) const {
-  if (const auto* shape = std::get_if<Line>(&shape_)) return shape->tangent;
+std::array<Vec<double, D>, 4> Axis<D>::derivatives(double x) const {
+  const Vector none = Vector::Zero();
+  if (const auto* shape = std::get_if<Line>(&shape_))
+    return {shape->start + x * shape->tangent, shape->tangent, none, none};
   if (const auto* shape = std::get_if<Arc>(&shape_)) {
     const double angle = shape->from + x * shape->turn_per_length, sign = shape->turn_per_length > 0 ? 1 : -1;
-    Vector along = Vector::Zero();
-    along[0] = -sign * std::sin(angle);
-    along[1] = sign * std::cos(angle);
-    return along;
+    Vector out = none, along = none;
+    out.template head<2>() << std::cos(angle), std::sin(angle);
+    along.template head<2>() << -sign * out[1], sign * out[0];
+    const double curvature = 1 / shape->radius;
+    return {shape->center + shape->radius * out, along, -curvature * out, -curvature * curvature * along};
   }
   const auto& chain = std::get<Spans>(shape_);
   const auto [i, u] = locate(chain, x);
-  return chain.spans[i].evaluate(u)[1].normalized();
+  return by_arc_length(chain.spans[i], u);
 }
 
 template <int D>
@@ -156,9 +170,25 @@ CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x) {
   return chain;
 }
 
+template <int D>
+CubicChain<D> even_chain(const Axis<D>& axis, const std::vector<double>& x, bool rational) {
+  CubicChain<D> chain;
+  for (const double at : x) {
+    const auto derivatives = axis.derivatives(at);
+    chain.r.push_back(derivatives[0]);
+    chain.r_x.push_back(derivatives[1]);
+  }
+  for (std::size_t k = 0; k + 1 < x.size(); ++k) {
+    chain.weights.push_back(rational ? even_arc_weights<D>(chain.r_x[k], chain.r_x[k + 1]) : unit_weights);
+  }
+  return chain;
+}
+
 template class Axis<2>;
 template class Axis<3>;
 template CubicChain<2> exact_chain(const Axis<2>&, const std::vector<double>&);
 template CubicChain<3> exact_chain(const Axis<3>&, const std::vector<double>&);
+template CubicChain<2> even_chain(const Axis<2>&, const std::vector<double>&, bool);
+template CubicChain<3> even_chain(const Axis<3>&, const std::vector<double>&, bool);
 
 }  // namespace vlbeam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -29,9 +30,11 @@ class Axis {
   /// Whether one rational cubic can be the axis from x_a to x_b: no break between them, and no arc of pi or more.
   bool in_one_piece(double x_a, double x_b) const;
 
-  Vector position(double x) const;
+  Vector position(double x) const { return derivatives(x)[0]; }
   /// Unit tangent.
-  Vector tangent(double x) const;
+  Vector tangent(double x) const { return derivatives(x)[1]; }
+  /// Position and its first three derivatives by arc length; those of the piece behind where the axis has a break.
+  std::array<Vector, 4> derivatives(double x) const;
   /// The axis from x_a to x_b, no break between them, as one rational cubic: exactly that curve, in some
   /// parametrization. Throws std::domain_error where it is not in_one_piece().
   RationalCubic<double, D> between(double x_a, double x_b) const;
@@ -46,6 +49,7 @@ class Axis {
   };
   struct Spans {
     std::vector<RationalCubic<double, D>> spans;
+    std::vector<std::vector<double>> lengths;  ///< of each span from its start to k/n of its parameter, k = 0 .. n
   };
   using Shape = std::variant<Line, Arc, Spans>;
 
@@ -71,9 +75,16 @@ struct CubicChain {
 template <int D>
 CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x);
 
+/// The axis by cubics that run along it evenly: they share its positions and unit tangents at `x`, and are as long as
+/// the arc length between, with the weights of even_arc_weights() or, not `rational`, unit ones.
+template <int D>
+CubicChain<D> even_chain(const Axis<D>& axis, const std::vector<double>& x, bool rational);
+
 extern template class Axis<2>;
 extern template class Axis<3>;
 extern template CubicChain<2> exact_chain(const Axis<2>&, const std::vector<double>&);
 extern template CubicChain<3> exact_chain(const Axis<3>&, const std::vector<double>&);
+extern template CubicChain<2> even_chain(const Axis<2>&, const std::vector<double>&, bool);
+extern template CubicChain<3> even_chain(const Axis<3>&, const std::vector<double>&, bool);
 
 }  // namespace vlbeam

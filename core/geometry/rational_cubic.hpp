@@ -14,6 +14,12 @@ struct NodalCubic {
   Vec<Real, D> r_a, s_a, r_b, s_b;
 };
 
+/// Sum of the nodal coordinates, times the shape functions `s` or their derivatives.
+template <class Real, int D>
+Vec<Real, D> combine_nodes(const std::array<Real, 4>& s, const NodalCubic<Real, D>& e) {
+  return e.r_a * s[0] + e.s_a * s[1] + e.r_b * s[2] + e.s_b * s[3];
+}
+
 /// Rational cubic Bezier curve in `D` dimensions (Ding & Ouyang 2022, Eq. 1-3), parameter u in [0, 1].
 template <class Real, int D>
 struct RationalCubic {

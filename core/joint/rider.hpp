@@ -31,11 +31,6 @@ struct RiderMotion {
   Vec<Real, D> remainder;  ///< r_v
 };
 
-template <class Real, int D>
-Vec<Real, D> combine_nodes(const std::array<Real, 4>& s, const NodalCubic<Real, D>& e) {
-  return e.r_a * s[0] + e.s_a * s[1] + e.r_b * s[2] + e.s_b * s[3];
-}
-
 /// The shape functions at x and their first three derivatives along the beam.
 template <class Real>
 std::array<std::array<Real, 4>, 4> rider_shape(const RiderElement& element, const Real& x) {

@@ -17,6 +17,7 @@ template <int D>
 struct ChainState {
   Mesh mesh;
   std::vector<double> q, rate;  ///< nodal arrays
+  std::vector<double> rest;     ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
   int joint = no_joint;         ///< index of the moving node
   double joint_rate = 0;        ///< rate of its material coordinate mesh.x[joint] [m/s]
   /// The beam's slope behind the moving node.
@@ -46,6 +47,10 @@ struct ChainState {
     return result;
   }
 
+  bool curved_at_rest() const { return !rest.empty(); }
+  /// Nodes of element k in its rest shape.
+  NodalCubic<double, D> rest_nodes(int k) const { return element_nodes<D>(rest.data(), k); }
+
   /// Copies node `from` of `other` to node `to`.
   void copy_node(int to, const ChainState& other, int from) {
     mesh.x[static_cast<std::size_t>(to)] = other.mesh.x[static_cast<std::size_t>(from)];
@@ -53,6 +58,9 @@ struct ChainState {
     slope<D>(q.data(), to) = slope<D>(other.q.data(), from);
     position<D>(rate.data(), to) = position<D>(other.rate.data(), from);
     slope<D>(rate.data(), to) = slope<D>(other.rate.data(), from);
+    if (!curved_at_rest()) return;
+    position<D>(rest.data(), to) = position<D>(other.rest.data(), from);
+    slope<D>(rest.data(), to) = slope<D>(other.rest.data(), from);
   }
 };
 

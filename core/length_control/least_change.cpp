@@ -6,6 +6,8 @@
 #include <limits>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "core/geometry/arc.hpp"
+#include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_motion.hpp"
 
 namespace vlbeam {
@@ -49,10 +51,28 @@ class Search {
       const int from = element_at(before.mesh, a + size / 2), to = element_at(chain.mesh, a + size / 2);
       for (const auto& [u, weight] : gauss_legendre(points_a_piece)) {
         const double at = a + u * size;
-        points_.push_back({at, weight * size, to, motion_at(before, from, at, law.transport)});
+        points_.push_back(
+            {at, weight * size, to, motion_at(before, from, at, law.transport), {}, Vec<double, D>::Zero()});
+        if (before.curved_at_rest()) {
+          Point& point = points_.back();
+          const auto rest = before.rest_nodes(from);
+          point.old_rest =
+              rest_strain<D>(combine_nodes(point.old.s_x, rest), combine_nodes(point.old.s_xx, rest), law.section);
+          point.old_rest_r = combine_nodes(point.old.s, rest);
+        }
+      }
+    }
+    if (chain.curved_at_rest()) {
+      rotate_rest();
+      if (rational) {
+        const auto rest = chain.rest_nodes(merged);
+        base_ = even_arc_weights<D>(rest.s_a, rest.s_b);
       }
     }
   }
+
+  /// Weights where all unknowns are zero.
+  const Weights<double>& base() const { return base_; }
 
   /// The unknowns of the nearest shape that keeps the strain energy; of that which keeps it best where none does.
   Unknowns operator()() {
@@ -70,7 +90,21 @@ class Search {
     double x, weight;
     int element;
     PointMotion<double, D> old;
+    RestStrain<double> old_rest;
+    Vec<double, D> old_rest_r;
   };
+
+  /// What the merge changes of the rest shape itself, turned as the beam is, is no change of the beam.
+  void rotate_rest() {
+    const auto count = static_cast<Eigen::Index>(points_.size());
+    Eigen::MatrixXd rest(D, count), now(D, count);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      rest.col(static_cast<Eigen::Index>(i)) = points_[i].old_rest_r;
+      now.col(static_cast<Eigen::Index>(i)) = points_[i].old.r;
+    }
+    rotation_ = best_rotation<D>(rest, now);
+    for (Point& point : points_) point.old_rest_r = rotation_ * point.old_rest_r;
+  }
 
   /// Newton's iteration for the nearest shape under the condition that the strain energy stays; false where it does not
   /// converge.
@@ -152,28 +186,33 @@ class Search {
     for (const Point& point : points_) {
       const auto now = shape_at(point, unknown);
       const double w = point.weight;
-      const ElasticStress<Real, D> is(now.r_x, now.r_xx, k);
-      const ElasticStress<double, D> was(point.old.r_x, point.old.r_xx, k);
-      energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
-      old_energy_ += w * (was.axial + was.bending);
-      add((stretch<Real>(now.r_x, k.law) - Real(stretch<double>(point.old.r_x, k.law), Unknowns::Zero())) *
-          std::sqrt(w * k.EA));
-      if (law_.section.bends()) {
-        const Curvature<Real, D> kappa(now.r_x, now.r_xx, k.law, regularization_);
-        const Curvature<double, D> old(point.old.r_x, point.old.r_xx, k.law, regularization_);
-        add((kappa.value - Real(old.value, Unknowns::Zero())) * std::sqrt(w * k.EI));
-      }
-      if (law_.rest != nullptr) {
-        const auto rest = law_.rest->at(point.x, law_.rest->piece_at(point.x));
-        const double regularization = law_.rest->curvature_regularization();
-        const RestStrain<Real> constant{Real(rest.axial, Unknowns::Zero()), Real(rest.curvature, Unknowns::Zero()),
-                                        Real(rest.axial_x, Unknowns::Zero()), Real(rest.curvature_x, Unknowns::Zero())};
-        const RestStress<Real, D> here(now.r_x, now.r_xx, constant, k, regularization);
-        const RestStress<double, D> there(point.old.r_x, point.old.r_xx, rest, k, regularization);
-        energy += (here.axial + here.bending) * w - Real(w * (there.axial + there.bending), Unknowns::Zero());
+      if (chain_.curved_at_rest()) {
+        const StrainGradients<Real, D> strain(now.rest_r_x, now.rest_r_xx, law_.section);
+        const RestStress<Real, D> is(now.r_x, now.r_xx, {strain.axial, strain.curvature, {}, {}, {}}, law_.section);
+        const RestStress<double, D> was(point.old.r_x, point.old.r_xx, point.old_rest, law_.section);
+        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
+        old_energy_ += w * (was.axial + was.bending);
+        add((is.tension - Real(was.tension, Unknowns::Zero())) * std::sqrt(w / k.EA));
+        if (law_.section.bends()) add((is.moment - Real(was.moment, Unknowns::Zero())) * std::sqrt(w / k.EI));
+      } else {
+        const ElasticStress<Real, D> is(now.r_x, now.r_xx, k);
+        const ElasticStress<double, D> was(point.old.r_x, point.old.r_xx, k);
+        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
+        old_energy_ += w * (was.axial + was.bending);
+        add((stretch<Real>(now.r_x, k.law) - Real(stretch<double>(point.old.r_x, k.law), Unknowns::Zero())) *
+            std::sqrt(w * k.EA));
+        if (law_.section.bends()) {
+          const Curvature<Real, D> kappa(now.r_x, now.r_xx, k.law, regularization_);
+          const Curvature<double, D> old(point.old.r_x, point.old.r_xx, k.law, regularization_);
+          add((kappa.value - Real(old.value, Unknowns::Zero())) * std::sqrt(w * k.EI));
+        }
       }
       for (int c = 0; c < D; ++c) {
-        add((now.r[c] - Real(point.old.r[c], Unknowns::Zero())) * std::sqrt(w * scale_ / std::pow(length_, 4)));
+        Real change = now.r[c] - Real(point.old.r[c] - point.old_rest_r[c], Unknowns::Zero());
+        if (chain_.curved_at_rest()) {
+          for (int d = 0; d < D; ++d) change -= now.rest_r[d] * rotation_(c, d);
+        }
+        add(change * std::sqrt(w * scale_ / std::pow(length_, 4)));
       }
     }
     for (std::size_t i = first_weight; i < first_weight + 4; ++i) {
@@ -192,6 +231,7 @@ class Search {
 
   struct Shape {
     Vec<Real, D> r, r_x, r_xx;
+    Vec<Real, D> rest_r, rest_r_x, rest_r_xx;  ///< where nothing stresses the beam, if it is curved then
   };
 
   Shape shape_at(const Point& point, const std::array<Real, N>& unknown) const {
@@ -211,8 +251,8 @@ class Search {
       move(s_a, 0);
       move(s_b, D);
       using std::exp;
-      const Weights<Real> w{exp(unknown[2 * D]), exp(unknown[2 * D + 1]), exp(unknown[2 * D + 2]),
-                            exp(unknown[2 * D + 3])};
+      Weights<Real> w;
+      for (std::size_t i = 0; i < 4; ++i) w[i] = exp(unknown[first_weight + i]) * base_[i];
       f = rational_shape(w, Real(u, Unknowns::Zero()));
     } else {
       if (point.element == merged_ - 1) move(s_b, 0);
@@ -222,22 +262,33 @@ class Search {
         for (std::size_t n = 0; n < 4; ++n) f[i][n] = Real(table[i][n], Unknowns::Zero());
       }
     }
-    const Vec<Real, D> r_a = constant(q.e.r_a), r_b = constant(q.e.r_b);
-    auto derivative = [&](std::size_t n, double scale) -> Vec<Real, D> {
+    using Nodes = NodalCubic<Real, D>;
+    auto derivative = [&](const Nodes& e, std::size_t n, double scale) -> Vec<Real, D> {
       Vec<Real, D> sum;
       for (int c = 0; c < D; ++c) {
-        sum[c] = (r_a[c] * f[0][n] + r_b[c] * f[2][n] + (s_a[c] * f[1][n] + s_b[c] * f[3][n]) * l) * scale;
+        sum[c] = (e.r_a[c] * f[0][n] + e.r_b[c] * f[2][n] + (e.s_a[c] * f[1][n] + e.s_b[c] * f[3][n]) * l) * scale;
       }
       return sum;
     };
-    return {derivative(0, 1), derivative(1, 1 / l), derivative(2, 1 / (l * l))};
+    const Nodes e{constant(q.e.r_a), s_a, constant(q.e.r_b), s_b};
+    Shape shape{derivative(e, 0, 1), derivative(e, 1, 1 / l), derivative(e, 2, 1 / (l * l)), {}, {}, {}};
+    if (chain_.curved_at_rest()) {
+      const auto rest = chain_.rest_nodes(point.element);
+      const Nodes e0{constant(rest.r_a), constant(rest.s_a), constant(rest.r_b), constant(rest.s_b)};
+      shape.rest_r = derivative(e0, 0, 1);
+      shape.rest_r_x = derivative(e0, 1, 1 / l);
+      shape.rest_r_xx = derivative(e0, 2, 1 / (l * l));
+    }
+    return shape;
   }
 
   const ChainState<D>& chain_;
   int merged_;
   const MovingLaw<D>& law_;
   double length_ = 0, scale_ = 0;
-  double regularization_ = 0;  // [1/m], keeps kappa differentiable in space where it is zero
+  Weights<double> base_ = unit_weights;
+  Eigen::Matrix<double, D, D> rotation_;  // of the rest shape to where the beam is
+  double regularization_ = 0;             // [1/m], keeps kappa differentiable in space where it is zero
   std::vector<Point> points_;
   Unknowns free_, gradient_, energy_gradient_;
   Square hessian_;
@@ -252,10 +303,13 @@ MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, in
   const auto i = static_cast<std::size_t>(merged);
   MergedWeights weights;
   chain.mesh.weights[i] = {unit_weights, chain.mesh.x[i], chain.mesh.x[i + 1]};
-  const typename Search<D>::Unknowns p = Search<D>(chain, before, merged, rational, law)();
+  Search<D> search(chain, before, merged, rational, law);
+  const typename Search<D>::Unknowns p = search();
   slope<D>(chain.q.data(), merged) += p.template head<D>();
   slope<D>(chain.q.data(), merged + 1) += p.template segment<D>(D);
-  for (std::size_t k = 0; k < 3; ++k) weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)] - p[2 * D + 3]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)] - p[2 * D + 3]) * search.base()[k];  // base()[3] is 1
+  }
   chain.mesh.weights[i].w = weights.weights();
   return weights;
 }

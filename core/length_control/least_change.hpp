@@ -12,7 +12,9 @@ namespace vlbeam {
 /// in
 ///   integral of EA (eps - eps_old)^2 + EI (kappa - kappa_old)^2 + K |r - r_old|^2/l^4 dx + K/l c^2 |ln w|^2,
 /// K = max(EI, EA l^2/1000), c = 0.03: the last term alone fixes the weights where the beam is straight and they change
-/// nothing, so that they depend continuously on the curve (derived; not in the paper). Where no
+/// nothing, so that they depend continuously on the curve (derived; not in the paper). Of a beam that is curved at rest
+/// eps and kappa are from the rest shape, r is what the beam's position differs by from the rest shape's, turned as the
+/// beam is, and w is over the weights of MergePolicy::rest_arc: a beam in its rest shape remains there. Where no
 /// shape keeps the strain energy, as with two slopes alone, the one that changes it least. Returns the weights.
 template <int D>
 MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational,

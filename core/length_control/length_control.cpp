@@ -1,5 +1,7 @@
 #include "core/length_control/length_control.hpp"
 
+#include "core/geometry/arc.hpp"
+#include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/least_change.hpp"
 #include "core/length_control/segmentation.hpp"
@@ -14,6 +16,41 @@ void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
   slope<D>(chain.q.data(), k) = node.r_x;
   position<D>(chain.rate.data(), k) = node.v;
   slope<D>(chain.rate.data(), k) = node.v_x;
+  if (!chain.curved_at_rest()) return;
+  position<D>(chain.rest.data(), k) = node.rest_r;
+  slope<D>(chain.rest.data(), k) = node.rest_r_x;
+}
+
+/// Gives element k the weights of the arc that turns as much as its rest shape.
+template <int D>
+Weights<double> take_rest_arc(ChainState<D>& chain, int k) {
+  const auto i = static_cast<std::size_t>(k);
+  Weights<double> weights = unit_weights;
+  if (chain.curved_at_rest()) {
+    const auto rest = chain.rest_nodes(k);
+    weights = even_arc_weights<D>(rest.s_a, rest.s_b);
+  }
+  chain.mesh.weights[i] = {weights, chain.mesh.x[i], chain.mesh.x[i + 1]};
+  return weights;
+}
+
+/// The same for an element that a cut has left, where the merge policy says so.
+template <int D>
+void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
+  if (control.merge == MergePolicy::rest_arc && control.rational) take_rest_arc(chain, k);
+}
+
+/// The rotation that takes the rest shape of element k to where it is, as well as one rotation can.
+template <int D>
+Eigen::Matrix<double, D, D> rotation_from_rest(const ChainState<D>& chain, int k) {
+  auto points = [&](const NodalCubic<double, D>& e) {
+    const double third =
+        (chain.mesh.x[static_cast<std::size_t>(k) + 1] - chain.mesh.x[static_cast<std::size_t>(k)]) / 3;
+    Eigen::MatrixXd of(D, 4);
+    of << e.r_a, e.r_a + third * e.s_a, e.r_b - third * e.s_b, e.r_b;
+    return of;
+  };
+  return best_rotation<D>(points(chain.rest_nodes(k)), points(chain.coordinates(k).e));
 }
 
 /// Gives element k of `chain` the shape of one that has lost node `deleted` of the chain `before`.
@@ -22,6 +59,10 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
                          const LengthControl& control, const MovingLaw<D>& law) {
   if (control.merge == MergePolicy::least_change) {
     return least_change(chain, before, k, control.rational, law);
+  }
+  if (control.merge == MergePolicy::rest_arc && control.rational) {
+    const auto weights = take_rest_arc(chain, k);
+    return {{weights[0], weights[1], weights[2]}};
   }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
@@ -52,6 +93,8 @@ MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const
   chain.joint = deleted;
   chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
   chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
+  renew_cut(chain, j - 1, control);
+  renew_cut(chain, j, control);
   return merge_into(chain, merged, before, deleted, control, law);
 }
 
@@ -67,6 +110,7 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
   const auto node = segment(before, cut, forward ? x[i + 1] - reach : x[i - 1] + reach, law.transport);
   place_node(chain, j, node);
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
+  renew_cut(chain, cut, control);
   chain.joint = no_joint;
   chain.joint_rate = 0;
   chain.kink.reset();
@@ -75,7 +119,8 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
 }
 
 template <int D>
-MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law) {
+MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law,
+                         const std::array<Vec<double, D>, 4>* rest) {
   const ChainState<D> before = chain;
   const auto& rider = *before.rider;
   const bool forward = rider.element > 0;
@@ -83,9 +128,17 @@ MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, con
   const auto node = segment(before, cut, rider.x, law.transport);
   const auto at = motion_at(before, cut, rider.x, law.transport);
   place_node(chain, j, node);
+  if (rest != nullptr) {
+    const auto rotation = rotation_from_rest(before, cut);
+    position<D>(chain.q.data(), j) += rotation * ((*rest)[0] - node.rest_r);
+    slope<D>(chain.q.data(), j) += rotation * ((*rest)[1] - node.rest_r_x);
+    position<D>(chain.rest.data(), j) = (*rest)[0];
+    slope<D>(chain.rest.data(), j) = (*rest)[1];
+  }
   position<D>(chain.rate.data(), j) += rider.rate * at.r_x;
   slope<D>(chain.rate.data(), j) += rider.rate * at.r_xx;
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.right : node.left;
+  renew_cut(chain, cut, control);
   chain.joint = j;
   chain.joint_rate = rider.rate;
   chain.rider.reset();
@@ -109,7 +162,17 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
   auto parameter = [&](double at) { return (at - q.x_a) / (q.x_b - q.x_a); };
   auto at_material_point = [&](double at) -> Segmentation<D> {
     const auto point = kinematics.at(parameter(at), rational_shape(w, parameter(at)));
-    return {at, point.r, point.r_x, point.v, point.v_x, {}, {}};
+    if (!before.curved_at_rest()) return {at, point.r, point.r_x, point.v, point.v_x, {}, {}, {}, {}};
+    const auto rest = before.rest_nodes(kept);
+    return {at,
+            point.r,
+            point.r_x,
+            point.v,
+            point.v_x,
+            {},
+            {},
+            combine_nodes(point.s, rest),
+            combine_nodes(point.s_x, rest)};
   };
   auto weights_between = [&](double a, double b) -> WeightFunction {
     if (weights.w == unit_weights) return {unit_weights, a, b};
@@ -129,8 +192,10 @@ template MergedWeights segment_and_merge(ChainState<2>&, Direction, const Length
 template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
 template MergedWeights merge_at_end(ChainState<2>&, Direction, const LengthControl&, const MovingLaw<2>&);
 template MergedWeights merge_at_end(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
-template MergedWeights cut_at_end(ChainState<2>&, const LengthControl&, const MovingLaw<2>&);
-template MergedWeights cut_at_end(ChainState<3>&, const LengthControl&, const MovingLaw<3>&);
+template MergedWeights cut_at_end(ChainState<2>&, const LengthControl&, const MovingLaw<2>&,
+                                  const std::array<Vec<double, 2>, 4>*);
+template MergedWeights cut_at_end(ChainState<3>&, const LengthControl&, const MovingLaw<3>&,
+                                  const std::array<Vec<double, 3>, 4>*);
 template void separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
 template void separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
 

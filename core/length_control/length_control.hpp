@@ -46,9 +46,12 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
                            const MovingLaw<D>& law);
 
 /// What rides inside the last or the first element gets a moving node: the element is cut there, and the next fixed
-/// node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes.
+/// node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes. The new node follows the rest
+/// curve, given by `rest`, position and slope first (null without a rest shape). What the element's own rest shape
+/// differs by from it, which earlier cuts have left, the beam's node is moved by too, so that nothing is stressed.
 template <int D>
-MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law);
+MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law,
+                         const std::array<Vec<double, D>, 4>* rest);
 
 /// The moving node leaves the beam at its last node (forward) or first node (backward). The last element, about to
 /// vanish, goes with it: curve and velocity of the element behind the node are continued to the end, and cut at L_std

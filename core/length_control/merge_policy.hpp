@@ -6,6 +6,7 @@ namespace vlbeam {
 enum class MergePolicy {
   point_fit,     ///< weights by a minimum-norm point fit (Ding & Ouyang 2022, Eq. 31-38); unit weights for ALE-ANCF
   unit,          ///< unit weights
+  rest_arc,      ///< weights of the evenly run arc that turns as much as the element does at rest; of cut ones, too
   least_change,  ///< weights and neighbouring slopes by the least change of curve and strain, strain energy kept
 };
 

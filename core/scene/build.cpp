@@ -24,18 +24,6 @@ Vec<double, D> vector_of(const Point& point) {
   return Eigen::Map<const Vec<double, D>>(point.data());
 }
 
-/// The initial shape as the one strains are measured from.
-template <int D>
-std::shared_ptr<const RestCurve<D>> rest_curve_of(const ChainState<D>& chain, const BeamModel<D>& model) {
-  std::vector<typename RestCurve<D>::Piece> pieces;
-  for (int k = 0; k < chain.mesh.elements(); ++k) {
-    const auto q = chain.coordinates(k);
-    pieces.push_back({q.x_a, q.x_b, q.e, chain.mesh.weights[static_cast<std::size_t>(k)].w});
-  }
-  return std::make_shared<const RestCurve<D>>(std::move(pieces), model.section.stiffness.law,
-                                              model.section.curvature_regularization);
-}
-
 /// d2r/dx2 of element k at its parameter u.
 template <int D>
 Vec<double, D> second_derivative(const ChainState<D>& chain, int k, double u) {
@@ -181,6 +169,11 @@ double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
 
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
 
+MergePolicy merge_policy(const Scene& scene) {
+  const bool curved = has_rest_shape(scene) && scene.beam.curve.type != CurveType::line;
+  return scene.length_control.merge.value_or(curved ? MergePolicy::rest_arc : MergePolicy::point_fit);
+}
+
 double separation_distance(const Scene& scene) {
   return scene.sliding_mass->separation_distance.value_or(separation_share * beam_length(scene));
 }
@@ -226,9 +219,9 @@ BeamModel<D> build_model(const Scene& scene) {
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
   model.length_control = {control.enabled,    standard_length(scene), control.upper,
-                          control.hysteresis, control.merge,          !is_polynomial(scene.beam.element),
+                          control.hysteresis, merge_policy(scene),    !is_polynomial(scene.beam.element),
                           control.velocities, end_merge(scene)};
-  if (has_rest_shape(scene)) model.rest = rest_curve_of(build_chain<D>(scene), model);
+  if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
   return model;
 }
 
@@ -238,12 +231,9 @@ ChainState<D> build_chain(const Scene& scene) {
   const InitialNodes nodes = place_nodes(scene, axis.breaks());
   const auto& x = nodes.x;
   CubicChain<D> shape;
-  if (axis.straight() || is_polynomial(scene.beam.element)) {
-    for (const double at : x) {
-      shape.r.push_back(axis.position(at));
-      shape.r_x.push_back(axis.tangent(at));
-    }
-    shape.weights.assign(x.size() - 1, scene.beam.weights);
+  if (axis.straight() || scene.beam.axis == AxisForm::even) {
+    shape = even_chain(axis, x, !is_polynomial(scene.beam.element));
+    if (axis.straight()) shape.weights.assign(x.size() - 1, scene.beam.weights);
   } else {
     shape = exact_shape(axis, nodes);
   }
@@ -258,6 +248,7 @@ ChainState<D> build_chain(const Scene& scene) {
     slope<D>(chain.q.data(), k) = shape.r_x[i];
     if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
   }
+  if (has_rest_shape(scene)) chain.rest = chain.q;
   if (!scene.sliding_mass) return chain;
   // the beam is at rest, so the moving node travels along it
   chain.joint_rate = scene.sliding_mass->velocity;
@@ -265,7 +256,9 @@ ChainState<D> build_chain(const Scene& scene) {
   auto r_x = slope<D>(chain.q.data(), j);
   position<D>(chain.rate.data(), j) = chain.joint_rate * r_x;
   Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
-  if (!axis.straight()) {
+  if (has_rest_shape(scene)) {
+    before = behind = chain.joint_rate * axis.derivatives(x[static_cast<std::size_t>(j)])[2];
+  } else if (!axis.straight()) {
     before = chain.joint_rate * second_derivative(chain, j - 1, 1);
     behind = chain.joint_rate * second_derivative(chain, j, 0);
   }

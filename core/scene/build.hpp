@@ -20,6 +20,9 @@ double standard_length(const Scene& scene);
 /// Whether strains are measured from a shape other than a straight, unstrained one.
 bool has_rest_shape(const Scene& scene);
 
+/// How the scene's elements are merged.
+MergePolicy merge_policy(const Scene& scene);
+
 /// Distance from a free end at which the sliding mass of the scene leaves [m].
 double separation_distance(const Scene& scene);
 

@@ -51,7 +51,7 @@ std::string better_transfer(const Scene& scene) {
   if (scene.length_control.velocities != VelocityTransfer::conservative) {
     text += "/length_control/velocities \"conservative\", which keeps the total energy; ";
   }
-  if (scene.length_control.merge != MergePolicy::least_change) {
+  if (merge_policy(scene) != MergePolicy::least_change) {
     text += "/length_control/merge \"least-change\", which keeps the strain energy; ";
   }
   return text + "more elements, which make each event smaller";

@@ -29,6 +29,9 @@ constexpr auto names(CurveType) {
 constexpr auto names(RestShape) {
   return std::to_array<Named<RestShape>>({{RestShape::as_built, "as-built"}, {RestShape::paper, "paper"}});
 }
+constexpr auto names(AxisForm) {
+  return std::to_array<Named<AxisForm>>({{AxisForm::even, "even"}, {AxisForm::exact, "exact"}});
+}
 constexpr auto names(BendingInertia) {
   using enum BendingInertia;
   return std::to_array<Named<BendingInertia>>({{none, "none"}, {rayleigh, "rayleigh"}, {gyroscopic, "gyroscopic"}});
@@ -65,7 +68,8 @@ constexpr auto names(AtSupport) {
 }
 constexpr auto names(MergePolicy) {
   using enum MergePolicy;
-  return std::to_array<Named<MergePolicy>>({{point_fit, "point-fit"}, {unit, "unit"}, {least_change, "least-change"}});
+  return std::to_array<Named<MergePolicy>>(
+      {{point_fit, "point-fit"}, {unit, "unit"}, {rest_arc, "rest-arc"}, {least_change, "least-change"}});
 }
 constexpr auto names(VelocityTransfer) {
   using enum VelocityTransfer;

@@ -86,6 +86,13 @@ struct Option {
   bool required = false;  ///< where its parent is given
 };
 
+/// An option that takes a choice of names, or is left out.
+template <class T>
+concept OptionalEnum = requires {
+  typename T::value_type;
+}
+&&NamedEnum<typename T::value_type>&& std::same_as<T, std::optional<typename T::value_type>>;
+
 /// What an option may be, in words: "a number > 0 [m]".
 template <class T>
 std::string allowed_text(const Option& option) {
@@ -94,6 +101,8 @@ std::string allowed_text(const Option& option) {
     std::string text;
     for (const auto& entry : names(T{})) text += (text.empty() ? "\"" : ", \"") + std::string(entry.name) + "\"";
     return (names(T{}).size() > 1 ? "one of " : "") + text;
+  } else if constexpr (OptionalEnum<T>) {
+    return allowed_text<typename T::value_type>(option);
   } else if constexpr (std::same_as<T, bool>) {
     return "true or false";
   } else if constexpr (std::same_as<T, std::string>) {
@@ -326,6 +335,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "element family; ALE elements let nodes move along the beam",
                  .source = paper},
           beam.element);
+  visitor(Option{.pointer = "/beam/axis",
+                 .unit = "",
+                 .description =
+                     "how elements follow a curved axis: evenly, material coordinate and arc length the same to a high "
+                     "order, or exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights)",
+                 .source = "Ding & Ouyang 2022, Eq. 43 is exact"},
+          beam.axis);
   visitor(Option{.pointer = "/beam/rest_shape",
                  .unit = "",
                  .description = "where strains are measured from: the initial shape, or a straight beam"},
@@ -585,8 +601,9 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   visitor(Option{.pointer = "/length_control/merge",
                  .unit = "",
                  .description =
-                     "shape of a merged element: weights by the paper's fit, unit weights, or weights and slopes by "
-                     "the least change at constant strain energy",
+                     "shape of a merged element: weights by the paper's fit, unit weights, weights of the arc that its "
+                     "rest shape turns by, or weights and slopes by the least change at constant strain energy; if not "
+                     "given, rest-arc with an as-built arc or NURBS curve, point-fit otherwise",
                  .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
           scene.length_control.merge);
   visitor(Option{.pointer = "/length_control/velocities",

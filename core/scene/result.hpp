@@ -80,6 +80,12 @@ struct Configuration {
   std::vector<Point> r_x;      ///< slopes [-]
   std::vector<double> angles;  ///< of the section about the axis [rad]; with spin
   std::vector<std::array<double, 4>> weights;
+  /// Nodes of the elements' rest shape; empty where it is straight and unstrained.
+  struct Rest {
+    std::vector<Point> r;    ///< [m]
+    std::vector<Point> r_x;  ///< [-]
+  };
+  Rest rest;
   /// Where the beam may be kinked, at the mass: `r_x` has the slope before it, this is the one behind.
   struct Kink {
     std::size_t node;

@@ -23,6 +23,10 @@ using Point = std::array<double, 3>;
 
 enum class ElementKind { ale_rancf, ale_ancf, rancf, ancf };
 enum class RestShape { as_built, paper };
+enum class AxisForm {
+  even,   ///< elements run along the initial axis at its arc length, to a high order
+  exact,  ///< elements are the axis exactly, at an uneven speed
+};
 enum class SupportType {
   clamp,
   pin,
@@ -89,6 +93,7 @@ struct BeamSpec {
   Material material;
   int elements = 20;
   ElementKind element = ElementKind::ale_rancf;
+  AxisForm axis = AxisForm::even;  ///< used with a curved axis
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
   BendingInertia rotary_inertia = BendingInertia::none;
@@ -170,9 +175,9 @@ struct LoadSpec {
 
 struct LengthControlSpec {
   bool enabled = true;
-  double upper = 1.5;        ///< trigger length over L_std
-  double hysteresis = 1e-3;  ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
-  MergePolicy merge = MergePolicy::point_fit;
+  double upper = 1.5;                     ///< trigger length over L_std
+  double hysteresis = 1e-3;               ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
+  std::optional<MergePolicy> merge = {};  ///< if not given, point_fit, but rest_arc where the rest shape is curved
   VelocityTransfer velocities = VelocityTransfer::nodal;
   std::optional<double> end_merge;  ///< over L_std: a shorter last element loses its moving node; see end_merge()
 };

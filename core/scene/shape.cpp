@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "core/element/moving_kinematics.hpp"
-#include "core/element/rest_curve.hpp"
+#include "core/element/rest_strain.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/run_support.hpp"
@@ -19,10 +19,11 @@ Vec<double, D> vector_of(const Point& point) {
 
 void check(const Configuration& shape, int per_element) {
   const std::size_t nodes = shape.x.size();
-  const bool whole = nodes >= 2 && shape.r.size() == nodes && shape.r_x.size() == nodes &&
-                     shape.weights.size() + 1 == nodes && shape.rates.x.size() == nodes &&
-                     shape.rates.v.size() == nodes && shape.rates.r_x.size() == nodes &&
-                     (!shape.kink || shape.kink->node < nodes);
+  const bool whole =
+      nodes >= 2 && shape.r.size() == nodes && shape.r_x.size() == nodes && shape.weights.size() + 1 == nodes &&
+      shape.rates.x.size() == nodes && shape.rates.v.size() == nodes && shape.rates.r_x.size() == nodes &&
+      shape.rest.r.size() == shape.rest.r_x.size() && (shape.rest.r.empty() || shape.rest.r.size() == nodes) &&
+      (!shape.kink || shape.kink->node < nodes);
   if (!whole) throw std::invalid_argument("a configuration has one entry a node, and one of weights an element");
   if (per_element < 1) throw std::invalid_argument("an element has at least one interval of points");
 }
@@ -30,8 +31,15 @@ void check(const Configuration& shape, int per_element) {
 template <int D>
 std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape, int per_element) {
   const BeamSection section = build_section(scene.beam);
-  std::shared_ptr<const RestCurve<D>> rest;
-  if (!flows(scene) && has_rest_shape(scene)) rest = build_model<D>(scene).rest;
+  const bool curved = !flows(scene) && has_rest_shape(scene);
+  Configuration::Rest rest = shape.rest;
+  if (curved && rest.r.empty()) {  // nodes that stand where they were built
+    const Axis<D> axis = build_axis<D>(scene);
+    for (const double x : shape.x) {
+      rest.r.push_back(point_of<D>(axis.position(x)));
+      rest.r_x.push_back(point_of<D>(axis.tangent(x)));
+    }
+  }
 
   // A node travels along the beam: it moves with v + r_x x_rate.
   const auto position_rate = [&shape](std::size_t node) -> Vec<double, D> {
@@ -60,9 +68,10 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
       point.r_x = point_of<D>(at.r_x);
       point.v = point_of<D>(at.v);
       StrainExtremes strains;
-      if (rest != nullptr) {
-        const int piece = rest->piece_at(i == per_element ? (q.x_a + q.x_b) / 2 : point.x);
-        const auto from = rest->at(point.x, piece);
+      if (curved) {
+        const NodalCubic<double, D> e{vector_of<D>(rest.r[k]), vector_of<D>(rest.r_x[k]), vector_of<D>(rest.r[k + 1]),
+                                      vector_of<D>(rest.r_x[k + 1])};
+        const auto from = rest_strain<D>(combine_nodes(at.s_x, e), combine_nodes(at.s_xx, e), section);
         strains.add(section, at, &from);
       } else {
         strains.add(section, at, nullptr);

@@ -23,6 +23,10 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
     shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));
   }
+  for (int k = 0; chain.curved_at_rest() && k <= chain.mesh.last(); ++k) {
+    shape.rest.r.push_back(point_of<D>(position<D>(chain.rest.data(), k)));
+    shape.rest.r_x.push_back(point_of<D>(slope<D>(chain.rest.data(), k)));
+  }
   if (chain.kink) shape.kink = {static_cast<std::size_t>(chain.joint), point_of<D>(chain.kink->slope)};
   for (int k = 0; k < chain.mesh.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);

@@ -59,7 +59,8 @@ class RangeCheck {
       if (!option.range.contains(part)) refuse(field, number_text(part), "it must be " + allowed_text<T>(option));
     } else if constexpr (std::same_as<Part, std::optional<double>>) {
       if (part) check<T>(option, *part, field);
-    } else if constexpr (!NamedEnum<Part> && !std::same_as<Part, bool> && !std::same_as<Part, std::string>) {
+    } else if constexpr (!NamedEnum<Part> && !OptionalEnum<Part> && !std::same_as<Part, bool> &&
+                         !std::same_as<Part, std::string>) {
       for (std::size_t i = 0; i < part.size(); ++i) {
         if (!within(option.range, part[i])) check<T>(option, part[i], field + "/" + std::to_string(i));
       }
@@ -199,6 +200,18 @@ void check_beam(const Scene& scene) {
     refuse(
         "/beam/material/curvature_regularization", "0",
         "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], or the damping 0");
+  }
+  if (beam.axis == AxisForm::exact && beam.curve.type != CurveType::line) {
+    if (beam.element == ElementKind::ale_ancf || beam.element == ElementKind::ancf) {
+      refuse("/beam/axis", "\"exact\"",
+             "a polynomial element holds no conic: it must be \"even\", or the element rational");
+    }
+    if (has_rest_shape(scene) && scene.sliding_mass) {
+      refuse(
+          "/beam/axis", "\"exact\"",
+          "a mass that slides along an \"as-built\" beam needs \"even\": at an uneven speed the stretch at a node is "
+          "the mesh's, and changes as the mesh does");
+    }
   }
   if (scene.dimension == 3 && bends && beam.material.curvature_regularization == 0 && has_rest_shape(scene)) {
     refuse("/beam/material/curvature_regularization", "0",

@@ -27,6 +27,7 @@ template <int D>
 void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
   mesh_ = chain.mesh;
+  rest_ = chain.rest;
   joint_ = chain.joint;
   free_mass_ = model_.joint.has_value() && joint_ == no_joint && !chain.rider;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
@@ -35,7 +36,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
   const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
-  const RestCurve<D>* rest = model_.rest.get();
+  const double* rest = rest_.empty() ? nullptr : rest_.data();
   left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest);
   right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest);
   if (model_.driven()) {
@@ -121,6 +122,12 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
     result.mesh.x[static_cast<std::size_t>(joint_)] = y[nodal_];
     result.joint_rate = y[coordinates_ + nodal_];
   }
+  result.rest = rest_;
+  if (has_joint() && result.curved_at_rest()) {
+    const auto at_joint = model_.rest->derivatives(y[nodal_]);
+    position<D>(result.rest.data(), joint_) = at_joint[0];
+    slope<D>(result.rest.data(), joint_) = at_joint[1];
+  }
   if (rider_) result.rider = {rider_->element, y[nodal_], y[coordinates_ + nodal_], rider_->held};
   if (kinked()) result.kink = {y.segment<D>(behind_), y.segment<D>(coordinates_ + behind_)};
   return result;
@@ -163,17 +170,33 @@ ConstraintResidual BeamSystem<D>::slope_residual(const Eigen::VectorXd& y) const
 }
 
 template <int D>
+std::optional<typename BeamSystem<D>::JointRest> BeamSystem<D>::joint_rest(double x) const {
+  if (!model_.rest) return std::nullopt;
+  const RestEnd<D> moving{x, model_.rest->derivatives(x)};
+  const auto fixed = [&](int node) -> RestEnd<D> {
+    return {mesh_.x[static_cast<std::size_t>(node)],
+            {position<D>(rest_.data(), node), slope<D>(rest_.data(), node), Vector::Zero(), Vector::Zero()}};
+  };
+  return JointRest{{fixed(joint_ - 1), moving}, {moving, fixed(joint_ + 1)}};
+}
+
+template <int D>
 typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double* q, const double* rate,
                                                                     double t) const {
   const auto j = static_cast<std::size_t>(joint_);
   const double x = q[nodal_], x_rate = rate[nodal_];
-  const MovingLaw<D> moving = moving_law(t);
+  MovingLaw<D> left = moving_law(t), right = left;
+  const auto rest = joint_rest(x);
+  if (rest) {
+    left.rest = &rest->left;
+    right.rest = &rest->right;
+  }
   return {moving_equations<double, D, MovingEnds::b>({element_of(q, joint_ - 1), mesh_.x[j - 1], x},
                                                      {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1],
-                                                     left_table_, moving),
+                                                     left_table_, left),
           moving_equations<double, D, MovingEnds::a>({element_of(q, joint_), x, mesh_.x[j + 1]},
                                                      {element_of(rate, joint_), x_rate, 0}, mesh_.weights[j],
-                                                     right_table_, moving)};
+                                                     right_table_, right)};
 }
 
 template <int D>
@@ -411,43 +434,49 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
                                                  weights);
     const bool unit = weights.w == unit_weights;
     const auto table = unit ? polynomial : ShapeTabulation(rule, kinematics.weights());
-    const auto motion = [&](double u, const ShapeTable<double>& shape) { return kinematics.at(u, shape); };
-    for_each_point(
-        kinematics, table, false, moving.rest, motion, [&](const auto& point, const auto& at, const auto* rest) {
-          const double wl = point.weight;
-          const auto& section = model_.section;
-          const ElasticStress<double, D> elastic(at.r_x, at.r_xx, section.stiffness);
-          seen.energy.axial += wl * elastic.axial;
-          seen.energy.bending += wl * elastic.bending;
-          if (rest != nullptr) {
-            const RestStress<double, D> from_rest(at.r_x, at.r_xx, *rest, section.stiffness,
-                                                  section.curvature_regularization);
-            seen.energy.axial += wl * from_rest.axial;
-            seen.energy.bending += wl * from_rest.bending;
-          }
-          seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
-          seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
-          seen.momentum += wl * rhoA * at.v;
-          seen.angular_momentum += wl * rhoA * moment_about_origin<D>(at.r, at.v);
-          seen.mass_moment += wl * rhoA * at.r;
-          if (seen.extremes) seen.extremes->add(model_.section, at, rest);
-          const double stretch = at.r_x.norm();
-          seen.beam_length += wl * stretch;
-          // at a fixed reference point, which moves along the beam
-          seen.beam_length_rate +=
-              wl * at.r_x.dot(at.v_x + point.mesh_velocity * at.r_xx) / stretch + point.weight_rate * stretch;
-        });
+    const auto& section = model_.section;
+    struct Seen {
+      PointMotion<double, D> at;
+      RestStrain<double> strain;
+      const RestStrain<double>* rest() const { return curved ? &strain : nullptr; }
+      bool curved;
+    };
+    const auto see = [&](double u, const ShapeTable<double>& shape) {
+      Seen point{kinematics.at(u, shape), {}, chain.curved_at_rest()};
+      if (!point.curved) return point;
+      const auto rest = chain.rest_nodes(k);
+      point.strain = rest_strain<D>(combine_nodes(point.at.s_x, rest), combine_nodes(point.at.s_xx, rest), section);
+      return point;
+    };
+    const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
+    for_each_point(kinematics, table, false, none, see, [&](const auto& point, const Seen& look, const auto*) {
+      const double wl = point.weight;
+      const auto& at = look.at;
+      if (look.curved) {
+        const RestStress<double, D> stress(at.r_x, at.r_xx, look.strain, section);
+        seen.energy.axial += wl * stress.axial;
+        seen.energy.bending += wl * stress.bending;
+      } else {
+        const ElasticStress<double, D> stress(at.r_x, at.r_xx, section.stiffness);
+        seen.energy.axial += wl * stress.axial;
+        seen.energy.bending += wl * stress.bending;
+      }
+      seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
+      seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
+      seen.momentum += wl * rhoA * at.v;
+      seen.angular_momentum += wl * rhoA * moment_about_origin<D>(at.r, at.v);
+      seen.mass_moment += wl * rhoA * at.r;
+      if (seen.extremes) seen.extremes->add(section, at, look.rest());
+      const double stretch = at.r_x.norm();
+      seen.beam_length += wl * stretch;
+      // at a fixed reference point, which moves along the beam
+      seen.beam_length_rate +=
+          wl * at.r_x.dot(at.v_x + point.mesh_velocity * at.r_xx) / stretch + point.weight_rate * stretch;
+    });
     if (!seen.extremes) continue;
     for (const double u : {0.0, 1.0}) {
-      const auto at = kinematics.at(u, rational_shape(kinematics.weights(), u));
-      if (moving.rest == nullptr) {
-        seen.extremes->add(model_.section, at, nullptr);
-        continue;
-      }
-      const double x = u == 0 ? q.x_a : q.x_b;
-      const int piece = moving.rest->piece_at(u == 0 ? x : (q.x_a + q.x_b) / 2);
-      const RestStrain<double> rest = moving.rest->at(x, piece);
-      seen.extremes->add(model_.section, at, &rest);
+      const Seen look = see(u, rational_shape(kinematics.weights(), u));
+      seen.extremes->add(section, look.at, look.rest());
     }
   }
 }

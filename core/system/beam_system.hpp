@@ -6,6 +6,7 @@
 
 #include "core/beam/support_motion.hpp"
 #include "core/dynamics/integrate.hpp"
+#include "core/geometry/axis.hpp"
 #include "core/joint/at_support.hpp"
 #include "core/joint/rider.hpp"
 #include "core/length_control/event_type.hpp"
@@ -34,7 +35,9 @@ struct BeamModel {
   Impact at_support;               ///< where the mass may not leave
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
-  std::shared_ptr<const RestCurve<D>> rest;  ///< null for a straight, unstrained rest shape
+  /// What a moving node follows in the rest shape, by arc length, where the chain's `rest` has the nodes; null for a
+  /// straight, unstrained rest shape.
+  std::shared_ptr<const Axis<D>> rest;
 
   /// Whether energy is lost, which the state then counts.
   bool dissipates() const { return section.damped() || (joint && joint->friction); }
@@ -176,9 +179,12 @@ class BeamSystem final : public EventedOde {
   /// Shape functions of the two elements at the joint.
   const ShapeTabulation& left_table() const { return left_table_; }
   const ShapeTabulation& right_table() const { return right_table_; }
-  MovingLaw<D> moving_law(double t) const {
-    return {model_.section, model_.formulation, model_.transport, gravity(t), model_.rest.get()};
-  }
+  MovingLaw<D> moving_law(double t) const { return {model_.section, model_.formulation, model_.transport, gravity(t)}; }
+  /// The rest shape of the two elements at the joint, which is at x; nothing if it is straight.
+  struct JointRest {
+    RestElement<D> left, right;
+  };
+  std::optional<JointRest> joint_rest(double x) const;
   /// The fixed elements before and behind the joint, or the middle of the beam.
   const Span<D>& left() const { return *left_; }
   const Span<D>& right() const { return *right_; }
@@ -272,6 +278,7 @@ class BeamSystem final : public EventedOde {
 
   BeamModel<D> model_;
   Mesh mesh_;
+  std::vector<double> rest_;  ///< nodes of the rest shape, but for the moving one; empty if it is straight
   int joint_ = no_joint;
   std::optional<Riding> rider_;
   std::array<double, 2> end_limit_{};  ///< [m], of the last and of the first element

@@ -220,13 +220,15 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     case EventType::end_merge:
       record.merged = merge_at_end(record.after, direction, model_.length_control, moving_law(t));
       break;
-    case EventType::end_cut:
-      record.merged = cut_at_end(record.after, model_.length_control, moving_law(t));
+    case EventType::end_cut: {
+      const auto rest = model_.rest ? model_.rest->derivatives(record.after.rider->x) : std::array<Vector, 4>{};
+      record.merged = cut_at_end(record.after, model_.length_control, moving_law(t), model_.rest ? &rest : nullptr);
       if (model_.joint->kinked()) {
         record.after.kink = {slope<D>(record.after.q.data(), record.after.joint),
                              slope<D>(record.after.rate.data(), record.after.joint)};
       }
       break;
+    }
     case EventType::contact:
       hit(record.after, y, t);
       break;

@@ -206,9 +206,11 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     const int j = system_.joint();
     const auto ju = static_cast<std::size_t>(j);
     const auto& mesh = system_.mesh();
-    const auto law = system_.moving_law(t);
+    auto law = system_.moving_law(t);
+    const auto rest = system_.joint_rest(q[extra]);
     auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
                                     const ShapeTabulation& table) {
+      if (rest) law.rest = Ends == MovingEnds::b ? &rest->left : &rest->right;
       const auto part = moving_residual<Ends, double, D>(
           element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
           element_of<Ends, D>(a.data(), node, a[extra], 0), weights, table, law, &dissipation);
@@ -379,10 +381,12 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   if (system_.has_joint()) {
     const int j = system_.joint();
     const auto ju = static_cast<std::size_t>(j);
-    const auto law = system_.moving_law(t);
+    auto law = system_.moving_law(t);
+    const auto rest = system_.joint_rest(q[extra]);
     auto& border = tangent_.add_border(j - 1);
     auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
                                     const ShapeTabulation& table) {
+      if (rest) law.rest = Ends == MovingEnds::b ? &rest->left : &rest->right;
       add_element(
           border, node,
           moving_tangent<Ends, D>(element_of<Ends, D>(q.data(), node, q[extra], far_end),

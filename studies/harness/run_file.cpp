@@ -28,6 +28,9 @@ Configuration configuration_from(const Json& json) {
   shape.rates.x = json.at("x_rate").get<std::vector<double>>();
   shape.rates.v = points_from(json.at("v"));
   shape.rates.r_x = points_from(json.at("r_x_rate"));
+  if (json.contains("rest")) {
+    shape.rest = {points_from(json.at("rest").at("r")), points_from(json.at("rest").at("r_x"))};
+  }
   if (json.contains("kink")) {
     const Json& kink = json.at("kink");
     shape.kink = {kink.at("node").get<std::size_t>(), point_from(kink.at("r_x")), point_from(kink.at("r_x_rate"))};

@@ -158,6 +158,7 @@ Json configuration(const Configuration& shape, int d) {
   json["v"] = points(shape.rates.v);
   json["r_x_rate"] = points(shape.rates.r_x);
   if (!shape.angles.empty()) json["spins"] = shape.rates.spins;
+  if (!shape.rest.r.empty()) json["rest"] = {{"r", points(shape.rest.r)}, {"r_x", points(shape.rest.r_x)}};
   if (shape.kink) {
     json["kink"] = {{"node", shape.kink->node},
                     {"r_x", components(shape.kink->r_x, d)},

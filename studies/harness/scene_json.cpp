@@ -217,6 +217,8 @@ class Reader {
       const auto choice = value.is_string() ? from_string<T>(value.get_ref<const std::string&>()) : std::nullopt;
       if (choice) member = *choice;
       return choice.has_value();
+    } else if constexpr (OptionalEnum<T>) {
+      return read(value, option, member.emplace());
     } else if constexpr (std::same_as<T, bool>) {
       if (value.is_boolean()) member = value.get<bool>();
       return value.is_boolean();
@@ -287,6 +289,8 @@ class Writer {
   static Json value(const Option& option, const T& member) {
     if constexpr (NamedEnum<T>) {
       return to_string(member);
+    } else if constexpr (OptionalEnum<T>) {
+      return member ? Json(to_string(*member)) : Json();
     } else if constexpr (std::same_as<T, Point>) {
       Json array = Json::array();
       for (std::size_t i = 0; i < static_cast<std::size_t>(option.components); ++i) array.push_back(member[i]);
@@ -374,6 +378,7 @@ Json scene_to_json(const Scene& scene) {
   }
   filled.length_control.end_merge = end_merge(scene);
   if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);
+  filled.length_control.merge = merge_policy(scene);
   if (filled.spin) filled.spin->rate = initial_spin(scene);
   if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;

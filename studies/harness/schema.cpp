@@ -54,7 +54,7 @@ class SceneSchemaBuilder {
     } else if constexpr (std::same_as<T, Point>) {
       schema["default"] = Json::array();
       for (int i = 0; i < option.components; ++i) schema["default"].push_back(member[static_cast<std::size_t>(i)]);
-    } else if constexpr (!std::same_as<T, std::optional<double>>) {
+    } else if constexpr (!std::same_as<T, std::optional<double>> && !OptionalEnum<T>) {
       if (!option.required) schema["default"] = member;
     }
     if (!option.when.pointer.empty()) {
@@ -122,6 +122,8 @@ class SceneSchemaBuilder {
       Json choices = Json::array();
       for (const auto& entry : names(T{})) choices.push_back(entry.name);
       return {{"enum", choices}};
+    } else if constexpr (OptionalEnum<T>) {
+      return type<typename T::value_type>(option);
     } else if constexpr (std::same_as<T, bool>) {
       return {{"type", "boolean"}};
     } else if constexpr (std::same_as<T, std::string>) {
@@ -327,6 +329,8 @@ Json run_schema() {
   const Json kink = record({{"node", described(whole, "number of the node, from 0", "-")},
                             {"r_x", described(point, "slope behind it", "-")},
                             {"r_x_rate", described(point, "its rate", "1/s")}});
+  const Json rest =
+      record({{"r", described(array_of(point), "positions", "m")}, {"r_x", described(array_of(point), "slopes", "-")}});
   const Json configuration =
       record({{"t", described(number, "time", "s")},
               {"x", described(array_of(number), "material coordinates of the nodes", "m")},
@@ -341,8 +345,11 @@ Json run_schema() {
                               "m/s")},
               {"r_x_rate", described(array_of(point), "rates of the slopes at the nodes", "1/s")},
               {"spins", described(array_of(number), "rates of the angles; with spin", "rad/s")},
+              {"rest", described(rest,
+                                 "nodes of the rest shape of these elements, from which strains are measured; "
+                                 "where it is not a straight beam")},
               {"kink", described(kink, "where the beam may be kinked, at the sliding mass")}},
-             {"kink", "angles", "spins"});
+             {"kink", "rest", "angles", "spins"});
   const Json jumps = record(
       {{"kinetic", described(number_or_null, "of kinetic energy", "J")},
        {"axial", described(number_or_null, "of the strain energy of stretching", "J")},

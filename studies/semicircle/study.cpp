@@ -2,6 +2,8 @@
 #include "studies/harness/study.hpp"
 
 #include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <map>
 
@@ -26,6 +28,20 @@ std::string kind_of(const SceneCase& item) {
   return key;
 }
 std::string key_of(const SceneCase& item) { return kind_of(item) + "_n" + std::to_string(item.scene.beam.elements); }
+
+/// Runs that answer a question of their own: ledgers at tight tolerances, and the bead on a stiff wire.
+bool apart(const SceneCase& item) { return item.sweep.starts_with("audit") || item.sweep == "bead"; }
+
+/// Arc length along a rigid semicircular wire, at the time t, of a bead let go at rest: R angle'' = g cos(angle).
+double on_rigid_wire(const Scene& scene, double t) {
+  using State = std::array<double, 2>;
+  const double R = scene.beam.curve.radius, g = -scene.gravity[1];
+  State angle{scene.sliding_mass->position / R, 0};
+  const auto rate = [&](const State& at, State& out, double) { out = {at[1], g / R * std::cos(at[0])}; };
+  using namespace boost::numeric::odeint;
+  integrate_adaptive(make_controlled<runge_kutta_fehlberg78<State>>(1e-13, 1e-13), rate, angle, 0.0, t, 1e-3);
+  return R * angle[0];
+}
 
 double cost(const SceneCase& item) {
   const double n = item.scene.beam.elements;
@@ -71,7 +87,7 @@ class Report {
         outcomes_(context.sweep(
             cases, [](const SceneCase& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost)) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      if (cases[i].sweep == "audit" || !outcomes_[i]) continue;
+      if (apart(cases[i]) || !outcomes_[i]) continue;
       const int n = cases[i].scene.beam.elements;
       if (kind_of(cases[i]) == "asbuilt" && n >= finest_) {
         finest_ = n;
@@ -84,6 +100,7 @@ class Report {
     add_cases();
     add_audit();
     add_convergence();
+    add_bead();
     add_figures();
     return std::move(report_);
   }
@@ -91,7 +108,7 @@ class Report {
  private:
   const RunResult* find(const std::string& key) const {
     for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (cases_[i].sweep != "audit" && outcomes_[i] && key_of(cases_[i]) == key) return &*outcomes_[i];
+      if (!apart(cases_[i]) && outcomes_[i] && key_of(cases_[i]) == key) return &*outcomes_[i];
     }
     return nullptr;
   }
@@ -122,9 +139,13 @@ class Report {
     double radius = 0, force = 0, drift = 0;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const Scene& scene = cases_[i].scene;
-      if (scene.beam.element == ElementKind::ale_rancf) radius = std::max(radius, radius_error(scene));
+      if (scene.beam.axis == AxisForm::exact) radius = std::max(radius, radius_error(scene));
+      if (scene.beam.axis == AxisForm::even && scene.beam.elements == 8) {
+        const auto kind = std::string(scene.beam.element == ElementKind::ale_rancf ? "rational" : "polynomial");
+        report_.measured["even_radius_error_" + kind] = radius_error(scene);
+      }
       if (scene.beam.rest_shape == RestShape::as_built) force = std::max(force, initial_force(scene));
-      if (cases_[i].sweep == "audit" && outcomes_[i]) {
+      if (cases_[i].sweep.starts_with("audit") && outcomes_[i]) {
         drift = std::max(drift, outcomes_[i]->max_energy_drift / outcomes_[i]->max_kinetic);
       }
     }
@@ -143,7 +164,7 @@ class Report {
                 .columns = {"kind", "elements", "error_0.4", "error_0.8", "error_end", "initial_axial", "events",
                             "energy_jumps"}};
     for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (cases_[i].sweep == "audit" || !outcomes_[i] || reference_ == nullptr) continue;
+      if (apart(cases_[i]) || !outcomes_[i] || reference_ == nullptr) continue;
       const RunResult& run = *outcomes_[i];
       const double length = beam_length(cases_[i].scene), end = run.samples.back().t;
       auto error = [&](double t) { return position_error(run, *reference_, t) / length; };
@@ -169,6 +190,35 @@ class Report {
     }
     if (!levels.empty()) report_.fits.push_back(fit_order("as-built, error at 0.4 s", levels, errors));
     add_limits();
+  }
+
+  /// A bead on a wire so stiff that it should stay where it is.
+  void add_bead() {
+    Table table{.name = "bead",
+                .caption =
+                    "Bead on a stiff semicircular wire, EA = EI = 1e8: error of its arc length over L at 1 s against "
+                    "a rigid wire; events and the sum of their jumps of strain energy [J]",
+                .columns = {"element", "elements", "error", "events", "strain_jumps"}};
+    std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> errors;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].sweep != "bead" || !outcomes_[i]) continue;
+      const Scene& scene = cases_[i].scene;
+      const RunResult& run = *outcomes_[i];
+      const Sample& last = run.samples.back();
+      const double error =
+          last.joint_position ? std::abs(*last.joint_position - on_rigid_wire(scene, last.t)) / beam_length(scene) : 1;
+      double jumps = 0;
+      for (const Event& event : run.events) jumps += std::abs(event.energy_jump.axial + event.energy_jump.bending);
+      const std::string element = scene.beam.element == ElementKind::ale_rancf ? "rancf" : "ancf";
+      table.rows.push_back({to_string(scene.beam.element), scene.beam.elements, error, run.events.size(), jumps});
+      report_.measured["bead_error_" + element + "_n" + std::to_string(scene.beam.elements)] = error;
+      errors[element].first.push_back(scene.beam.elements);
+      errors[element].second.push_back(error);
+    }
+    for (const auto& [element, of] : errors) {
+      report_.measured["bead_order_" + element] = std::log2(of.second[0] / of.second[1]);
+    }
+    report_.tables.push_back(std::move(table));
   }
 
   /// What all meshes of each kind say about the position of the mass at 0.4 s.

@@ -61,7 +61,7 @@ TEST(PointsAlong, VelocityOfATurningBar) {
 
 TEST(PointsAlong, CurvatureIsFromTheRestShape) {
   Scene scene = parse_scene(R"({"beam": {"curve": {"type": "arc", "center": [0, 0], "radius": 2, "from_degrees": 0,
-    "to_degrees": 90}, "elements": 3}, "gravity": [0, 0], "duration": 1e-3,
+    "to_degrees": 90}, "axis": "exact", "elements": 3}, "gravity": [0, 0], "duration": 1e-3,
     "output": {"interval": 1e-3, "configurations": [0]}})");
   for (const RestShape rest : {RestShape::as_built, RestShape::paper}) {
     scene.beam.rest_shape = rest;

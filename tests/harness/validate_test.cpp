@@ -113,6 +113,18 @@ const Rule rules[] = {
        s.beam.weights = {1, 1.2, 1.2, 1};
        s.beam.curve.type = CurveType::arc;
      }},
+    {"/beam/axis",
+     [](Scene& s) {  // with a sliding mass
+       s.beam.curve.type = CurveType::arc;
+       s.beam.axis = AxisForm::exact;
+     }},
+    {"/beam/axis",
+     [](Scene& s) {
+       s.beam.curve.type = CurveType::arc;
+       s.beam.rest_shape = RestShape::paper;
+       s.beam.element = ElementKind::ale_ancf;
+       s.beam.axis = AxisForm::exact;
+     }},
     {"/beam/curve/to_degrees",
      [](Scene& s) {
        s.beam.curve.type = CurveType::arc;

@@ -114,5 +114,53 @@ TEST(Axis, ANurbsCircleIsExactWithNodesBetweenItsKnots) {
   }
 }
 
+TEST(Axis, ItsDerivativesAreByArcLength) {
+  const auto circle = Axis<2>::nurbs(nurbs_circle());  // rational, and so of uneven speed
+  const auto arc = Axis<2>::arc({0, 0}, 1, 0, 2 * pi);
+  for (const double x : {0.0, 0.3, 1.2, 2.9, 4.4, 6.2}) {
+    const double c = std::cos(x), s = std::sin(x);
+    const std::array<Vec<double, 2>, 4> exact{Vec<double, 2>(c, s), Vec<double, 2>(-s, c), Vec<double, 2>(-c, -s),
+                                              Vec<double, 2>(s, -c)};
+    const auto by_nurbs = circle.derivatives(x), by_arc = arc.derivatives(x);
+    for (std::size_t n = 0; n < 4; ++n) {
+      EXPECT_LE((by_nurbs[n] - exact[n]).norm(), 1e-12) << "derivative " << n << " at " << x;
+      EXPECT_LE((by_arc[n] - exact[n]).norm(), 1e-15);
+    }
+  }
+  // a curve whose curvature changes: each derivative is that of the one before
+  const auto wave =
+      Axis<2>::nurbs({3, {0, 0, 0, 0, 1, 2, 2, 2, 2}, {1, 2, 1, 0.5, 1}, {{0, 0}, {1, 2}, {3, 1}, {4, -1}, {6, 0}}});
+  const double h = 1e-4 * wave.length();
+  for (const double share : {0.11, 0.34, 0.77}) {
+    const double x = share * wave.length();
+    const auto at = wave.derivatives(x), before = wave.derivatives(x - h), behind = wave.derivatives(x + h);
+    EXPECT_NEAR(at[1].norm(), 1, 1e-15);
+    for (std::size_t n = 0; n < 3; ++n) {
+      EXPECT_LE((Vec<double, 2>((behind[n] - before[n]) / (2 * h)) - at[n + 1]).norm(), 1e-5);
+    }
+  }
+}
+
+TEST(Axis, EvenElementsOfAnArcPassThroughItsMiddles) {
+  const auto arc = Axis<2>::arc({0, 0}, 1, 0, 2 * pi);
+  double coarser = 0;
+  for (const int n : {9, 18, 36}) {
+    const auto x = equal_nodes(arc.length(), n);
+    const auto even = even_chain(arc, x, true);
+    const auto element =
+        RationalCubic<double, 2>::from_nodal({even.r[0], even.r_x[0], even.r[1], even.r_x[1]}, x[1], even.weights[0]);
+    EXPECT_NEAR(element.evaluate(0.5)[0].norm(), 1, 1e-14);
+    EXPECT_EQ(even.r_x[1], arc.tangent(x[1]));
+    const double error = radius_error<2>(even, x, {0, 0}, 1);
+    if (n == 9) {
+      EXPECT_LE(error, 9.4e-7);  // 40 degrees; unit weights 6.1e-4
+    } else {
+      EXPECT_NEAR(std::log2(coarser / error), 6, 0.1);
+    }
+    coarser = error;
+  }
+  EXPECT_EQ(even_chain(arc, equal_nodes(arc.length(), 9), false).weights[0], unit_weights);
+}
+
 }  // namespace
 }  // namespace vlbeam::test

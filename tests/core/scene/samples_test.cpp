@@ -272,7 +272,7 @@ TEST(EnergyLedger, SaysWhereConservativeVelocitiesCouldNotConserve) {
   scene.length_control.velocities = VelocityTransfer::conservative;
   scene.duration = 0.6;
   const RunResult run = simulate(scene);
-  ASSERT_EQ(run.events.size(), 1U);
+  ASSERT_FALSE(run.events.empty());
   EXPECT_FALSE(run.events.front().restored);
   EXPECT_GT(std::abs(run.events.front().discrete_jump), 1);
   EXPECT_TRUE(warns(run, WarningKind::energy_not_restored));

@@ -68,36 +68,38 @@ struct Definitions {
     return Real(k.EA / 2) * eps * eps + Real(k.EI / 2) * curvature_squared(r[1], r[2]);
   }
 
-  /// The same measured from the rest shape `piece`, at the material point x.
-  Real energy_density(const std::array<Vector, 4>& r, const Real& x, const typename RestCurve<D>::Piece& piece) const {
-    const Real l(piece.x_b - piece.x_a);
-    const NodalCubic<Real, D> e{piece.e.r_a.template cast<Real>(), piece.e.s_a.template cast<Real>(),
-                                piece.e.r_b.template cast<Real>(), piece.e.s_b.template cast<Real>()};
-    const Weights<Real> w{Real(piece.w[0]), Real(piece.w[1]), Real(piece.w[2]), Real(piece.w[3])};
-    const auto by_u = RationalCubic<Real, D>::from_nodal(e, l, w).evaluate(Real((x - Real(piece.x_a)) / l));
-    const Vector r_x = by_u[1] / l, r_xx = by_u[2] / Real(l * l);
-    const Real eps = strain(r[1]) - strain(r_x), kappa = curvature(r[1], r[2]) - curvature(r_x, r_xx);
+  /// The point x of the element between ends on the rest curve.
+  std::array<Vector, 4> rest_point(const Column& q, const Real& x) const {
+    const auto& c = *o.rest;
+    auto at = [&](const Real& s) -> Vector {
+      Vector sum = c[3].template cast<Real>();
+      for (std::size_t i = 3; i-- > 0;) sum = Vector(sum * s) + c[i].template cast<Real>();
+      return sum;
+    };
+    auto slope = [&](const Real& s) -> Vector {
+      return c[1].template cast<Real>() + c[2].template cast<Real>() * Real(Real(2) * s) +
+             c[3].template cast<Real>() * Real(Real(3) * s * s);
+    };
+    Column rest = q;
+    rest.template segment<D>(0) = at(q[4 * D]);
+    rest.template segment<D>(D) = slope(q[4 * D]);
+    rest.template segment<D>(2 * D) = at(q[4 * D + 1]);
+    rest.template segment<D>(3 * D) = slope(q[4 * D + 1]);
+    return point(rest, x);
+  }
+
+  /// Of the point x of an element whose derivatives there are `r`.
+  Real energy_density(const std::array<Vector, 4>& r, const Column& q, const Real& x) const {
+    if (!o.rest) return energy_density(r);
+    const auto rest = rest_point(q, x);
+    const Real eps = strain(r[1]) - strain(rest[1]), kappa = curvature(r[1], r[2]) - curvature(rest[1], rest[2]);
     return Real(o.section.stiffness.EA / 2) * eps * eps + Real(o.section.stiffness.EI / 2) * kappa * kappa;
   }
 
-  /// Calls visit(x, weight, energy density) at the quadrature points.
+  /// Calls visit(x, weight) at the quadrature points.
   template <class Visit>
   void at_points(const Column& q, const Visit& visit) const {
-    if (o.rest.empty()) {
-      for (const auto& [u, weight] : o.rule) {
-        visit(material_point(q, u), Real(length(q) * Real(weight)),
-              [this](const auto& r, const Real&) { return energy_density(r); });
-      }
-    }
-    for (const auto& piece : o.rest) {
-      const bool first = piece.x_a < q[4 * D], last = q[4 * D + 1] < piece.x_b;
-      const Real from = first ? q[4 * D] : Real(piece.x_a), to = last ? q[4 * D + 1] : Real(piece.x_b);
-      if (!(from < to)) continue;
-      for (const auto& [u, weight] : o.rule) {
-        visit(Real(from * Real(1 - u) + to * Real(u)), Real((to - from) * Real(weight)),
-              [this, &piece](const auto& r, const Real& x) { return energy_density(r, x, piece); });
-      }
-    }
+    for (const auto& [u, weight] : o.rule) visit(material_point(q, u), Real(length(q) * Real(weight)));
   }
 
   static Real length(const Column& q) { return q[4 * D + 1] - q[4 * D]; }
@@ -105,8 +107,7 @@ struct Definitions {
 
   Real elastic_energy(const Column& q) const {
     Real sum(0);
-    at_points(q,
-              [&](const Real& x, const Real& weight, const auto& density) { sum += weight * density(point(q, x), x); });
+    at_points(q, [&](const Real& x, const Real& weight) { sum += weight * energy_density(point(q, x), q, x); });
     return sum;
   }
 };
@@ -123,7 +124,7 @@ Real lagrangian(const ElementOracle<D>& o, const ElementColumn<Real, D>& q, cons
   using Define = Definitions<Real, D>;
   const Vec<Real, D> g = o.gravity.template cast<Real>();
   Real sum = -Define{o}.elastic_energy(q);
-  Define{o}.at_points(q, [&](const Real& x, const Real& weight, const auto&) {
+  Define{o}.at_points(q, [&](const Real& x, const Real& weight) {
     const auto moving = moving_point<Real, D>(o, q, rate, x);
     const Vec<Real, D> r = value_of(moving[0]), v = rate_of(moving[0]);
     sum += weight * Real(o.section.rhoA) * (v.dot(v) / Real(2) + g.dot(r));
@@ -197,7 +198,8 @@ DenseEquations<D> ElementOracle<D>::virtual_work(const Column& q, const Column& 
     for (int i = 0; i < element_size<D>; ++i) {
       const auto varied = moving_point<double, D>(*this, q, Column::Unit(i), x);
       N.col(i) = rate_of(varied[0]);
-      by_energy[i] = Definitions<First, D>{*this}.energy_density(varied).rate;
+      const ElementColumn<First, D> q_varied = in_motion<double, element_size<D>>(q, Column::Unit(i));
+      by_energy[i] = Definitions<First, D>{*this}.energy_density(varied, q_varied, First(x, 0)).rate;
     }
     eq.mass += wl * section.rhoA * N.transpose() * N;
     eq.force += wl * (section.rhoA * N.transpose() * (gravity - remainder(q, rate, x)) - by_energy);

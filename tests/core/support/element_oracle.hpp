@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "core/element/moving_element.hpp"
 #include "tests/core/support/element_state.hpp"
@@ -20,7 +20,9 @@ struct ElementOracle {
   WeightFunction stored;
   QuadratureRule rule;
   Vector gravity = Vector::Zero();
-  std::vector<typename RestCurve<D>::Piece> rest;  ///< the stress-free shape, where it is not straight
+  /// The rest curve, as a polynomial of the material coordinate, where it is not straight. The element's rest shape is
+  /// the same element between ends on it.
+  std::optional<std::array<Vector, 4>> rest;
 
   /// Material coordinate at the reference point u.
   static double material_point(const Column& q, double u) { return q[4 * D] * (1 - u) + q[4 * D + 1] * u; }
@@ -36,8 +38,7 @@ struct ElementOracle {
   /// -dU/dq of the elastic energy.
   Column elastic_force(const Column& q) const;
 
-  /// Lagrange's equations M q'' = Q of sum_g w_g l (rhoA v.v/2 - W + rhoA g.r), the reference points fixed, on each
-  /// piece of the rest shape for itself.
+  /// Lagrange's equations M q'' = Q of sum_g w_g l (rhoA v.v/2 - W + rhoA g.r), the reference points fixed.
   DenseEquations<D> variational(const Column& q, const Column& rate) const;
   /// Virtual work at fixed material points: sum_g w_g l (rhoA (g - r_v).dr - dW), with r_v the acceleration at q'' = 0.
   DenseEquations<D> virtual_work(const Column& q, const Column& rate) const;
