@@ -78,7 +78,7 @@ class SceneSchemaBuilder {
     const auto path = segments(option.pointer);
     Json& schema = object(path, path.size());  // what is said of objects does not hold for numbers, and the reverse
     schema.update(number("number", option.range));
-    schema["type"] = {"number", "object"};
+    schema["type"] = Json::array({"number", "object"});
     schema["description"] = description(option);
     schema["default"] = standard;
     return true;
