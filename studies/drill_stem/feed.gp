@@ -17,8 +17,8 @@ set key top right
 set yrange [0:*]
 plot csv("feed") using "overhang":(of(n_high) * column("frequency")) with lines linewidth 2 linecolor rgb blue title "bending", \
      spin with lines dashtype 2 linecolor rgb red title "spin"
-set title "(c) angle of the bit behind the table"
-set ylabel "{/Symbol q}_0 - {/Symbol q}_N (rad)"
+set title "(c) lag of the bit"
+set ylabel "θ_0 - θ_N (rad)"
 set key bottom right
 plot csv("feed") using "overhang":(of(n_high) * column("twist")) with lines linewidth 2 linecolor rgb blue
 unset multiplot

@@ -14,7 +14,7 @@ set yrange [1e-17:1]
 plot csv("meshes") using "elements":"polynomial_distance" with linespoints linewidth 2 pointtype 6 linecolor rgb "#a63603" title "ALE-ANCF", \
      csv("meshes") using "elements":(column("rational_distance") + 1e-17) with linespoints linewidth 2 pointtype 7 linecolor rgb "#08519c" title "ALE-RANCF", \
      0.05*x**-4 with lines linecolor rgb "#888888" dashtype 2 title "slope -4", \
-     1.42e-14 with lines linecolor rgb "#888888" dashtype 3 title "64 {/Symbol e}"
+     1.42e-14 with lines linecolor rgb "#888888" dashtype 3 title "64 ε"
 set title "(b) axial energy measured from a straight beam"
 set ylabel "axial energy (J)"
 set autoscale y

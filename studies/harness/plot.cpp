@@ -57,12 +57,15 @@ std::string frame_of(const Diagram& diagram, const std::string& ending) {
 }
 
 std::string style_of(const Diagram& diagram, std::size_t i) {
-  const std::size_t n = diagram.series.size();
+  const auto n = static_cast<std::size_t>(
+      std::ranges::count_if(diagram.series, [](const Series& s) { return s.style != Series::Style::points; }));
   std::string style = diagram.series[i].style == Series::Style::line     ? "lines linewidth 2"
                       : diagram.series[i].style == Series::Style::points ? "points pointsize 1"
                                                                          : "linespoints linewidth 2 pointsize 1";
-  if (diagram.series[i].style != Series::Style::line) style += " pointtype " + std::to_string(2 * (i % 4) + 5);
+  if (diagram.series[i].style != Series::Style::line)
+    style += " pointtype " + (diagram.ordered_colours ? "7" : std::to_string(2 * (i % 4) + 5));
   if (diagram.ordered_colours) {
+    if (diagram.series[i].style == Series::Style::points) return style + " linecolor rgb '#000000'";
     return style + " linecolor palette frac " +
            number_text(n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0);
   }
@@ -166,6 +169,23 @@ bool comparable(const Diagram& diagram) {
   return high - low > 0.05 * (right - left) || high - low < 1e-9 * (right - left);
 }
 
+/// Where the sliding mass is at the times of the shapes that are times of samples, too; NaN at others.
+Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, std::size_t across, std::size_t up) {
+  constexpr std::array names{"mass_position.x", "mass_position.y", "mass_position.z"};
+  constexpr double same_time = 1e-9, nan = std::numeric_limits<double>::quiet_NaN();  // of the duration
+  const auto x = run.column(find_quantity(run.scene, names[across]));
+  const auto y = run.column(find_quantity(run.scene, names[up]));
+  Series masses{"mass", {}, {}, Series::Style::points};
+  for (const Configuration& shape : shapes) {
+    const auto sample =
+        std::ranges::find_if(run.t, [&](double t) { return std::abs(t - shape.t) <= same_time * run.scene.duration; });
+    const auto i = static_cast<std::size_t>(sample - run.t.begin());
+    masses.x.push_back(sample == run.t.end() ? nan : x[i]);
+    masses.y.push_back(sample == run.t.end() ? nan : y[i]);
+  }
+  return masses;
+}
+
 Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shapes) {
   const auto [across, up] = axes_of(run, shapes);
   constexpr std::array names{"X (m)", "Y (m)", "Z (m)"};
@@ -188,6 +208,7 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
     diagram.series.push_back(std::move(series));
   }
   diagram.equal_scales = comparable(diagram);
+  if (run.scene.sliding_mass) diagram.series.push_back(masses_at(run, shapes, across, up));
   return diagram;
 }
 
@@ -239,7 +260,13 @@ void draw_animation(const RunFile& run, const std::filesystem::path& figure) {
   if (diagram.equal_scales) script += "set size ratio -1\n";
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     script += "set title " + text_of(diagram.title + ", t = " + diagram.series[i].title + " s") + "\nplot data index " +
-              std::to_string(i) + " using 1:2 with lines linewidth 3 linecolor rgb '#08306b'\n";
+              std::to_string(i) + " using 1:2 with lines linewidth 3 linecolor rgb '#08306b'";
+    if (run.scene.sliding_mass) {
+      const std::string frame = std::to_string(i);
+      script += ", data index " + std::to_string(shapes.size()) + " every ::" + frame + "::" + frame +
+                " using 1:2 with points pointtype 7 pointsize 2 linecolor rgb '#a63603'";
+    }
+    script += "\n";
   }
   draw_figure_of(script, data_of(diagram), figure);
 }

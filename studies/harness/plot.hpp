@@ -23,7 +23,7 @@ struct Diagram {
   std::vector<Series> series;
   bool logarithmic = false;      ///< both axes
   bool equal_scales = false;     ///< of both axes: shapes
-  bool ordered_colours = false;  ///< from dark blue to orange in the order of the series, instead of one each
+  bool ordered_colours = false;  ///< of lines, from dark blue to orange in their order; points are black
   std::string key_title = {};
 };
 

@@ -1,7 +1,7 @@
 # Figures 7 and 9 of the paper: the shaft's axis and its projections. `set` is slow or fast.
 width = 1100; height = 900
 load folder . "/../moving_string/style.gp"
-what = set eq "slow" ? "Figure 7: a = 0.5, k_{/Symbol w} = 1" : "Figure 9: a = 1.5, k_{/Symbol w} = 0.5"
+what = set eq "slow" ? "Figure 7: a = 0.5, k_{ω} = 1" : "Figure 9: a = 1.5, k_{ω} = 0.5"
 set multiplot layout 2,2 title what . ", load at 1/4 ... 4/4 of the length. Lines: 4 elements; points: closed form"
 of(q) = strcol("set") eq set && column("quarter") == q ? 1 : NaN
 high = set eq "slow" ? 2.5 : 1.5

@@ -1,11 +1,11 @@
 # What rotary inertia and spin change, against the thickness of the shaft.
 width = 800; height = 500
 load folder . "/../moving_string/style.gp"
-set title "Rotary and gyroscopic inertia under a moving, rotating load (a = 0.5, k_{/Symbol w} = 1)"
+set title "Rotary and gyroscopic inertia under a moving, rotating load (a = 0.5, k_{ω} = 1)"
 set logscale xy
 set format y "10^{%T}"
 set xlabel "radius over length"
-set ylabel "max |{/Symbol D}U| / U_s"
+set ylabel "max |ΔU| / U_s"
 set xrange [0.008:0.13]
 set xtics (0.01, 0.02, 0.05, 0.1)
 set key at graph 0.97,0.52

@@ -7,7 +7,7 @@ shapes = csv("length_control_" . key)
 set title "(a) configurations at the first two length controls (LC)"
 set xlabel "X (m)"
 set ylabel "Y (m)"
-set yrange [-0.13:0]
+set yrange [-0.16:0]
 set key bottom center samplen 2 maxrows 2 width -4
 plot for [e in "rancf ancf"] for [k=1:2] shapes using e."_".k."_before_x":e."_".k."_before_y" with lines linewidth 4 \
        linecolor rgb (e eq "rancf" ? "#9ecae1" : "#fdae6b") title (k == 1 ? element_name(e) . ", before" : ""), \

@@ -1,7 +1,7 @@
 # Coulomb friction between mass and beam.
 width = 1300; height = 500
 load folder . "/style.gp"
-set multiplot layout 1,3 title "Friction between mass and beam, {/Symbol m} = " . coefficient . ", ALE-ANCF, N = " . finest
+set multiplot layout 1,3 title "Friction between mass and beam, μ = " . coefficient . ", ALE-ANCF, N = " . finest
 histories = csv("friction")
 set xlabel "t (s)"
 set xrange [0:*]

@@ -21,7 +21,7 @@ set xtics (3, 6, 12, 24)
 set format y "10^{%T}"
 set xlabel "elements N"
 set title "(c) error of x_i over 1.2 s against N = " . reference . " of the same limit"
-set ylabel "max |{/Symbol D}x_i| (m)"
+set ylabel "max |Δx_i| (m)"
 set key bottom left Left reverse samplen 1
 is(m, e) = strcol("slopes") eq mode_name(m) && strcol("element") eq e && column("elements") < real(reference) ? column("error") : NaN
 plot for [m in modes] csv("modes_errors") using "elements":(is(m, "ALE-ANCF")) with points pointtype 7 pointsize 0.9 \
@@ -31,7 +31,7 @@ plot for [m in modes] csv("modes_errors") using "elements":(is(m, "ALE-ANCF")) w
      NaN with points pointtype 7 linecolor rgb "#444444" title "ALE-ANCF", \
      NaN with points pointtype 8 pointsize 1.2 linecolor rgb "#444444" title "ALE-RANCF"
 set title "(d) how far modes are apart, ALE-ANCF"
-set ylabel "max |{/Symbol D}x_i| (m)"
+set ylabel "max |Δx_i| (m)"
 set key bottom left Left reverse samplen 2
 plot csv("modes_pairs") using "elements":"continuous_equal" with linespoints linewidth 2 pointtype 7 linecolor rgb "#444444" \
        title "continuous - equal-stretch", \

@@ -17,7 +17,7 @@ do for [b=1:2] {
   plot for [i=1:2] csv("thresholds") using "upper":(pick(beam, word(kinds, i), "error")) with points pointsize 1.2 pointtype 5+2*i linecolor rgb colour(i) title word(kinds, i)
   unset key
   set title sprintf("(%s) %s beam: jumps of kinetic energy", word("b e", b), beam)
-  set ylabel "sum of |{/Symbol D}T| (J)"
+  set ylabel "sum of |ΔT| (J)"
   plot for [i=1:2] csv("thresholds") using "upper":(pick(beam, word(kinds, i), "kinetic_jumps")) with points pointsize 1.2 pointtype 5+2*i linecolor rgb colour(i)
   unset logscale y
   set format y "%g"

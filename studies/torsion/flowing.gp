@@ -14,4 +14,4 @@ plot csv("flowing") using "elements":(of("linear", "variational") * column("freq
      csv("flowing") using "elements":(of("linear", "virtual-work") * column("frequency")) with linespoints linewidth 2 pointtype 5 linecolor rgb red title "virtual work, without", \
      csv("flowing") using "elements":(of("hermite", "virtual-work") * column("frequency")) with linespoints linewidth 2 pointtype 6 linecolor rgb green title "cubic angles, virtual work", \
      0.375 with lines dashtype 2 linecolor rgb grey title "exact: 0.375", \
-     0.5/sqrt(1.25) with lines dashtype 3 linecolor rgb red title "exact without v^2 {/Symbol q}_{xx}: 0.4472"
+     0.5/sqrt(1.25) with lines dashtype 3 linecolor rgb red title "exact without v^2 θ_{xx}: 0.4472"

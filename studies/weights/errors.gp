@@ -7,11 +7,13 @@ set xrange [4:50]
 set xtics (5, 10, 20, 30, 40)
 set format y "10^{%T}"
 set xlabel "elements N"
-set ylabel "max(|{/Symbol D}x_i|, |{/Symbol D}{/:Bold r}_{end}|, |{/Symbol D}{/:Bold r}_{mass}|) / L"
+set ylabel "max(|Δx_i|, |Δ{/:Bold r}_{end}|, |Δ{/:Bold r}_{mass}|) / L"
 set key bottom left
+panel = 0
 do for [t in "early late"] {
   do for [kind in kinds] {
-    set title (kind eq "ALE-RANCF" ? "(a) " : "(b) ") . kind . (t eq "early" ? ", 0.5 s" : ", 0.65 s, after the whip")
+    panel = panel + 1
+    set title word("(a) (b) (c) (d)", panel) . " " . kind . (t eq "early" ? ", 0.5 s" : ", 0.65 s, after the whip")
     plot for [i=1:3] csv("meshes") using "elements":(is(kind, word(transfers, i)) * column("error_".t)) \
            with linespoints linewidth 2 pointtype mark(i) linecolor rgb colour(i) title word(transfers, i)
   }

@@ -9,7 +9,7 @@ set format y "10^{%T}"
 set xlabel "elements N"
 set key bottom left
 do for [what in "kinetic_jumps elastic_jumps"] {
-  set ylabel (what eq "kinetic_jumps" ? "{/Symbol S} |{/Symbol D}T| (J)" : "{/Symbol S} |{/Symbol D}U| (J)")
+  set ylabel (what eq "kinetic_jumps" ? "Σ |ΔT| (J)" : "Σ |ΔU| (J)")
   do for [kind in kinds] {
     set title (kind eq "ALE-RANCF" ? "(a) " : "(b) ") . kind . (what eq "kinetic_jumps" ? ", kinetic" : ", elastic")
     plot for [i=1:3] csv("meshes") using "elements":(is(kind, word(transfers, i)) * column(what)) \

@@ -7,7 +7,7 @@ set format x "10^{%T}"
 set format y "10^{%T}"
 set xrange [1e-4:1.3e-3]
 set xlabel "step (s)"
-set ylabel "max(|{/Symbol D}x_i|, |{/Symbol D}{/:Bold r}_{end}|, |{/Symbol D}{/:Bold r}_{mass}|) / L"
+set ylabel "max(|Δx_i|, |Δ{/:Bold r}_{end}|, |Δ{/:Bold r}_{mass}|) / L"
 set key bottom right
 do for [kind in kinds] {
   set title (kind eq "ALE-RANCF" ? "(a) " : "(b) ") . kind

@@ -2,14 +2,7 @@
 # Scenes that are none: each is refused within a second, with exit code 2, by a message that names the file, the place
 # in it, what stands there and what may, and nothing is written.
 #   bad_input_test.sh PROGRAM
-set -u
-vlbeam=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-failed() { echo "FAILED: $1"; failures=$((failures + 1)); }
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 refused() {  # refused WHAT FILE PATTERN...: every pattern must be found in the message
   local what=$1 file=$2 pattern TIMEFORMAT='%U %S' code
@@ -130,5 +123,4 @@ echo '{"study": "torsion"}' > report.json
 [[ $code -eq 2 ]] && grep -qF 'report.json: /schema_version' err.txt || failed "no report: $(cat err.txt)"
 [[ ! -e out ]] || failed "a refused study writes"
 
-[[ $failures -eq 0 ]] && echo "all checks passed"
-exit "$((failures > 0))"
+verdict

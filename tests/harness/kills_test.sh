@@ -7,9 +7,9 @@ vlbeam=$1
 count=${2:-30}
 RANDOM=${3:-1}
 folder=$(mktemp -d)
-cleanup() { umount "$folder/work/disk" 2> /dev/null; rm -rf "$folder"; }
+cleanup() { umount "$folder/here/disk" 2> /dev/null; rm -rf "$folder"; }
 trap cleanup EXIT
-mkdir "$folder/work" && cd "$folder/work" || exit 1
+mkdir "$folder/here" && cd "$folder/here" || exit 1
 failures=0
 failed() { echo "FAILED, end $round ($how of $what): $1"; failures=$((failures + 1)); }
 

@@ -2,18 +2,8 @@
 # What a run may and may not do to files: devices, pipes, links, names that are one another, full disks, results of
 # earlier runs.
 #   outputs_test.sh PROGRAM
-set -u
-vlbeam=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-check() {  # check WHAT EXPECTED ACTUAL
-  [[ $2 == "$3" ]] || { echo "FAILED: $1: expected '$2', got '$3'"; failures=$((failures + 1)); }
-}
-exit_of() { "$@" > out.txt 2> err.txt; echo $?; }
-says() { grep -c -- "$1" err.txt; }
 computing() {  # computing PROCESS: waits until it handles signals, SIGXCPU (24) among them
   local caught
   for ((try = 0; try < 200; ++try)); do
@@ -152,5 +142,4 @@ check "a limit of memory" 3 "$(ulimit -v 120000; exit_of "$vlbeam" run too_many.
 check "its reason" 1 "$(says 'out of memory')"
 
 check "nothing half-written" "" "$(find . -name '*.part')"
-[[ $failures -eq 0 ]] && echo "all checks passed"
-exit "$((failures > 0))"
+verdict

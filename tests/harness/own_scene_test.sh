@@ -1,19 +1,7 @@
 #!/usr/bin/env bash
 # A scene of one's own: print one, run it, draw it; what is not understood is said, and nothing is lost.
 #   own_scene_test.sh PROGRAM
-set -u
-vlbeam=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-check() {  # check WHAT EXPECTED ACTUAL
-  [[ $2 == "$3" ]] || { echo "FAILED: $1: expected '$2', got '$3'"; failures=$((failures + 1)); }
-}
-exit_of() { "$@" > out.txt 2> err.txt; echo $?; }
-says() { grep -c -- "$1" err.txt; }
-there() { [[ -e $1 ]] && echo yes || echo no; }
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 # Scenes
 check "a scene" 0 "$(exit_of "$vlbeam" scene pendulum)"
@@ -45,6 +33,10 @@ if command -v gnuplot > /dev/null; then
     check "its title" 1 "$(grep -c '>Flexible pendulum<' $what.svg)"
     check "its unit" 1 "$(grep -Ec '\((m|J|N|-|1/m)\)</' $what.svg | sed 's/[1-9][0-9]*/1/')"
   done
+  "$vlbeam" scene falling_beam > mass.json && "$vlbeam" run mass.json --report mass.out --quiet
+  check "a shape with its mass" 0 "$(exit_of "$vlbeam" plot mass.out -o mass.svg)"
+  check "its key" 1 "$(grep -c '>mass<' mass.svg)"
+  check "its animation" 0 "$(exit_of "$vlbeam" plot mass.out --what animation -o mass.gif)"
   check "an animation" 0 "$(exit_of "$vlbeam" plot r.json --what animation -o a.gif)"
   check "is a GIF" GIF "$(head -c 3 a.gif)"
   check "a PNG" 0 "$(exit_of "$vlbeam" plot r.json --quantity end.x end.y -o q.png)"
@@ -61,5 +53,4 @@ if command -v gnuplot > /dev/null; then
 fi
 
 check "nothing half-written" "" "$(find . -name '*.part')"
-[[ $failures -eq 0 ]] && echo "all checks passed"
-exit "$((failures > 0))"
+verdict

@@ -2,19 +2,10 @@
 # A sweep is killed at random moments and gone on with: the joined files have the same bits. A case that crashes, or asks
 # for too much memory, costs itself only. A scene that has changed is no resume.
 #   own_sweep_test.sh PROGRAM [COUNT [SEED]]
-set -u
-vlbeam=$1
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 count=${2:-5}
 RANDOM=${3:-1}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
 
-check() {  # check WHAT EXPECTED ACTUAL
-  [[ $2 == "$3" ]] || { echo "FAILED: $1: expected '$2', got '$3'"; failures=$((failures + 1)); }
-}
-exit_of() { "$@" > out.txt 2> err.txt; echo $?; }
 bits() { cat "$1/sweep.csv" "$1/sweep.json" | sha256sum; }
 
 "$vlbeam" scene pendulum > pendulum.json
@@ -81,5 +72,4 @@ check "says so" 1 "$(grep -c 'scene has changed' err.txt)"
 check "nothing lost" 41 "$(wc -l < whole/sweep.csv)"
 
 check "nothing half-written" "" "$(find whole crash -name '*.part')"
-[[ $failures -eq 0 ]] && echo "all checks passed"
-exit "$((failures > 0))"
+verdict

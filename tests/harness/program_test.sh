@@ -1,17 +1,7 @@
 #!/usr/bin/env bash
 # The program as users meet it: exit codes, and output files that only appear once they are whole.
 #   program_test.sh PROGRAM
-set -u
-vlbeam=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-check() {  # check WHAT EXPECTED ACTUAL
-  [[ $2 == "$3" ]] || { echo "FAILED: $1: expected '$2', got '$3'"; failures=$((failures + 1)); }
-}
-exit_of() { "$@" > out.txt 2> err.txt; echo $?; }
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 cat > scene.json << 'SCENE'
 {"schema": "vlbeam.scene/1", "supports": [{"at": "start", "type": "clamp"}], "beam": {"elements": 4},
@@ -56,5 +46,4 @@ for schema in scene run study gates; do check "schema $schema" 0 "$(exit_of "$vl
 check "an unknown schema" 2 "$(exit_of "$vlbeam" schema beam)"
 check "nothing half-written" "" "$(find . -name '*.part')"
 
-[[ $failures -eq 0 ]] && echo "all checks passed"
-exit "$((failures > 0))"
+verdict

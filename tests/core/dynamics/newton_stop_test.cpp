@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/scene/simulate.hpp"
+#include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -71,21 +72,8 @@ TEST(NewtonStop, IsDoneAtRest) {
   EXPECT_EQ(stop.judge(entries(0, 0), entries(0, 0), 1e-8, slow), NewtonStop::Verdict::done);
 }
 
-/// A load that travels along a spinning shaft and turns about it.
 Scene shaft(double duration, double step, NewtonKind newton) {
-  Scene scene;
-  scene.dimension = 3;
-  scene.gravity = {};
-  scene.beam.curve.end = {0, 0, 1};
-  scene.beam.elements = 8;
-  scene.beam.element = ElementKind::ale_ancf;
-  scene.beam.material.density = 7800;
-  scene.beam.material.youngs_modulus = 2.1e11;
-  scene.start.type = SupportType::pin;
-  scene.end.type = SupportType::slide;
-  scene.spin.emplace().drives = {{0, {.rate = 300}}};
-  scene.flow.emplace().nodes = {{0, {}}, {4, {.value = 0.01, .rate = 20}}, {8, {.value = 1}}};
-  scene.loads = {{.node = 4, .x = {}, .magnitude = {.value = 10}, .direction = {1, 0, 0}, .turn = {.rate = 60}}};
+  Scene scene = shaft_under_turning_load(8);
   scene.duration = duration;
   scene.output.interval = duration;
   scene.output.configurations = {duration};

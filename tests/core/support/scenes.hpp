@@ -26,6 +26,25 @@ inline Scene flexible_pendulum(int elements) {
   return scene;
 }
 
+/// A shaft that spins and bears a load that turns about it and travels along it, with the node in the middle.
+inline Scene shaft_under_turning_load(int elements) {
+  Scene scene;
+  scene.dimension = 3;
+  scene.gravity = {};
+  scene.beam.curve.end = {0, 0, 1};
+  scene.beam.elements = elements;
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.material.density = 7800;
+  scene.beam.material.youngs_modulus = 2.1e11;
+  scene.start.type = SupportType::pin;
+  scene.end.type = SupportType::slide;
+  scene.spin.emplace().drives = {{0, {.rate = 300}}};
+  const int middle = elements / 2;
+  scene.flow.emplace().nodes = {{0, {}}, {middle, {.value = 0.01, .rate = 20}}, {elements, {.value = 1}}};
+  scene.loads = {{.node = middle, .x = {}, .magnitude = {.value = 10}, .direction = {1, 0, 0}, .turn = {.rate = 60}}};
+  return scene;
+}
+
 inline void set_tolerance(Scene& scene, IntegratorType type, double tolerance) {
   scene.integrator.type = type;
   scene.integrator.rtol = scene.integrator.atol = tolerance;

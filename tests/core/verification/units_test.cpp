@@ -121,21 +121,8 @@ Scene with_step(Scene scene, IntegratorType type, double step) {
   return scene;
 }
 
-/// A shaft that spins and bears a load that turns about it and travels along it.
 Scene shaft() {
-  Scene scene;
-  scene.dimension = 3;
-  scene.gravity = {};
-  scene.beam.curve.end = {0, 0, 1};
-  scene.beam.elements = 4;
-  scene.beam.element = ElementKind::ale_ancf;
-  scene.beam.material.density = 7800;
-  scene.beam.material.youngs_modulus = 2.1e11;
-  scene.start.type = SupportType::pin;
-  scene.end.type = SupportType::slide;
-  scene.spin.emplace().drives = {{0, {.rate = 300}}};
-  scene.flow.emplace().nodes = {{0, {}}, {2, {.value = 0.01, .rate = 20}}, {4, {.value = 1}}};
-  scene.loads = {{.node = 2, .x = {}, .magnitude = {.value = 10}, .direction = {1, 0, 0}, .turn = {.rate = 60}}};
+  Scene scene = shaft_under_turning_load(4);
   scene.duration = 0.01;
   scene.output.interval = 0.005;
   return scene;
