@@ -6,7 +6,7 @@
 set -euo pipefail
 
 packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libgtest-dev libgmock-dev
-          libbenchmark-dev gnuplot-nox)
+          libbenchmark-dev gnuplot-nox python3)
 if [[ ${1:-build} == ci ]]; then
   packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
 fi

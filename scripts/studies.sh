@@ -42,6 +42,7 @@ case $action in
       if [[ $code -eq 0 && $action == run && -z ${5:-} ]]; then echo "$study" >> "$finished"; fi
     done
     rm -f "$finished"
+    if [[ $action == run ]]; then python3 studies/site/build.py "$out"; fi
     exit "$failed"
     ;;
   gate)

@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""The site of the committed reports: every link leads somewhere, and it can be read by everybody.
+
+    site_test.py SOURCES
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urldefrag
+
+sys.dont_write_bytecode = True
+SOURCES = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCES / "studies" / "site"))
+import markdown  # noqa: E402
+
+VOID = {"meta", "link", "img", "br", "hr", "input"}
+HEAVIEST = 3_000_000  # bytes of a page with all that it shows
+
+
+class Page(HTMLParser):
+    def __init__(self, path):
+        super().__init__()
+        self.path, self.ids, self.headings, self.links, self.shown = path, [], [], [], []
+        self.problems, self.tags, self.refers, self.open, self.title = [], [], [], [], ""
+        self.text_of_link = None
+        self.feed(path.read_text(encoding="utf-8"))
+        self.close()
+        if self.open:
+            self.problems.append(f"not closed: {self.open}")
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.tags.append((tag, given))
+        if tag not in VOID:
+            self.open.append(tag)
+        if "id" in given:
+            self.ids.append(given["id"])
+        for key in ("aria-labelledby", "aria-describedby"):
+            self.refers += given.get(key, "").split()
+        if re.fullmatch("h[1-6]", tag):
+            self.headings.append(int(tag[1]))
+        if tag == "a":
+            self.links.append(given.get("href", ""))
+            self.text_of_link = ""
+        if tag == "img":
+            if "alt" not in given:
+                self.problems.append(f"no alt text: {given.get('src')}")
+            elif self.text_of_link is not None:
+                self.text_of_link += given["alt"]
+        source = given.get("src") or (given.get("href") if tag == "link" else None)
+        if source:
+            self.shown.append(source)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.problems.append(f"{tag} closes nothing at {self.getpos()}")
+        if tag == "a":
+            if not self.text_of_link.strip():
+                self.problems.append(f"a link without text: {self.links[-1]}")
+            self.text_of_link = None
+
+    def handle_data(self, data):
+        if self.text_of_link is not None:
+            self.text_of_link += data
+        if self.open and self.open[-1] == "title":
+            self.title += data
+
+
+def luminance(colour):
+    channels = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(a, b):
+    high, low = sorted((luminance(a), luminance(b)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
+
+
+class TheSite(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        # Beside copies of what its pages lead to, as it stands in the sources.
+        root = Path(cls.folder.name)
+        cls.out = root / "reports"
+        shutil.copytree(SOURCES / "reports", cls.out, ignore=shutil.ignore_patterns("*.html", "site", "*.timing.*"))
+        subprocess.run([sys.executable, SOURCES / "studies/site/build.py", cls.out], check=True, cwd=root,
+                       stdout=subprocess.DEVNULL)
+        cls.pages = {path.name: Page(path) for path in sorted(cls.out.glob("*.html"))}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def each(self):
+        for name, page in self.pages.items():
+            with self.subTest(page=name):
+                yield page
+
+    def test_has_a_page_a_study(self):
+        studies = {path.parent.name for path in SOURCES.glob("studies/*/gates.json")}
+        self.assertEqual({"index.html"} | {f"{study}.html" for study in studies}, set(self.pages))
+
+    def test_is_well_formed(self):
+        for page in self.each():
+            self.assertEqual([], page.problems)
+            self.assertEqual(len(page.ids), len(set(page.ids)), "ids are unique")
+            self.assertLessEqual(set(page.refers), set(page.ids))
+
+    def test_has_landmarks_a_language_and_a_title(self):
+        titles = [page.title for page in self.pages.values()]
+        self.assertEqual(len(titles), len(set(titles)))
+        for page in self.each():
+            tags = [tag for tag, _ in page.tags]
+            for landmark in ("header", "nav", "main", "footer", "title"):
+                self.assertIn(landmark, tags)
+            self.assertEqual(1, tags.count("main"))
+            self.assertIn(("html", {"lang": "en"}), page.tags)
+
+    def test_has_headings_in_order(self):
+        for page in self.each():
+            self.assertEqual(1, page.headings.count(1))
+            self.assertEqual(1, page.headings[0])
+            for above, below in zip(page.headings, page.headings[1:]):
+                self.assertLessEqual(below, above + 1)
+
+    def test_leads_somewhere(self):
+        for page in self.each():
+            for link in page.links + page.shown:
+                target, anchor = urldefrag(unquote(link))
+                self.assertNotRegex(target, r"^/", "links are relative")
+                if target.startswith(("http:", "https:")):
+                    self.assertNotIn(link, page.shown, "nothing is fetched from the network")
+                    continue
+                path = Path(os.path.normpath(page.path.parent / target)) if target else page.path
+                self.assertTrue(path.exists(), f"{link} leads nowhere")
+                if anchor:
+                    self.assertIn(anchor, self.pages[path.name].ids, link)
+
+    def test_tables_have_heads(self):
+        for page in self.each():
+            for tag, given in page.tags:
+                if tag == "th":
+                    self.assertIn(given.get("scope"), ("col", "row"))
+
+    def test_can_be_scrolled_by_keyboard(self):
+        for page in self.each():
+            for tag, given in page.tags:
+                if given.get("class") == "scroll" or tag == "pre":
+                    self.assertEqual("0", given.get("tabindex"))
+                if given.get("class") == "scroll":
+                    self.assertTrue(given.get("aria-label"))
+
+    def test_is_light_enough(self):
+        for page in self.each():
+            files = {page.path} | {page.path.parent / source for source in page.shown}
+            self.assertLessEqual(sum(path.stat().st_size for path in files), HEAVIEST)
+
+    def test_shows_every_gate_and_every_figure(self):
+        for path in sorted(self.out.glob("*.json")):
+            report = json.loads(path.read_text(encoding="utf-8"))
+            page = self.pages[f"{path.stem}.html"]
+            text = markdown.html.unescape(page.path.read_text(encoding="utf-8"))
+            for gate in report["gates"]:
+                self.assertIn(f">{gate['name']}<", text)
+            for figure in report["figures"]:
+                self.assertIn(figure["file"], page.shown)
+            for table in report["tables"]:
+                self.assertIn(table["file"], page.links)
+
+    def test_says_what_fails(self):
+        path = self.out / "torsion.json"
+        text = path.read_text(encoding="utf-8")
+        page = self.out / "torsion.html"
+        before = page.read_text(encoding="utf-8")
+        report = json.loads(text)
+        report["gates"][0] |= {"passed": False, "failure": "too large"}
+        try:
+            path.write_text(json.dumps(report), encoding="utf-8")
+            subprocess.run([sys.executable, SOURCES / "studies/site/build.py", self.out], check=True,
+                           stdout=subprocess.DEVNULL)
+            self.assertIn("✗ 1 of 13 gates fail", page.read_text(encoding="utf-8"))
+            self.assertIn("too large", page.read_text(encoding="utf-8"))
+            self.assertIn("gates fail", (self.out / "index.html").read_text(encoding="utf-8"))
+        finally:
+            path.write_text(text, encoding="utf-8")
+            subprocess.run([sys.executable, SOURCES / "studies/site/build.py", self.out], check=True,
+                           cwd="/", env={"LC_ALL": "C", "TZ": "Asia/Tokyo", "PATH": os.environ["PATH"]},
+                           stdout=subprocess.DEVNULL)
+        self.assertEqual(before, page.read_text(encoding="utf-8"), "and nothing of the place or the language it is written in")
+
+    def test_colours_can_be_read(self):
+        css = (SOURCES / "studies/site/style.css").read_text(encoding="utf-8")
+        light, dark = (dict(re.findall(r"--([\w-]+): (#\w{6});", block)) for block in re.findall(r":root \{(.*?)\}", css, re.S))
+        self.assertEqual(set(light), set(dark))
+        for theme in (light, dark):
+            for ground in ("page", "card", "shade"):
+                for ink in ("text", "soft", "accent", "holds", "fails"):
+                    self.assertGreaterEqual(contrast(theme[ink], theme[ground]), 4.5, f"{ink} on {ground}")
+            for kind in ("exact", "independent", "self", "guard"):
+                self.assertGreaterEqual(contrast(theme["on-kind"], theme[kind]), 4.5, kind)
+
+
+class Markdown(unittest.TestCase):
+    def test_marks(self):
+        self.assertEqual("<strong>a</strong> <em>b</em> <code>c_*d*</code> x_i*y*z",
+                         markdown.inline("**a** *b* `c_*d*` x_i*y*z"))
+        self.assertEqual("a &lt; b &amp; |x|", markdown.inline(r"a < b & \|x\|"))
+        self.assertEqual('<a href="X/y.md"><code>a</code> b</a>', markdown.inline("[`a` b](y.md)", lambda t: "X/" + t))
+
+    def test_blocks(self):
+        html = markdown.render("# A\n\ntext\nmore\n\n* one\n  goes on\n* two\n\n    code < 1\n\n| a | b |\n|---|---|\n| `x|y` | 2e-5 |\n")
+        self.assertIn("<h1>A</h1>", html)
+        self.assertIn("<p>text more</p>", html)
+        self.assertIn("<ul><li>one goes on</li><li>two</li></ul>", html)
+        self.assertIn("<code>code &lt; 1</code>", html)
+        self.assertIn('<th scope="row"><code>x|y</code></th><td class="number"><span class="whole">2e-5</span></td>', html)
+
+    def test_a_bar_of_a_norm_parts_no_cell(self):
+        self.assertEqual([r"\|r_x\|", "b"], markdown.cells(r"| \|r_x\| | b |"))
+
+
+if __name__ == "__main__":
+    unittest.main()
