@@ -22,7 +22,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 work = root / "build-mutants"
 source = work / "source"
 build = source / "build"
-folders = ("bench", "core", "reference", "scripts", "studies", "tests")
+folders = ("bench", "cmake", "core", "include", "reference", "scripts", "studies", "tests")
 hang = 900  # [s] for one stage: a mutant may never end
 
 head = """# Mutants

@@ -37,4 +37,6 @@ void ignore_file_size_signal() { std::signal(SIGXFSZ, SIG_IGN); }
 
 int interruption() { return received; }
 
+void ask_to_stop(int signal) { received = signal; }
+
 }  // namespace vlbeam

@@ -15,6 +15,9 @@ void ignore_file_size_signal();
 int interruption();
 inline bool interrupted() { return interruption() != 0; }
 
+/// Asks what runs to stop, as that signal would; 0 takes it back. For programs whose signals are not the harness's.
+void ask_to_stop(int signal);
+
 /// What the program then answers to its caller: 128 and the signal, as shells have it (130 for Ctrl-C).
 inline int interrupted_exit_code() { return 128 + interruption(); }
 

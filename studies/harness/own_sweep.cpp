@@ -177,16 +177,18 @@ std::string cell(const Json& value) {
 
 }  // namespace
 
+SweepPlan sweep_from_json(const Json& json, const fs::path& folder) {
+  try {
+    return plan_from(json, folder);
+  } catch (const Json::exception& error) {
+    throw InvalidInput("the sweep", excerpt(json),
+                       std::string("it must be as vlbeam schema sweep says: ") + error.what());
+  }
+}
+
 SweepPlan read_sweep(const fs::path& file) {
   const Json json = read_json(file);
-  return naming_file(file, [&] {
-    try {
-      return plan_from(json, file.parent_path());
-    } catch (const Json::exception& error) {
-      throw InvalidInput("the sweep", excerpt(json),
-                         std::string("it must be as vlbeam schema sweep says: ") + error.what());
-    }
-  });
+  return naming_file(file, [&] { return sweep_from_json(json, file.parent_path()); });
 }
 
 SweepFolder::SweepFolder(fs::path folder, const SweepPlan& plan, bool force) : folder_(std::move(folder)), plan_(plan) {
@@ -210,20 +212,18 @@ fs::path SweepFolder::file_of(std::size_t i) const { return folder_ / "cases" / 
 
 bool SweepFolder::has(std::size_t i) const { return fs::exists(file_of(i)); }
 
-bool SweepFolder::run(std::size_t i) const {
-  const SweepCase& item = plan_.cases.at(i);
+Json run_sweep_case(const SweepPlan& plan, std::size_t i) {
+  const SweepCase& item = plan.cases.at(i);
   Json json = {{"case", i}, {"options", item.options}};
-  bool well = false;
   try {
     const Scene scene = scene_from_json(item.scene);
     const RunResult result = simulate(scene, [](double) { return !interrupted(); });
-    if (result.status == RunStatus::interrupted) return false;
-    well = result.status != RunStatus::failed;
+    if (result.status == RunStatus::interrupted) return {};
     json["status"] = to_string(result.status);
-    json["failure"] = well ? Json() : Json(result.failure);
+    json["failure"] = result.status == RunStatus::failed ? Json(result.failure) : Json();
     json["t"] = result.samples.empty() ? Json() : Json(result.samples.back().t);
     Json& values = json["values"] = Json::object();
-    for (const std::string& name : plan_.quantities) {
+    for (const std::string& name : plan.quantities) {
       values[name] =
           result.samples.empty() ? Json() : number_or_null(find_quantity(scene, name).of(result.samples.back()));
     }
@@ -232,8 +232,14 @@ bool SweepFolder::run(std::size_t i) const {
   } catch (const std::exception& error) {
     json = Json{{"case", i}, {"options", item.options}, {"status", "failed"}, {"failure", explained(error)}};
   }
+  return json;
+}
+
+bool SweepFolder::run(std::size_t i) const {
+  const Json json = run_sweep_case(plan_, i);
+  if (json.is_null()) return false;
   write_text(file_of(i), pretty(json));
-  return well;
+  return json.at("status") != "failed";
 }
 
 void SweepFolder::note_crash(std::size_t i, const std::string& how) const {

@@ -25,6 +25,12 @@ struct SweepPlan {
 /// Reads a sweep file. Throws InvalidInput, naming the file, for what is not understood, for scenes that cannot be
 /// modelled, and for more than a million cases.
 SweepPlan read_sweep(const std::filesystem::path& file);
+/// The same of what such a file holds; a scene that it names is looked for in `folder`.
+SweepPlan sweep_from_json(const Json& json, const std::filesystem::path& folder);
+
+/// Runs a case in this process. What it gave: {"case", "options", "status", "failure", "t", "values", "events",
+/// "rhs_evaluations"}; null where it was interrupted.
+Json run_sweep_case(const SweepPlan& plan, std::size_t i);
 
 /// The folder of a sweep: what its cases gave, one file each, and what they are of.
 class SweepFolder {

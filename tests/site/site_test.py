@@ -101,10 +101,14 @@ class TheSite(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
+    where = ""  # the page that is looked at
+
+    def _formatMessage(self, message, standard):
+        return f"{self.where}: {super()._formatMessage(message, standard)}"
+
     def each(self):
-        for name, page in self.pages.items():
-            with self.subTest(page=name):
-                yield page
+        for self.where, page in self.pages.items():
+            yield page
 
     def test_has_a_page_a_study(self):
         studies = {path.parent.name for path in SOURCES.glob("studies/*/gates.json")}

@@ -1,0 +1,59 @@
+# What `cmake --install` puts where: the program, the library with its headers and packages, and the data both read.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Installed, vlbeam::core is all of the library; inside this project that name is the mechanics alone, which read and
+# write nothing.
+set_target_properties(vlbeam_library PROPERTIES EXPORT_NAME core)
+set_target_properties(vlbeam_core PROPERTIES EXPORT_NAME mechanics)
+set_target_properties(vlbeam_harness PROPERTIES EXPORT_NAME harness)
+install(TARGETS vlbeam_library vlbeam_core vlbeam_harness EXPORT vlbeamTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(VLBEAM_BUILD_STUDIES)
+  install(TARGETS vlbeam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(packages ${CMAKE_INSTALL_LIBDIR}/cmake/vlbeam)
+install(EXPORT vlbeamTargets NAMESPACE vlbeam:: DESTINATION ${packages})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vlbeamConfig.cmake.in ${PROJECT_BINARY_DIR}/vlbeamConfig.cmake
+                              INSTALL_DESTINATION ${packages})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/vlbeamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/vlbeamConfig.cmake ${PROJECT_BINARY_DIR}/vlbeamConfigVersion.cmake
+        DESTINATION ${packages})
+file(RELATIVE_PATH VLBEAM_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" VLBEAM_PC_PREFIX "${VLBEAM_PC_PREFIX}")
+set(VLBEAM_PC_FLAGS)
+if(VLBEAM_NATIVE)
+  set(VLBEAM_PC_FLAGS -march=native)
+endif()
+set(VLBEAM_PC_LIBRARIES)
+if(VLBEAM_SUNDIALS)
+  set(VLBEAM_PC_LIBRARIES "-lsundials_arkode -lsundials_cvode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense")
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/vlbeam.pc.in ${PROJECT_BINARY_DIR}/vlbeam.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/vlbeam.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# Headers name each other by where they stand in the sources; installed, all of them stand below vlbeam/.
+set(headers ${PROJECT_BINARY_DIR}/installed-headers)
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DHEADERS=${headers}
+                              -P ${CMAKE_CURRENT_LIST_DIR}/gather_headers.cmake COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${headers}/vlbeam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+set(data ${CMAKE_INSTALL_DATADIR}/vlbeam)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies DESTINATION ${data}
+        FILES_MATCHING PATTERN "*.json" PATTERN "*.gp" PATTERN "README.md"
+        PATTERN app EXCLUDE PATTERN harness EXCLUDE PATTERN site EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/reference DESTINATION ${data} FILES_MATCHING PATTERN "*.json" PATTERN "*.csv")
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# make package: a Debian package, build/vlbeam_VERSION_ARCHITECTURE.deb
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The vlbeam developers")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, libeigen3-dev, libboost-dev, nlohmann-json3-dev")
+set(CPACK_STRIP_FILES ON)
+include(CPack)

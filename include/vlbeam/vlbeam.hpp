@@ -1,0 +1,37 @@
+#pragma once
+
+/// All that a program of one's own needs to run scenes: what the library of vlbeam offers to others.
+///
+///   const vlbeam::Scene scene = vlbeam::parse_scene(text);          // or read_scene("scene.json"); throws
+///   InvalidInput const vlbeam::RunResult result = vlbeam::simulate(scene);       // result.status says how it ended
+///   std::cout << vlbeam::report(scene, result);                     // JSON, as `vlbeam schema run` describes it
+
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/scene/result.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/simulate.hpp"
+#include "studies/harness/provenance.hpp"
+#include "studies/harness/run_report.hpp"
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam {
+
+/// The report of a run, as `vlbeam run --report` writes it.
+inline std::string report(const Scene& scene, const RunResult& result) {
+  std::string text;
+  write_run_report(scene, result, {{"provenance", provenance()}, {"timing", run_timing(result.timing)}},
+                   [&text](std::string_view piece) { text += piece; });
+  return text;
+}
+
+/// The samples as a CSV file has them, units in the first line.
+inline std::string samples_csv(const Scene& scene, const RunResult& result) {
+  std::string text;
+  write_samples_csv(scene, result, [&text](std::string_view piece) { text += piece; });
+  return text;
+}
+
+}  // namespace vlbeam

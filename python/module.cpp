@@ -1,0 +1,251 @@
+// The binding behind the Python package vlbeam: scenes and reports pass as JSON text, samples as arrays.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <future>
+#include <limits>
+#include <thread>
+
+#include "core/scene/names.hpp"
+#include "core/scene/shape.hpp"
+#include "studies/harness/converge.hpp"
+#include "studies/harness/interrupt.hpp"
+#include "studies/harness/own_sweep.hpp"
+#include "studies/harness/quantity.hpp"
+#include "studies/harness/sample_quantities.hpp"
+#include "studies/harness/scene_library.hpp"
+#include "studies/harness/schema.hpp"
+#include "studies/harness/sweep.hpp"
+#include "vlbeam/vlbeam.hpp"
+
+namespace py = pybind11;
+
+namespace vlbeam {
+namespace {
+
+using Shape = std::vector<py::ssize_t>;
+
+/// An array that owns these numbers: they are moved, not copied.
+py::array_t<double> array_of(std::vector<double> numbers, const Shape& shape) {
+  auto* kept = new std::vector<double>(std::move(numbers));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<double>*>(p); });
+  return py::array_t<double>(shape, kept->data(), owner);
+}
+
+/// Does the work on another thread, without Python's lock; Ctrl-C asks it to stop and is raised once it has.
+template <class Work>
+auto without_lock(const Work& work, const std::function<void(int)>& stop) {
+  std::future<decltype(work())> result;
+  bool interrupted_by_user = false;
+  {
+    const py::gil_scoped_release unlocked;
+    result = std::async(std::launch::async, work);
+    while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+      const py::gil_scoped_acquire locked;
+      if (PyErr_CheckSignals() == 0) continue;
+      interrupted_by_user = true;
+      break;
+    }
+    if (interrupted_by_user) {
+      stop(SIGINT);
+      result.wait();
+      stop(0);
+    }
+  }
+  if (interrupted_by_user) throw py::error_already_set();
+  return result.get();
+}
+
+/// A run and its arrays.
+class Run {
+ public:
+  explicit Run(const std::string& text) : scene_(parse_scene(text)) {
+    std::atomic<bool> go_on{true};
+    result_ = without_lock([&] { return simulate(scene_, [&](double) { return go_on.load(); }); },
+                           [&](int signal) { go_on = signal == 0; });
+    quantities_ = sample_quantities(scene_);
+  }
+
+  std::string status() const { return std::string(to_string(result_.status)); }
+  std::string failure() const { return result_.failure; }
+  double failure_time() const { return result_.failure_time; }
+  std::string summary() const { return run_summary(scene_, result_); }
+  std::string report_text() const {
+    const py::gil_scoped_release unlocked;
+    return report(scene_, result_);
+  }
+  std::string csv() const {
+    const py::gil_scoped_release unlocked;
+    return samples_csv(scene_, result_);
+  }
+
+  /// (path, unit, description) of all that was sampled.
+  std::vector<std::array<std::string, 3>> paths() const {
+    std::vector<std::array<std::string, 3>> list;
+    for (const SampleQuantity& quantity : quantities_) {
+      if (!quantity.columns.empty()) list.push_back({quantity.path, quantity.unit, quantity.description});
+    }
+    return list;
+  }
+
+  /// Samples of a quantity: shape (samples,), (samples, components) or (samples, vectors, components); NaN where it is
+  /// not there.
+  py::array_t<double> samples(const std::string& path) const {
+    for (const SampleQuantity& quantity : quantities_) {
+      if (quantity.path != path || quantity.columns.empty()) continue;
+      const std::size_t width = quantity.columns.size();
+      std::vector<double> numbers(width * result_.samples.size(), std::numeric_limits<double>::quiet_NaN());
+      std::vector<double> values(width);
+      for (std::size_t i = 0; i < result_.samples.size(); ++i) {
+        if (quantity.values(result_.samples[i], values.data())) {
+          std::copy(values.begin(), values.end(), numbers.begin() + static_cast<std::ptrdiff_t>(i * width));
+        }
+      }
+      Shape shape{static_cast<py::ssize_t>(result_.samples.size())};
+      if (quantity.shape == SampleShape::vector && width > 1) shape.push_back(static_cast<py::ssize_t>(width));
+      if (quantity.shape == SampleShape::vectors) {
+        shape.push_back(static_cast<py::ssize_t>(width / quantity.dimension));
+        shape.push_back(static_cast<py::ssize_t>(quantity.dimension));
+      }
+      return array_of(std::move(numbers), shape);
+    }
+    throw py::key_error(path);
+  }
+
+  /// Samples of one number, by the name that `vlbeam converge` and `vlbeam plot` know it by: "end.y".
+  py::array_t<double> column(const std::string& name) const {
+    const Quantity quantity = find_quantity(scene_, name, "quantity");
+    std::vector<double> numbers;
+    numbers.reserve(result_.samples.size());
+    for (const Sample& sample : result_.samples) numbers.push_back(quantity.of(sample));
+    return array_of(std::move(numbers), {static_cast<py::ssize_t>(result_.samples.size())});
+  }
+
+  std::vector<double> shape_times() const {
+    std::vector<double> times;
+    for (const Configuration& shape : result_.configurations) times.push_back(shape.t);
+    return times;
+  }
+
+  /// Points along the axis of a shape that was kept.
+  py::dict shape(std::size_t i, int points) const {
+    if (points < 1) throw InvalidInput("points", std::to_string(points), "it must be 1 or more");
+    const std::vector<ShapePoint> along = points_along(scene_, result_.configurations.at(i), points);
+    const auto n = static_cast<py::ssize_t>(along.size());
+    const auto numbers = [&](double ShapePoint::*member) {
+      std::vector<double> values;
+      for (const ShapePoint& point : along) values.push_back(point.*member);
+      return array_of(std::move(values), {n});
+    };
+    const auto vectors = [&](Point ShapePoint::*member) {
+      std::vector<double> values;
+      for (const ShapePoint& point : along) {
+        values.insert(values.end(), (point.*member).begin(), (point.*member).begin() + scene_.dimension);
+      }
+      return array_of(std::move(values), {n, scene_.dimension});
+    };
+    py::dict found;
+    found["t"] = result_.configurations.at(i).t;
+    found["x"] = numbers(&ShapePoint::x);
+    found["r"] = vectors(&ShapePoint::r);
+    found["r_x"] = vectors(&ShapePoint::r_x);
+    found["v"] = vectors(&ShapePoint::v);
+    found["strain"] = numbers(&ShapePoint::strain);
+    found["tension"] = numbers(&ShapePoint::tension);
+    found["curvature"] = numbers(&ShapePoint::curvature);
+    return found;
+  }
+
+ private:
+  Scene scene_;
+  RunResult result_;
+  std::vector<SampleQuantity> quantities_;
+};
+
+int jobs_or_processors(int jobs) {
+  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::string converge_text(const std::string& text, const std::string& quantity, double error, bool relative,
+                          std::optional<double> at, bool horizon, int jobs) {
+  const Scene scene = parse_scene(text);
+  const ConvergeOptions options{.quantity = quantity,
+                                .error = error,
+                                .relative = relative,
+                                .at = at,
+                                .horizon = horizon,
+                                .jobs = jobs_or_processors(jobs)};
+  return without_lock([&] { return pretty(convergence_to_json(scene, converge(scene, options))); }, ask_to_stop);
+}
+
+std::string sweep_text(const std::string& text, int jobs) {
+  const SweepPlan plan = sweep_from_json(parse_json(text), ".");
+  return without_lock(
+      [&] {
+        std::vector<Json> cases(plan.cases.size());
+        run_tasks("sweep", std::vector<double>(cases.size(), 1.0), jobs_or_processors(jobs),
+                  [&](std::size_t i) { cases[i] = run_sweep_case(plan, i); });
+        return pretty({{"quantities", plan.quantities}, {"cases", cases}});
+      },
+      ask_to_stop);
+}
+
+std::string schema_text(const std::string& of) {
+  if (of == "scene") return pretty(scene_schema());
+  if (of == "run") return pretty(run_schema());
+  if (of == "converge") return pretty(converge_schema());
+  if (of == "sweep") return pretty(sweep_schema());
+  throw InvalidInput("schema", "\"" + of + "\"", "there are: scene, run, converge, sweep");
+}
+
+}  // namespace
+}  // namespace vlbeam
+
+PYBIND11_MODULE(_vlbeam, module) {
+  using namespace vlbeam;
+  module.attr("version") = provenance().at("program").get<std::string>().substr(std::string("vlbeam ").size());
+
+  py::object type = py::exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
+  type.attr("__module__") = "vlbeam";
+  static const py::handle invalid_input = type.release();  // it outlives the module
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const InvalidInput& error) {
+      const py::object value = invalid_input(error.what());
+      value.attr("field") = error.field;
+      value.attr("value") = error.value;
+      value.attr("allowed") = error.allowed;
+      PyErr_SetObject(invalid_input.ptr(), value.ptr());
+    }
+  });
+
+  py::class_<Run>(module, "Run")
+      .def(py::init<const std::string&>())
+      .def_property_readonly("status", &Run::status)
+      .def_property_readonly("failure", &Run::failure)
+      .def_property_readonly("failure_time", &Run::failure_time)
+      .def("summary", &Run::summary)
+      .def("report", &Run::report_text)
+      .def("csv", &Run::csv)
+      .def("paths", &Run::paths)
+      .def("samples", &Run::samples)
+      .def("column", &Run::column)
+      .def("shape_times", &Run::shape_times)
+      .def("shape", &Run::shape);
+  module.def("converge", &converge_text);
+  module.def("sweep", &sweep_text);
+  module.def("schema", &schema_text);
+  module.def("scene",
+             [](const std::string& folder, const std::string& name) { return library_scene_text(folder, name); });
+  module.def("scenes", [](const std::string& folder) {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const LibraryScene& scene : library_scenes(folder)) list.emplace_back(scene.name, scene.title);
+    return list;
+  });
+}

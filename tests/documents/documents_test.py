@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Documents: links lead somewhere, commands are understood, and quick ones run.
+
+    documents_test.py SOURCES PROGRAM
+"""
+
+import ast
+import json
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+PROGRAM = Path(sys.argv.pop()).resolve()
+SOURCES = Path(sys.argv.pop()).resolve()
+DOCUMENTS = [path for path in sorted(SOURCES.rglob("*.md"))
+             if not any(part.startswith((".", "build")) for part in path.relative_to(SOURCES).parts)]
+SLOW = {"converge", "sweep", "study", "gate", "claims"}  # their options are checked, they are not run
+
+
+def without_code(text):
+    text = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"^    .*$", "", text, flags=re.M))
+
+
+def anchors(text):
+    found = set()
+    for heading in re.findall(r"^#+ +(.*)$", text, re.M):
+        found.add(re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-"))
+    return found
+
+
+def blocks(text):
+    """Lines of code of a document: indented ones, and those of fenced blocks without a language or of a shell."""
+    fenced, language = False, ""
+    for line in text.splitlines():
+        if line.startswith("```"):
+            fenced, language = not fenced, line[3:].strip()
+        elif fenced and language in ("", "sh", "bash"):
+            yield line.strip()
+        elif not fenced and line.startswith("    "):
+            yield line.strip()
+
+
+def commands(text):
+    """Calls of the program: of blocks, and in the running text."""
+    for line in blocks(text):
+        match = re.match(r"(?:\$ )?(?:build/)?vlbeam (.*)", line)
+        if match:
+            yield match[1]
+    for code in re.findall(r"`(?:build/)?vlbeam ([^`]+)`", re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)):
+        yield code
+
+
+def words(command):
+    return shlex.split(command.split(" #")[0].replace("...", "").replace(" | ", " ").strip())
+
+
+class Documents(unittest.TestCase):
+    where = ""  # the document that is looked at
+
+    def _formatMessage(self, message, standard):
+        return f"{self.where}: {super()._formatMessage(message, standard)}"
+
+    def each(self):
+        for path in DOCUMENTS:
+            self.where = path.relative_to(SOURCES)
+            yield path, path.read_text(encoding="utf-8")
+
+    def test_links_lead_somewhere(self):
+        for path, text in self.each():
+            for target in re.findall(r"\]\(([^)\s]+)\)", without_code(text)):
+                if re.match(r"https?:", target):
+                    continue
+                file, _, anchor = target.partition("#")
+                there = (path.parent / file).resolve() if file else path
+                self.assertTrue(there.exists(), target)
+                if anchor and there.suffix == ".md":
+                    self.assertIn(anchor, anchors(there.read_text(encoding="utf-8")), target)
+
+    def test_the_readme_is_short(self):
+        self.assertLessEqual(len((SOURCES / "README.md").read_text(encoding="utf-8").splitlines()), 150)
+
+    def test_targets_of_make_exist(self):
+        makefile = (SOURCES / "Makefile.studies").read_text(encoding="utf-8")
+        known = set(re.search(r"^\.PHONY: (.*)$", makefile, re.M)[1].split())
+        for _, text in self.each():
+            called = [re.findall(r"\bmake ([a-z]+)", code) for code in [*blocks(text), *re.findall(r"`([^`\n]+)`", text)]]
+            for target in sum(called, []):
+                self.assertIn(target, known)
+
+    def test_commands_are_understood(self):
+        helps = {}
+        told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True)
+        known = set(re.findall(r"^  ([a-z]+)  ", told.stdout, re.M))
+
+        def options_of(command):
+            self.assertIn(command, known)
+            if command not in helps:
+                told = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True)
+                helps[command] = set(re.findall(r"(?<![\w-])(--?[a-z][\w-]*)", told.stdout))
+            return helps[command]
+
+        for _, text in self.each():
+            for command in commands(text):
+                given = words(command)
+                if given[0].startswith("--"):
+                    self.assertIn(given[0], ("--help", "--version"))
+                    continue
+                if given[0] == "COMMAND":
+                    continue
+                for option in given[1:]:
+                    if re.match(r"--?[a-z]", option):
+                        self.assertIn(option, options_of(given[0]), command)
+                options_of(given[0])
+
+    def test_quick_commands_run(self):
+        for name in ("README.md", "docs/own_scene.md"):
+            with tempfile.TemporaryDirectory() as folder, self.subTest(document=name):
+                text = (SOURCES / name).read_text(encoding="utf-8")
+                ran = 0
+                for line in blocks(text):
+                    match = re.match(r"(?:build/)?vlbeam ([a-z]+)\b", line)
+                    if not match or match[1] in SLOW:
+                        continue
+                    if match[1] == "plot" and not shutil.which("gnuplot"):
+                        continue
+                    if match[1] == "compare":  # two runs, whatever they are of
+                        for run in ("a.json", "b.json"):
+                            shutil.copyfile(Path(folder) / "r.json", Path(folder) / run)
+                    if match[1] == "score":  # another code's answer
+                        line = line.replace("joint_position=s", "joint_position=x")
+                        case = json.loads((SOURCES / "reference/cases/falling_beam_engineering.json").read_text())
+                        self.assertIn("joint_position", json.dumps(case))
+                        (Path(folder) / "their.csv").write_text("t,x\n0.1,0.13\n")
+                    call = re.sub(r"^(?:build/)?vlbeam", shlex.quote(str(PROGRAM)), line.split(" #")[0])
+                    told = subprocess.run(["bash", "-c", call], cwd=folder, capture_output=True, text=True)
+                    self.assertEqual(0, told.returncode, f"{line}\n{told.stderr}")
+                    ran += 1
+                self.assertGreaterEqual(ran, 3)
+
+    def test_the_readme_prints_what_comes_out(self):
+        """The digits that the README shows of its first run."""
+        text = (SOURCES / "README.md").read_text(encoding="utf-8")
+        shown = re.search(r"joint position  ([\d.]+) m", text)[1]
+        with tempfile.TemporaryDirectory() as folder:
+            scene = re.search(r"^```json\n(.*?)^```", text, re.S | re.M)[1]
+            (Path(folder) / "scene.json").write_text(scene)
+            told = subprocess.run([PROGRAM, "run", "scene.json"], cwd=folder, capture_output=True, text=True)
+        self.assertIn(f"joint position  {shown} m", told.stderr)
+
+    def test_what_goes_with_what(self):
+        """The matrix of the README: "yes" runs, "no" is refused as bad input."""
+        text = (SOURCES / "README.md").read_text(encoding="utf-8")
+        rows = [[cell.strip() for cell in line.strip("|").split("|")]
+                for line in text.split("## What goes with what")[1].split("\n\n")[1].splitlines()]
+        integrators = [{"type": "dopri5"}, {"type": "generalized-alpha", "step": 1e-6}, {"type": "energy-momentum", "step": 1e-6}]
+
+        def falling(**mass):
+            scene = json.loads((SOURCES / "scenes/falling_beam.json").read_text(encoding="utf-8"))
+            scene["sliding_mass"].update(mass)
+            return scene
+
+        def moved():
+            scene = falling()
+            scene["supports"][0]["motion"] = {"direction": [0, 1], "amplitude": 0.01, "frequency": 1, "ramp": 0.1}
+            return scene
+
+        def library(name):
+            return json.loads((SOURCES / f"scenes/{name}.json").read_text(encoding="utf-8"))
+
+        scenes = {"one sliding mass": falling(), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
+                  "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
+                  "shafts": library("rotating_load")}
+        self.assertEqual(len(scenes), len(rows) - 2)
+        for row in rows[2:]:
+            name = next(name for name in scenes if row[0].startswith(name))
+            for integrator, cell in zip(integrators, row[1:]):
+                scene = scenes[name] | {"integrator": integrator, "duration": 1e-5, "output": {}}
+                if "multipliers" in cell:
+                    scene["constraints"] = "multipliers"
+                told = subprocess.run([PROGRAM, "run", "-", "-q"], input=json.dumps(scene), text=True, capture_output=True)
+                self.assertEqual(2 if cell == "no" else 0, told.returncode, f"{row[0]}, {integrator['type']}: {told.stderr}")
+
+    def test_scenes_and_code_are_well_formed(self):
+        for _, text in self.each():
+            for language, code in re.findall(r"^```(\w+)\n(.*?)^```", text, re.S | re.M):
+                if language == "json":
+                    json.loads(code)
+                if language == "python":
+                    ast.parse(code)
+
+    def test_python_that_is_shown_exists(self):
+        namespace = ast.parse((SOURCES / "python/vlbeam/__init__.py").read_text(encoding="utf-8"))
+        known = next(ast.literal_eval(node.value) for node in namespace.body
+                     if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "__all__")
+        for _, text in self.each():
+            for name in re.findall(r"\bvlbeam\.([a-z]\w*|[A-Z]\w*)\(", text):
+                self.assertIn(name, known)
+
+
+if __name__ == "__main__":
+    unittest.main()
