@@ -14,6 +14,7 @@ Study falling_beam_study();
 Study hard_cases_study();
 Study moving_string_study();
 Study quadrature_study();
+Study rational_study();
 Study rotating_load_study();
 Study semicircle_study();
 Study suspended_beam_study();
@@ -25,10 +26,9 @@ Study work_precision_study();
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
-        drill_stem_study(), energy_drift_study(),   exact_arc_study(),  falling_beam_study(),
-        hard_cases_study(), moving_string_study(),  quadrature_study(), rotating_load_study(),
-        semicircle_study(), suspended_beam_study(), thresholds_study(), torsion_study(),
-        weights_study(),    work_precision_study(),
+        drill_stem_study(),     energy_drift_study(), exact_arc_study(), falling_beam_study(),  hard_cases_study(),
+        moving_string_study(),  quadrature_study(),   rational_study(),  rotating_load_study(), semicircle_study(),
+        suspended_beam_study(), thresholds_study(),   torsion_study(),   weights_study(),       work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;

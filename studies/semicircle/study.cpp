@@ -29,8 +29,19 @@ std::string kind_of(const SceneCase& item) {
 }
 std::string key_of(const SceneCase& item) { return kind_of(item) + "_n" + std::to_string(item.scene.beam.elements); }
 
-/// Runs that answer a question of their own: ledgers at tight tolerances, and the bead on a stiff wire.
-bool apart(const SceneCase& item) { return item.sweep.starts_with("audit") || item.sweep == "bead"; }
+/// Runs that answer a question of their own: ledgers at tight tolerances, the bead on a stiff wire, and the equations
+/// as printed.
+bool apart(const SceneCase& item) {
+  return item.sweep.starts_with("audit") || item.sweep == "bead" || item.sweep == "printed";
+}
+
+/// A breakdown of the equations as printed is a finding, of all others an error.
+RunResult run_case(const SceneCase& item) {
+  if (item.sweep != "printed") return StudyContext::simulate_to_the_end(item.scene);
+  RunResult run = simulate(item.scene, StudyContext::until_interrupted());
+  if (run.status == RunStatus::interrupted) throw std::runtime_error("interrupted");
+  return run;
+}
 
 /// Arc length along a rigid semicircular wire, at the time t, of a bead let go at rest: R angle'' = g cos(angle).
 double on_rigid_wire(const Scene& scene, double t) {
@@ -82,10 +93,7 @@ double initial_force(Scene scene) {
 class Report {
  public:
   Report(const StudyContext& context, const std::vector<SceneCase>& cases)
-      : folder_(context.folder.string()),
-        cases_(cases),
-        outcomes_(context.sweep(
-            cases, [](const SceneCase& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost)) {
+      : folder_(context.folder.string()), cases_(cases), outcomes_(context.sweep(cases, run_case, cost)) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (apart(cases[i]) || !outcomes_[i]) continue;
       const int n = cases[i].scene.beam.elements;
@@ -101,6 +109,7 @@ class Report {
     add_audit();
     add_convergence();
     add_bead();
+    add_printed();
     add_figures();
     return std::move(report_);
   }
@@ -221,6 +230,70 @@ class Report {
     report_.tables.push_back(std::move(table));
   }
 
+  /// The equations as printed: virtual work, strains from a straight beam, five points, nodal velocities.
+  void add_printed() {
+    Table table{.name = "printed",
+                .caption =
+                    "The equations as printed: how the run ends and when [s], change of the total energy until then "
+                    "and its largest value [J], events",
+                .columns = {"elements", "status", "end", "energy_change", "largest_change", "events"}};
+    std::vector<NamedRun> runs;
+    const RunResult* finest = nullptr;
+    std::string names;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].sweep != "printed" || !outcomes_[i]) continue;
+      const RunResult& run = *outcomes_[i];
+      const int n = cases_[i].scene.beam.elements;
+      const double start = run.samples.front().energy.total();
+      double largest = 0;
+      for (const Sample& sample : run.samples) largest = std::max(largest, std::abs(sample.energy.total() - start));
+      const bool failed = run.status == RunStatus::failed;
+      const double change = run.samples.back().energy.total() - start;
+      table.rows.push_back({n, to_string(run.status), failed ? run.failure_time : run.samples.back().t,
+                            failed ? Json() : Json(change), failed ? Json() : Json(largest), run.events.size()});
+      if (failed) {
+        report_.measured["printed_failure_n" + std::to_string(n)] = run.failure_time;
+        continue;
+      }
+      report_.measured["printed_energy_n" + std::to_string(n)] = change;
+      report_.measured["printed_largest_n" + std::to_string(n)] = largest;
+      runs.push_back({"n" + std::to_string(n), &run});
+      names += (names.empty() ? "" : " ") + std::to_string(n);
+      finest = &run;
+    }
+    report_.tables.push_back(std::move(table));
+    if (!finest) return;
+    report_.tables.push_back(
+        histories("printed_history", "The equations as printed, runs to their end: SI units", runs,
+                  {"mass_x", "mass_y", "beam_length", "joint", "kinetic", "strain", "gravity", "total"}));
+    const std::vector<NamedRun> last{{"printed", finest}};
+    report_.tables.push_back(
+        shapes("printed_shapes", "Positions along the beam at the times in the column names [m]", last, 161));
+    report_.tables.push_back(
+        shape_nodes("printed_nodes", "Nodes at the times kept [m]", {last[0], {"coarsest", runs.front().result}}));
+    std::string times;
+    for (const Configuration& shape : finest->configurations) {
+      times += (times.empty() ? "" : " ") + number_text(shape.t);
+    }
+    report_.figures.push_back({.name = "figure15",
+                               .caption = "Figure 15: the initial configuration, and one arc element",
+                               .script = "figure15.gp",
+                               .variables = {{"folder", folder_}}});
+    report_.figures.push_back(
+        {.name = "figure16_printed",
+         .caption = "Figure 16 by the equations as printed: configurations, beam length, trajectory, energies",
+         .script = "figure16.gp",
+         .variables = {{"folder", folder_},
+                       {"meshes", names},
+                       {"times", times},
+                       {"finest", runs.back().name.substr(1)},
+                       {"history", "printed_history"},
+                       {"shape", "printed_shapes"},
+                       {"node", "printed_nodes"},
+                       {"run", "printed"},
+                       {"setting", "equations as printed: virtual work, strains from a straight beam"}}});
+  }
+
   /// What all meshes of each kind say about the position of the mass at 0.4 s.
   void add_limits() {
     for (const char* kind : {"asbuilt", "asbuilt_transported", "asbuilt_ancf", "paper"}) {
@@ -269,14 +342,21 @@ class Report {
         shapes("shapes", "Positions along the beam at the times in the column names [m]", choices, 161));
     report_.tables.push_back(shape_nodes("nodes", "Nodes at the times kept [m]", choices));
     const GnuplotVariables variables{{"folder", folder_}, {"meshes", names}, {"times", times}, {"finest", finest}};
-    report_.figures = {{.name = "figure16",
-                        .caption = "Figure 16: configurations, beam length, trajectory of the sliding node, energies",
-                        .script = "figure16.gp",
-                        .variables = variables},
-                       {.name = "rest_shape",
-                        .caption = "Strains measured from the initial shape, and from a straight beam",
-                        .script = "rest_shape.gp",
-                        .variables = variables}};
+    GnuplotVariables figure16 = variables;
+    figure16.insert({{"history", "meshes_history"},
+                     {"shape", "shapes"},
+                     {"node", "nodes"},
+                     {"run", "asbuilt"},
+                     {"setting", "variational, strains measured from the initial shape"}});
+    report_.figures.push_back(
+        {.name = "figure16",
+         .caption = "Figure 16: configurations, beam length, trajectory of the sliding node, energies",
+         .script = "figure16.gp",
+         .variables = figure16});
+    report_.figures.push_back({.name = "rest_shape",
+                               .caption = "Strains measured from the initial shape, and from a straight beam",
+                               .script = "rest_shape.gp",
+                               .variables = variables});
   }
 
   std::string folder_;
