@@ -3,6 +3,7 @@
 # otherwise prints the one line to type and stops.
 #   scripts/packages.sh build    what `make` needs
 #   scripts/packages.sh python   that, and what `make python` needs
+#   scripts/packages.sh package  that, and what `make package` needs
 #   scripts/packages.sh ci       that, and what .ci/run needs
 set -euo pipefail
 
@@ -11,8 +12,11 @@ packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcl
 if [[ ${1:-build} == python || ${1:-build} == ci ]]; then
   packages+=(pybind11-dev python3-dev python3-numpy)
 fi
+if [[ ${1:-build} == package ]]; then
+  packages+=(dpkg-dev file)
+fi
 if [[ ${1:-build} == ci ]]; then
-  packages+=(pkg-config python3-pytest python3-matplotlib)
+  packages+=(dpkg-dev pkg-config python3-pytest python3-matplotlib)
   packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
 fi
 
