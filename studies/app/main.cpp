@@ -20,11 +20,11 @@ int dispatch(int argc, char** argv) {
   app.set_version_flag("--version", vlbeam::provenance().at("program").get<std::string>());
   app.footer(
       "Examples:\n"
-      "  vlbeam scene falling_beam > scene.json                   print a scene to change\n"
-      "  vlbeam run scene.json --report r.json --csv r.csv        run it\n"
-      "  vlbeam plot r.json -o shapes.svg                         draw it\n"
-      "  vlbeam converge scene.json --quantity end.y --error 1e-3 how far can that be trusted?\n"
-      "  vlbeam schema scene                                      every key, its unit, range and default\n"
+      "  vlbeam scene falling_beam > scene.json                    print a scene to change\n"
+      "  vlbeam run scene.json --report r.json --csv r.csv         run it\n"
+      "  vlbeam plot r.json -o shapes.svg                          draw it\n"
+      "  vlbeam converge scene.json --quantity end.y --error 1e-3  how far can that be trusted?\n"
+      "  vlbeam schema scene                                       every key, its unit, range and default\n"
       "\n"
       "Exit codes: 0 done and gates held, 1 a gate failed or the error wanted was not reached, 2 bad input,\n"
       "3 the computation failed or a file could not be written, 128 + n stopped by signal n (130 for Ctrl-C)");

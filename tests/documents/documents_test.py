@@ -106,7 +106,10 @@ class Documents(unittest.TestCase):
                 helps[command] = set(re.findall(r"(?<![\w-])(--?[a-z][\w-]*)", told.stdout))
             return helps[command]
 
-        for _, text in self.each():
+        documents = [text for _, text in self.each()]
+        examples = re.findall(r"^  vlbeam (.*?)(?:  .*)?$", told.stdout, re.M)
+        self.assertGreaterEqual(len(examples), 4)
+        for text in [*documents, "\n".join(f"    vlbeam {example}" for example in examples)]:
             for command in commands(text):
                 given = words(command)
                 if given[0].startswith("--"):
