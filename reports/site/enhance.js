@@ -44,7 +44,11 @@ for (const link of document.querySelectorAll("a.enlarge")) {
   });
 }
 
-// The list of studies is open where there is room for it.
-const menu = document.querySelector(".top details");
-document.addEventListener("click", (event) => { if (!menu.contains(event.target)) menu.open = false; });
-document.addEventListener("keydown", (event) => { if (event.key === "Escape") menu.open = false; });
+// Only one menu is open, and a click elsewhere or Escape closes it.
+const menus = [...document.querySelectorAll(".top details")];
+document.addEventListener("click", (event) => {
+  for (const menu of menus) if (!menu.contains(event.target)) menu.open = false;
+});
+document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape") for (const menu of menus) menu.open = false;
+});

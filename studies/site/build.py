@@ -32,6 +32,10 @@ PAPERS = [
     ("torsion", "claims", lambda row: True),
     ("rotating_load", "errors", lambda row: row["paper_error"] is not None),
 ]
+# Documents that are pages of the site: file, and what the menu calls it.
+DOCUMENTS = {"docs/own_scene.md": "A scene of one's own", "docs/use.md": "Program, library, Python", "docs/limits.md": "Limits",
+             "docs/glossary.md": "Glossary", "core/README.md": "The core library", "studies/README.md": "Writing a study",
+             "CONTRIBUTING.md": "Contributing"}
 LONG = 30  # rows of a table that is folded
 
 
@@ -59,6 +63,10 @@ def number(value, digits=5):
         return str(value)
     text = f"{value:.{digits}g}"
     return re.sub(r"e([+-])0*(\d)", lambda m: "e" + m[1].replace("+", "") + m[2], text)
+
+
+def document_page(file):
+    return "doc_" + re.sub(r"\W+", "_", file.removesuffix(".md").removesuffix("/README").removeprefix("docs/").lower()) + ".html"
 
 
 class Site:
@@ -92,6 +100,9 @@ class Site:
                 return target
             target, _, anchor = target.partition("#")
             path = (document.parent / target).resolve()
+            for file in DOCUMENTS:
+                if path == (ROOT / file).resolve():
+                    return document_page(file) + ("#" + anchor if anchor else "")
             if path.name == "README.md" and path.parent.name in self.reports and path.parent.parent.name == "studies":
                 return f"{path.parent.name}.html"
             return self.to(path) + ("#" + anchor if anchor else "")
@@ -103,9 +114,13 @@ class Site:
     def page(self, title, description, body, current):
         pages = [("index.html", "Overview")] + [(f"{name}.html", words(name)) for name in self.reports]
         here = ' aria-current="page"'
-        items = "".join(
-            f'<li><a href="{href}"{here if href == current else ""}>{esc(text)}</a></li>' for href, text in pages
-        )
+        guides = [(document_page(file), text) for file, text in DOCUMENTS.items()]
+
+        def menu(name, entries):
+            items = "".join(f'<li><a href="{href}"{here if href == current else ""}>{esc(text)}</a></li>'
+                            for href, text in entries)
+            return f"<details><summary>{name}</summary><ul>{items}</ul></details>"
+
         return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -122,14 +137,14 @@ class Site:
 <a class="skip" href="#content">Skip to the content</a>
 <header class="top">
 <a class="brand" href="index.html"><img src="site/icon.svg" alt="" width="28" height="28">vlbeam</a>
-<nav aria-label="Studies"><details><summary>Studies</summary><ul>{items}</ul></details></nav>
+<nav aria-label="Pages">{menu("Studies", pages)}{menu("Documents", guides)}</nav>
 </header>
 <main id="content">
 {body}
 </main>
 <footer><p>Written by <code>make studies</code> from the reports beside this page and the documents of the studies.
 <a href="{self.to(ROOT / "README.md")}">README</a> ·
-<a href="{self.to(ROOT / "docs" / "own_scene.md")}">user guide</a> ·
+<a href="{document_page("docs/own_scene.md")}">user guide</a> ·
 <a href="{self.to(ROOT / "LICENSE")}">MIT licence</a></p></footer>
 </body>
 </html>
@@ -429,12 +444,24 @@ class Site:
                 "quantity", "levels", "finest value", "limit", "uncertainty", "order", "what speaks against it"], rows))
         return parts
 
+    def document(self, file):
+        text = (ROOT / file).read_text(encoding="utf-8")
+        title = re.match(r"# (.*)", text)[1]
+        body = markdown.render(re.sub(r"^# .*\n", "", text), self.linker(ROOT / file), 2, title, anchors=True)
+        contents = [name for name, _ in markdown.sections(text) if name]
+        toc = "".join(f'<li><a href="#{esc(markdown.anchor(name))}">{esc(markdown.plain(name))}</a></li>' for name in contents)
+        nav = f'<nav class="toc" aria-label="On this page"><ul>{toc}</ul></nav>' if toc else ""
+        return self.page(f"{markdown.plain(title)} · vlbeam", DOCUMENTS[file],
+                         f'<p class="crumbs"><a href="index.html">Overview</a> › {esc(DOCUMENTS[file])}</p>'
+                         f'<h1>{markdown.inline(title)}</h1>{nav}<div class="document">{body}</div>', document_page(file))
+
     def write(self):
         folder = self.out / "site"
         folder.mkdir(exist_ok=True)
         for name in ("style.css", "enhance.js", "icon.svg"):
             shutil.copyfile(Path(__file__).parent / name, folder / name)
         pages = {"index.html": self.index()} | {f"{name}.html": self.study(name) for name in self.reports}
+        pages |= {document_page(file): self.document(file) for file in DOCUMENTS}
         for name, text in pages.items():
             part = self.out / f"{name}.part"
             part.write_text(text, encoding="utf-8")

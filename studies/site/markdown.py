@@ -130,8 +130,14 @@ def _list(lines, link, label):
     return f"<{kind}>{''.join(body)}</{kind}>"
 
 
-def render(text, link=lambda target: target, level=2, label=""):
-    """HTML of a document whose headings of the second level become those of `level`. `label` names its tables."""
+def anchor(heading):
+    """What a link to a heading names after its #."""
+    return re.sub(r"[^\w\- ]", "", plain(heading).lower()).strip().replace(" ", "-")
+
+
+def render(text, link=lambda target: target, level=2, label="", anchors=False):
+    """HTML of a document whose headings of the second level become those of `level`. `label` names its tables until a
+    heading does; with `anchors` headings can be linked to."""
     lines, out, i = text.splitlines(), [], 0
 
     def block(belongs):
@@ -157,7 +163,9 @@ def render(text, link=lambda target: target, level=2, label=""):
             out.append(f'<pre tabindex="0"><code>{html.escape(text_of, quote=False)}</code></pre>')
         elif heading:
             rank = min(6, max(1, len(heading[1]) + level - 2))
-            out.append(f"<h{rank}>{inline(heading[2], link)}</h{rank}>")
+            label = plain(heading[2])
+            name = f' id="{html.escape(anchor(heading[2]))}"' if anchors else ""
+            out.append(f"<h{rank}{name}>{inline(heading[2], link)}</h{rank}>")
             i += 1
         elif line.startswith("|"):
             out.append(_table(block(lambda l, _: l.startswith("|")), link, label))

@@ -112,7 +112,9 @@ class TheSite(unittest.TestCase):
 
     def test_has_a_page_a_study(self):
         studies = {path.parent.name for path in SOURCES.glob("studies/*/gates.json")}
-        self.assertEqual({"index.html"} | {f"{study}.html" for study in studies}, set(self.pages))
+        named = {name for name in self.pages if not name.startswith("doc_")}
+        self.assertEqual({"index.html"} | {f"{study}.html" for study in studies}, named)
+        self.assertGreaterEqual(len(self.pages) - len(named), 5)
 
     def test_is_well_formed(self):
         for page in self.each():
