@@ -30,16 +30,17 @@ for (const table of document.querySelectorAll("table.sortable")) {
 const dialog = document.createElement("dialog");
 dialog.className = "viewer";
 dialog.setAttribute("aria-label", "Figure");
-dialog.innerHTML = '<form method="dialog"><button>Close</button></form><div><img alt=""></div>';
+dialog.innerHTML = '<form method="dialog"><button>Close</button></form><div></div>';
 document.body.append(dialog);
 dialog.addEventListener("click", (event) => { if (event.target === dialog) dialog.close(); });
 for (const link of document.querySelectorAll("a.enlarge")) {
   link.addEventListener("click", (event) => {
     if (event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
-    const picture = dialog.querySelector("img");
+    const picture = new Image();
     picture.src = link.href;
     picture.alt = link.querySelector("img").alt;
+    dialog.querySelector("div").replaceChildren(picture);
     dialog.showModal();
   });
 }
