@@ -17,6 +17,8 @@ constexpr int rational_points = 10;
 constexpr double separation_share = 1e-3;  // of the beam's length
 constexpr double default_end_merge = 0.5;  // of L_std
 
+bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && scene.beam.curve.type != CurveType::line; }
+
 bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
 
 template <int D>
@@ -75,6 +77,20 @@ std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
 }
 
 }  // namespace
+
+Scene scene_in(SceneSetting setting) {
+  Scene scene;
+  scene.setting = setting;
+  if (setting == SceneSetting::standard) return scene;
+  scene.beam.element = ElementKind::ale_rancf;
+  scene.beam.rest_shape = RestShape::paper;
+  scene.formulation = Formulation::virtual_work;
+  scene.weights = WeightTransport::frozen;
+  scene.length_control.merge = MergePolicy::point_fit;
+  scene.length_control.velocities = VelocityTransfer::nodal;
+  scene.length_control.end_merge = 0;
+  return scene;
+}
 
 BeamSection build_section(const BeamSpec& beam) {
   BeamSection section;
@@ -169,9 +185,19 @@ double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
 
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
 
+AxisForm axis_form(const Scene& scene) {
+  const bool curved = scene.beam.curve.type != CurveType::line;
+  const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && scene.sliding_mass);
+  const bool exact = scene.setting == SceneSetting::ding_ouyang_2022 && curved && can_be_exact;
+  return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
+}
+
 MergePolicy merge_policy(const Scene& scene) {
-  const bool curved = has_rest_shape(scene) && scene.beam.curve.type != CurveType::line;
-  return scene.length_control.merge.value_or(curved ? MergePolicy::rest_arc : MergePolicy::point_fit);
+  return scene.length_control.merge.value_or(is_curved_at_rest(scene) ? MergePolicy::rest_arc : MergePolicy::point_fit);
+}
+
+WeightTransport weight_transport(const Scene& scene) {
+  return scene.weights.value_or(is_curved_at_rest(scene) ? WeightTransport::transported : WeightTransport::frozen);
 }
 
 double separation_distance(const Scene& scene) {
@@ -196,7 +222,7 @@ BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
   model.section = build_section(scene.beam);
   model.formulation = scene.formulation;
-  model.transport = scene.weights;
+  model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
   model.gravity = vector_of<D>(scene.gravity);
   model.gravity_ramp = scene.gravity_ramp;
@@ -231,7 +257,7 @@ ChainState<D> build_chain(const Scene& scene) {
   const InitialNodes nodes = place_nodes(scene, axis.breaks());
   const auto& x = nodes.x;
   CubicChain<D> shape;
-  if (axis.straight() || scene.beam.axis == AxisForm::even) {
+  if (axis.straight() || axis_form(scene) == AxisForm::even) {
     shape = even_chain(axis, x, !is_polynomial(scene.beam.element));
     if (axis.straight()) shape.weights.assign(x.size() - 1, scene.beam.weights);
   } else {

@@ -6,6 +6,10 @@
 
 namespace vlbeam {
 
+/// A scene to which nothing but the setting is given. Options that depend on others stay open; what they stand for is
+/// said by the functions below.
+Scene scene_in(SceneSetting setting);
+
 /// Gauss points an element that a scene asks for, its element's default filled in.
 int quadrature_points(const Scene& scene);
 
@@ -20,8 +24,17 @@ double standard_length(const Scene& scene);
 /// Whether strains are measured from a shape other than a straight, unstrained one.
 bool has_rest_shape(const Scene& scene);
 
-/// How the scene's elements are merged.
+/// How the elements of the scene follow a curved axis: evenly; in the paper's setting exactly, where its elements can
+/// and no mass slides along a beam that is curved at rest.
+AxisForm axis_form(const Scene& scene);
+
+/// How the scene's elements are merged: if it does not say so by the paper's fit, or, where the beam is curved at rest,
+/// with the weights of the arc.
 MergePolicy merge_policy(const Scene& scene);
+
+/// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
+/// the beam is curved at rest.
+WeightTransport weight_transport(const Scene& scene);
 
 /// Distance from a free end at which the sliding mass of the scene leaves [m].
 double separation_distance(const Scene& scene);

@@ -100,7 +100,7 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
     if (scene.beam.rotary_inertia == BendingInertia::gyroscopic) model.rotary.gyroscopic = rhoIp * initial_spin(scene);
   }
   model.formulation = scene.formulation;
-  model.transport = scene.weights;
+  model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
   model.gravity = beam.gravity;
   model.gravity_ramp = scene.gravity_ramp;

@@ -17,6 +17,10 @@ struct Named {
   std::string_view name;
 };
 
+constexpr auto names(SceneSetting) {
+  return std::to_array<Named<SceneSetting>>(
+      {{SceneSetting::standard, "default"}, {SceneSetting::ding_ouyang_2022, "ding-ouyang-2022"}});
+}
 constexpr auto names(ElementKind) {
   using enum ElementKind;
   return std::to_array<Named<ElementKind>>(

@@ -144,6 +144,11 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   SceneSchema schema = SceneSchema::v1;
   visitor(Option{.pointer = "/schema", .unit = "", .description = "what this file is, and its version"}, schema);
   visitor(Option{.pointer = "/title", .unit = "", .description = "what the scene shows"}, scene.title);
+  visitor(Option{.pointer = "/setting",
+                 .unit = "",
+                 .description = "what keys left out stand for: by default what measurements speak for, or what the "
+                                "paper does, as far as it says so"},
+          scene.setting);
   visitor(Option{.pointer = "/dimension",
                  .unit = "-",
                  .description = "2 for a planar scene, 3 for a spatial one",
@@ -339,7 +344,8 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .unit = "",
                  .description =
                      "how elements follow a curved axis: evenly, material coordinate and arc length the same to a high "
-                     "order, or exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights)",
+                     "order, or exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights); if not given "
+                     "even, in the setting ding-ouyang-2022 exact where the scene allows it",
                  .source = "Ding & Ouyang 2022, Eq. 43 is exact"},
           beam.axis);
   visitor(Option{.pointer = "/beam/rest_shape",
@@ -579,7 +585,8 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           scene.formulation);
   visitor(Option{.pointer = "/weights",
                  .unit = "",
-                 .description = "how the rational weights follow the moving ends of an element",
+                 .description = "how the rational weights follow the moving ends of an element; if not given "
+                                "transported with an as-built arc or NURBS curve, frozen otherwise",
                  .source = "Ding & Ouyang 2022 is frozen"},
           scene.weights);
 

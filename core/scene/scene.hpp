@@ -21,6 +21,12 @@ namespace vlbeam {
 /// A point or vector of the scene; planar scenes use the first two components and keep the third at 0.
 using Point = std::array<double, 3>;
 
+/// What the options that are not given stand for.
+enum class SceneSetting {
+  standard,
+  ding_ouyang_2022,  ///< what the paper does, as far as it says so
+};
+
 enum class ElementKind { ale_rancf, ale_ancf, rancf, ancf };
 enum class RestShape { as_built, paper };
 enum class AxisForm {
@@ -93,7 +99,7 @@ struct BeamSpec {
   Material material;
   int elements = 20;
   ElementKind element = ElementKind::ale_rancf;
-  AxisForm axis = AxisForm::even;  ///< used with a curved axis
+  std::optional<AxisForm> axis = {};  ///< used with a curved axis; see axis_form()
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
   BendingInertia rotary_inertia = BendingInertia::none;
@@ -177,8 +183,8 @@ struct LengthControlSpec {
   bool enabled = true;
   double upper = 1.5;                     ///< trigger length over L_std
   double hysteresis = 1e-3;               ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
-  std::optional<MergePolicy> merge = {};  ///< if not given, point_fit, but rest_arc where the rest shape is curved
-  VelocityTransfer velocities = VelocityTransfer::nodal;
+  std::optional<MergePolicy> merge = {};  ///< see merge_policy()
+  VelocityTransfer velocities = VelocityTransfer::projected;
   std::optional<double> end_merge;  ///< over L_std: a shorter last element loses its moving node; see end_merge()
 };
 
@@ -213,6 +219,7 @@ struct OutputSpec {
 /// bears loads. SI units.
 struct Scene {
   std::string title;
+  SceneSetting setting = SceneSetting::standard;
   int dimension = 2;
   Point gravity{0, -9.81, 0};  ///< [m/s^2]
   double gravity_ramp = 0;     ///< T_r [s]: gravity grows as S(t/T_r), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3)
@@ -224,7 +231,7 @@ struct Scene {
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};
   Formulation formulation = Formulation::variational;
-  WeightTransport weights = WeightTransport::frozen;
+  std::optional<WeightTransport> weights = {};  ///< see weight_transport()
   LengthControlSpec length_control;
   Constraints constraints = Constraints::eliminated;
   IntegratorSpec integrator;

@@ -59,7 +59,7 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
         shape.rates.x[k],
         shape.rates.x[k + 1]};
     const WeightFunction weights{shape.weights[k], q.x_a, q.x_b};
-    const MovingKinematics<double, D> kinematics(q, rate, scene.weights, weights);
+    const MovingKinematics<double, D> kinematics(q, rate, weight_transport(scene), weights);
     for (int i = 0; i <= per_element; ++i) {
       const double u = static_cast<double>(i) / per_element;
       const auto at = kinematics.at(u, rational_shape(kinematics.weights(), u));

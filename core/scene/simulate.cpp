@@ -71,7 +71,7 @@ class Run {
   void sample(const Eigen::VectorXd& y, double t) {
     const auto started = std::chrono::steady_clock::now();
     if (stops_.keeps_shape_at(t)) {
-      result_.configurations.push_back(configuration_of(system_.chain(y), t, scene_.weights));
+      result_.configurations.push_back(configuration_of(system_.chain(y), t, weight_transport(scene_)));
     }
     if (stops_.samples_at(t)) {
       const auto seen = system_.observe(y, t, ledger_points, true);
@@ -135,8 +135,8 @@ class Run {
     event.discrete_jump = record.discrete_jump;
     event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
     event.restored = record.restored;
-    event.before = configuration_of(record.before, record.t, scene_.weights);
-    event.after = configuration_of(record.after, record.t, scene_.weights);
+    event.before = configuration_of(record.before, record.t, weight_transport(scene_));
+    event.after = configuration_of(record.after, record.t, weight_transport(scene_));
     if (record.type == EventType::separation) result_.status = RunStatus::separated;
     jumps_ += record.discrete_jump;
     result_.timing.length_control += record.seconds;

@@ -201,7 +201,7 @@ void check_beam(const Scene& scene) {
         "/beam/material/curvature_regularization", "0",
         "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], or the damping 0");
   }
-  if (beam.axis == AxisForm::exact && beam.curve.type != CurveType::line) {
+  if (axis_form(scene) == AxisForm::exact && beam.curve.type != CurveType::line) {
     if (beam.element == ElementKind::ale_ancf || beam.element == ElementKind::ancf) {
       refuse("/beam/axis", "\"exact\"",
              "a polynomial element holds no conic: it must be \"even\", or the element rational");
@@ -303,8 +303,8 @@ void check_energy_momentum(const Scene& scene) {
     refuse("/formulation", quoted(to_string(scene.formulation)),
            "\"energy-momentum\" with a sliding mass needs \"variational\": the virtual work has no energy to keep");
   }
-  if (scene.weights == WeightTransport::transported && scene.beam.element == ElementKind::ale_rancf) {
-    refuse("/weights", quoted(to_string(scene.weights)),
+  if (weight_transport(scene) == WeightTransport::transported && scene.beam.element == ElementKind::ale_rancf) {
+    refuse("/weights", quoted(to_string(weight_transport(scene))),
            "\"energy-momentum\" with a sliding mass needs \"frozen\" weights, or \"ALE-ANCF\" elements");
   }
 }

@@ -345,12 +345,16 @@ Scene scene_with_every_part() {
 }
 
 Scene scene_from_json(const Json& json) {
-  Scene scene;
-  const bool automatic = json.is_object() && json.contains("integrator") && json.at("integrator") == "auto";
+  const bool automatic = json.is_object() && (!json.contains("integrator") || json.at("integrator") == "auto");
   Json file = json;
   if (automatic) file.erase("integrator");
   const Reader reader(file);
+  Scene scene;
   visit_options(reader, scene);
+  if (scene.setting != SceneSetting::standard) {  // the same keys, and others for those left out
+    scene = scene_in(scene.setting);
+    visit_options(reader, scene);
+  }
   try {
     if (automatic) {
       validate(scene);
@@ -379,6 +383,8 @@ Json scene_to_json(const Scene& scene) {
   filled.length_control.end_merge = end_merge(scene);
   if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);
   filled.length_control.merge = merge_policy(scene);
+  filled.weights = weight_transport(scene);
+  filled.beam.axis = axis_form(scene);
   if (filled.spin) filled.spin->rate = initial_spin(scene);
   if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -39,6 +40,54 @@ Json where(const std::vector<std::string>& path, std::size_t from, const Json& l
   return schema;
 }
 
+/// The choice or the number that a scene holds for an option; null where it leaves it open, and for what no setting
+/// decides.
+template <class T>
+Json value_of(const T& member) {
+  if constexpr (NamedEnum<T>) {
+    return to_string(member);
+  } else if constexpr (OptionalEnum<T>) {
+    return member ? Json(to_string(*member)) : Json();
+  } else if constexpr (std::same_as<T, std::optional<double>>) {
+    return member ? Json(*member) : Json();
+  } else {
+    return {};
+  }
+}
+
+/// What the paper's setting decides: values by pointer.
+class PaperValues {
+ public:
+  PaperValues() { visit_options(*this, scene_); }
+
+  template <class T>
+  void operator()(const Option& option, const T& member) {
+    values_[std::string(option.pointer)] = value_of(member);
+  }
+  template <class T>
+  bool present(const Option&, const std::optional<T>& part) {
+    return part.has_value();
+  }
+  template <class T>
+  bool number_or(const Option&, double, const std::optional<T>& part) {
+    return part.has_value();
+  }
+  template <class T>
+  void list(const Option&, const std::vector<T>&) {}
+  void section(const Option&) {}
+
+  /// What a description adds where the setting has another value than `usual`.
+  std::string text(const Option& option, const Json& usual) const {
+    const auto found = values_.find(std::string(option.pointer));
+    if (found == values_.end() || found->second.is_null() || found->second == usual) return "";
+    return "; in the setting " + std::string(to_string(scene_.setting)) + " " + found->second.dump();
+  }
+
+ private:
+  const Scene scene_ = scene_in(SceneSetting::ding_ouyang_2022);
+  std::map<std::string, Json> values_;
+};
+
 /// Collects the schema of a scene, option by option.
 class SceneSchemaBuilder {
  public:
@@ -48,7 +97,8 @@ class SceneSchemaBuilder {
     Json& parent = object(path, path.size() - 1);
     Json& schema = parent["properties"][path.back()];
     schema = type<T>(option);
-    schema["description"] = description(option);
+    const bool setting = option.pointer == "/setting";
+    schema["description"] = description(option) + (setting ? "" : paper_.text(option, value_of(member)));
     if constexpr (NamedEnum<T>) {
       schema["default"] = to_string(member);
     } else if constexpr (std::same_as<T, Point>) {
@@ -208,6 +258,7 @@ class SceneSchemaBuilder {
     return 0;
   }
 
+  const PaperValues paper_;
   Json root_ = empty_object();
   std::map<std::string, std::string> defaults_;
 };
@@ -320,7 +371,9 @@ Json scene_schema() {
   const Json automatic = {
       {"const", "auto"},
       {"description", "generalized-alpha where it replaces at least 20 steps of dopri5, else dopri5"}};
-  integrator = {{"description", integrator.at("description")}, {"anyOf", {automatic, integrator}}};
+  integrator = {{"description", integrator.at("description")},
+                {"default", automatic.at("const")},
+                {"anyOf", {automatic, integrator}}};
   return with_head("vlbeam scene", schema);
 }
 

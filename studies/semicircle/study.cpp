@@ -23,7 +23,7 @@ constexpr double compared_at = 0.4;  // [s], the time of the meshes' errors
 std::string kind_of(const SceneCase& item) {
   const Scene& scene = item.scene;
   std::string key = scene.beam.rest_shape == RestShape::as_built ? "asbuilt" : "paper";
-  if (scene.weights == WeightTransport::transported) key += "_transported";
+  if (weight_transport(scene) == WeightTransport::transported) key += "_transported";
   if (scene.beam.element == ElementKind::ale_ancf) key += "_ancf";
   return key;
 }
@@ -148,8 +148,8 @@ class Report {
     double radius = 0, force = 0, drift = 0;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const Scene& scene = cases_[i].scene;
-      if (scene.beam.axis == AxisForm::exact) radius = std::max(radius, radius_error(scene));
-      if (scene.beam.axis == AxisForm::even && scene.beam.elements == 8) {
+      if (axis_form(scene) == AxisForm::exact) radius = std::max(radius, radius_error(scene));
+      if (axis_form(scene) == AxisForm::even && scene.beam.elements == 8) {
         const auto kind = std::string(scene.beam.element == ElementKind::ale_rancf ? "rational" : "polynomial");
         report_.measured["even_radius_error_" + kind] = radius_error(scene);
       }

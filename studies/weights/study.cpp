@@ -291,11 +291,11 @@ class Report {
       const auto& w = scene.beam.weights;
       const double error = error_at(*outcomes_[i], scene.duration);
       const auto joint = outcomes_[i]->samples.back().joint_position;
-      table.rows.push_back({scene.beam.elements, to_string(scene.weights), w[0], w[1], w[2], w[3],
+      table.rows.push_back({scene.beam.elements, to_string(weight_transport(scene)), w[0], w[1], w[2], w[3],
                             joint ? Json(*joint) : Json(), outcomes_[i]->events.size(), number_or_null(error),
                             jumps.kinetic, jumps.elastic});
       if (w[0] != w[3] || w[1] == w[2]) continue;  // skew: a speed along the beam that changes inside the element
-      auto& most = report_.measured["skew_error_" + std::string(to_string(scene.weights)) + "_n" +
+      auto& most = report_.measured["skew_error_" + std::string(to_string(weight_transport(scene))) + "_n" +
                                     std::to_string(scene.beam.elements)];
       most = std::max(most, error);
     }

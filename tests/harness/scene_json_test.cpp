@@ -97,6 +97,75 @@ TEST(SceneJson, AutoStandsForTheIntegratorThatTheEchoShows) {
   EXPECT_THROW(scene_from_json(json), InvalidInput);
 }
 
+TEST(SceneJson, TheIntegratorLeftOutIsAuto) {
+  Json json = {{"beam", {{"material", {{"youngs_modulus", 2.1e11}}}}}, {"duration", 0.5}};
+  EXPECT_EQ(scene_from_json(json).integrator.type, IntegratorType::generalized_alpha);
+  json["integrator"] = {{"rtol", 1e-6}};
+  EXPECT_EQ(scene_from_json(json).integrator.type, IntegratorType::dopri5) << "tolerances are an explicit method's";
+  json["integrator"] = {{"type", "dopri5"}};
+  EXPECT_EQ(scene_from_json(json).integrator.type, IntegratorType::dopri5);
+}
+
+/// A mass on a semicircle with nothing but what the scene needs.
+Json bead_on_semicircle() {
+  return parse_json(R"({"beam": {"curve": {"type": "arc", "center": [0, 0], "radius": 2, "from_degrees": 180,
+                                           "to_degrees": 360}},
+                        "sliding_mass": {"mass": 0.8, "position": 0.4}, "duration": 1})");
+}
+
+TEST(SceneJson, DefaultsDependOnTheScene) {
+  Json json = bead_on_semicircle();
+  const Json curved = scene_to_json(scene_from_json(json));
+  EXPECT_EQ(curved["setting"], "default");
+  EXPECT_EQ(curved["formulation"], "variational");
+  EXPECT_EQ(curved["weights"], "transported");
+  EXPECT_EQ(curved["beam"]["rest_shape"], "as-built");
+  EXPECT_EQ(curved["beam"]["axis"], "even");
+  EXPECT_EQ(curved["length_control"]["merge"], "rest-arc");
+  EXPECT_EQ(curved["length_control"]["velocities"], "projected");
+  EXPECT_EQ(curved["length_control"]["end_merge"], 0.5);
+  json["beam"].erase("curve");
+  const Json straight = scene_to_json(scene_from_json(json));
+  EXPECT_EQ(straight["weights"], "frozen");
+  EXPECT_EQ(straight["length_control"]["merge"], "point-fit");
+}
+
+TEST(SceneJson, ThePapersSettingDecidesWhatIsLeftOut) {
+  Json json = bead_on_semicircle();
+  json["setting"] = "ding-ouyang-2022";
+  const Json echo = scene_to_json(scene_from_json(json));
+  EXPECT_EQ(echo["setting"], "ding-ouyang-2022");
+  EXPECT_EQ(echo["formulation"], "virtual-work");
+  EXPECT_EQ(echo["weights"], "frozen");
+  EXPECT_EQ(echo["beam"]["element"], "ALE-RANCF");
+  EXPECT_EQ(echo["beam"]["rest_shape"], "paper");
+  EXPECT_EQ(echo["beam"]["axis"], "exact");
+  EXPECT_EQ(echo["length_control"]["merge"], "point-fit");
+  EXPECT_EQ(echo["length_control"]["velocities"], "nodal");
+  EXPECT_EQ(echo["length_control"]["end_merge"], 0);
+  EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo);
+}
+
+TEST(SceneJson, WhatIsGivenWinsOverTheSetting) {
+  Json json = bead_on_semicircle();
+  json["setting"] = "ding-ouyang-2022";
+  json["formulation"] = "variational";
+  json["length_control"] = {{"velocities", "conservative"}};
+  json["beam"]["rest_shape"] = "as-built";
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene.formulation, Formulation::variational);
+  EXPECT_EQ(scene.length_control.velocities, VelocityTransfer::conservative);
+  EXPECT_EQ(scene.length_control.end_merge, 0);
+  EXPECT_EQ(scene_to_json(scene)["beam"]["axis"], "even") << "a mass on an as-built beam has no exact axis";
+}
+
+TEST(SceneJson, ThePapersSettingTakesPolynomialElements) {
+  Json json = bead_on_semicircle();
+  json["setting"] = "ding-ouyang-2022";
+  json["beam"]["element"] = "ALE-ANCF";
+  EXPECT_EQ(scene_to_json(scene_from_json(json))["beam"]["axis"], "even");
+}
+
 TEST(SceneJson, AnAbsoluteToleranceMayBeOneForEachKind) {
   Json json = example_scene();
   EXPECT_FALSE(scene_from_json(json).integrator.atol_by_kind);
@@ -185,6 +254,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BadScene{"/beam/element", "\"ALE_RANCF\"", "/beam/element", "\"ALE-RANCF\", \"ALE-ANCF\""},
                     BadScene{"/beam/curve/type", "\"spiral\"", "/beam/curve/type", "\"line\""},
                     BadScene{"/beam/section/type", "\"square\"", "/beam/section/type", "\"circle\", \"stiffness\""},
+                    BadScene{"/setting", "\"paper\"", "/setting", "\"ding-ouyang-2022\""},
                     BadScene{"/beam/rest_shape", "\"as_built\""}, BadScene{"/beam/strain_law", "\"seed\""},
                     BadScene{"/formulation", "\"virtual work\""}, BadScene{"/weights", "\"moving\""},
                     BadScene{"/integrator/type", "\"rk4\"", "/integrator/type", "\"bulirsch-stoer\""},

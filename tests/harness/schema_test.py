@@ -78,6 +78,8 @@ expect(scene, changed(beam__elemnts=4), False, "an unknown key")
 expect(scene, changed(duration=0), False, "no duration")
 for method in ("adams-bashforth-moulton", "generalized-alpha"):
     expect(scene, changed(integrator={"type": method, "step": 1e-4}), True, "a fixed step")
+expect(scene, changed(setting="ding-ouyang-2022"), True, "the paper's setting")
+expect(scene, changed(setting="paper"), False, "a setting that is not known")
 expect(scene, changed(integrator="auto"), True, "an integrator that the scene chooses")
 expect(scene, changed(integrator="fast"), False, "an integrator that is not known")
 expect(scene, changed(integrator={"type": "rosenbrock4", "step": 1e-4}), False, "the step of a method that chooses it")

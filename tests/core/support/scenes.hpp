@@ -10,6 +10,7 @@ inline Scene falling_beam(ElementKind element, int elements) {
   scene.beam.element = element;
   scene.beam.elements = elements;
   scene.beam.rest_shape = RestShape::paper;
+  scene.length_control.velocities = VelocityTransfer::nodal;
   scene.start = {SupportType::clamp, ClampType::direction};
   scene.sliding_mass = SlidingMassSpec{};
   return scene;
