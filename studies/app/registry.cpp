@@ -7,6 +7,7 @@
 namespace vlbeam {
 
 // One declaration and one line of the list for each folder studies/<name>/.
+Study across_events_study();
 Study defaults_study();
 Study drill_stem_study();
 Study energy_drift_study();
@@ -27,10 +28,10 @@ Study work_precision_study();
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
-        defaults_study(),     drill_stem_study(),    energy_drift_study(),  exact_arc_study(),
-        falling_beam_study(), hard_cases_study(),    moving_string_study(), quadrature_study(),
-        rational_study(),     rotating_load_study(), semicircle_study(),    suspended_beam_study(),
-        thresholds_study(),   torsion_study(),       weights_study(),       work_precision_study(),
+        across_events_study(), defaults_study(),       drill_stem_study(),     energy_drift_study(), exact_arc_study(),
+        falling_beam_study(),  hard_cases_study(),     moving_string_study(),  quadrature_study(),   rational_study(),
+        rotating_load_study(), semicircle_study(),     suspended_beam_study(), thresholds_study(),   torsion_study(),
+        weights_study(),       work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;
