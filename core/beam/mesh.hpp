@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/element/moving_element.hpp"
@@ -15,6 +16,10 @@ struct Mesh {
   int elements() const { return static_cast<int>(weights.size()); }
   int last() const { return elements(); }  ///< index of the last node
   double length() const { return x.back() - x.front(); }
+  /// Index of the element that holds `at`; of the first or the last one beyond the ends.
+  int element_at(double at) const {
+    return static_cast<int>(std::upper_bound(x.begin() + 1, x.end() - 1, at) - x.begin()) - 1;
+  }
 };
 
 }  // namespace vlbeam

@@ -168,6 +168,17 @@ double Span<D>::add_forces(const double* q, const double* rate, const Vector& gr
 }
 
 template <int D>
+typename Span<D>::Vector Span<D>::first_moment(const double* q) const {
+  Vector sum = Vector::Zero();
+  const int low = std::min(outer_, open_);
+  for (std::size_t k = 0; k < load_.size(); ++k) {
+    const int node = low + static_cast<int>(k);
+    sum += load_[k][0] * position<D>(q, node) + load_[k][1] * slope<D>(q, node);
+  }
+  return sum;
+}
+
+template <int D>
 void Span<D>::reduce(double* force) const {
   Components carry_r = Components::Zero(), carry_s = Components::Zero();
   int node = outer_;

@@ -35,6 +35,9 @@ class Span {
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
 
+  /// First moment of mass, the integral of rhoA r [kg m], by nodal positions; by their rates, the momentum.
+  Vector first_moment(const double* q) const;
+
   /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`.
   void add_inertia(const double* a, double* out) const;
 

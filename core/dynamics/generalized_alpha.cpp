@@ -99,8 +99,7 @@ class GeneralizedAlpha final : public Stepper {
     Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
     Eigen::VectorXd a;                  ///< the method's own acceleration
     double h = 0;                       ///< [s], length of the step that `a` belongs to
-    double dissipation = 0;             ///< [W]
-    double supply = 0;                  ///< [W], by moving supports
+    Tally power;                        ///< [W]
   };
 
   void start(double t, Eigen::Index n) {
@@ -108,8 +107,9 @@ class GeneralizedAlpha final : public Stepper {
     system_.acceleration(base_q_, base_v_, t, end_.true_acceleration);
     end_.a = end_.true_acceleration;
     end_.h = 0;
-    end_.dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
-    end_.supply = system_.supplied_power(base_q_, base_v_, end_.true_acceleration, t);
+    const double dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
+    end_.power = system_.supplied_power(base_q_, base_v_, end_.true_acceleration, t);
+    end_.power.dissipated = dissipation;
     stop_.set_fields(system_.fields());
     allowed_.setConstant(n, options_.tolerances.atol);
     if (const auto& by_field = options_.tolerances.by_field) {
@@ -226,24 +226,25 @@ class GeneralizedAlpha final : public Stepper {
     q_ = base_q_ + h * base_v_;
     v_ = base_v_ + h * start_.true_acceleration;
     system_.contract(q_, v_, y);
-    system_.tally(h * start_.dissipation, h * start_.supply, y);
+    system_.tallies().add(h * start_.power, y);
     t += h;
   }
 
   void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
     system_.contract(q_, v_, y);
-    end_.supply = system_.supplied_power(q_, v_, acceleration_, t + h);
-    system_.tally(0.5 * h * (start_.dissipation + dissipation), 0.5 * h * (start_.supply + end_.supply), y);
+    end_.power = system_.supplied_power(q_, v_, acceleration_, t + h);
+    end_.power.dissipated = dissipation;
+    system_.tallies().add(0.5 * h * (start_.power + end_.power), y);
     end_.true_acceleration = acceleration_;
     end_.a = next_a_;
     end_.h = h;
-    end_.dissipation = dissipation;
     if (counters_) {
       const ConstraintResidual residual = system_.constraint_residual(q_, v_, t + h);
       auto& largest = counters_->constraints;
       largest.position = std::max(largest.position, residual.position);
       largest.velocity = std::max(largest.velocity, residual.velocity);
-      counters_->multipliers = acceleration_.tail(system_.multipliers());
+      const auto multipliers = acceleration_.tail(system_.multipliers());
+      counters_->multipliers.assign(multipliers.begin(), multipliers.end());
     }
     t += h;
   }

@@ -8,12 +8,6 @@
 
 namespace vlbeam {
 
-/// How often a Newton iteration takes a new tangent.
-enum class NewtonKind {
-  modified,  ///< when the last one makes it converge too slowly
-  full,      ///< at every iteration
-};
-
 /// Options of the generalized-alpha method.
 struct GeneralizedAlphaOptions {
   double step = 1e-3;    ///< [s]; the longest, and the first, where the step adapts
@@ -23,15 +17,6 @@ struct GeneralizedAlphaOptions {
   int newton_iterations = 15;      ///< beyond which the step is halved
   bool adaptive = false;           ///< the step follows the tolerances
   Tolerances tolerances;           ///< of an adaptive step
-};
-
-/// What Newton's iterations took.
-struct NewtonCounters {
-  std::size_t iterations = 0;
-  std::size_t tangents = 0;
-  std::vector<double> longest;     ///< corrections, relative to the increment, of the step that took most of them
-  ConstraintResidual constraints;  ///< the largest of all steps
-  Eigen::VectorXd multipliers;     ///< of the last step, as the system scales them
 };
 
 /// Generalized-alpha method for M(q) q'' = Q (Arnold & Bruels 2007). Second order, also where the length of the step

@@ -11,14 +11,6 @@
 
 namespace vlbeam {
 
-struct SolverCounters {
-  std::size_t steps = 0;
-  std::size_t rejected = 0;
-  std::size_t rhs_evaluations = 0;
-  double smallest_step = 0;  ///< [s], of the accepted steps that no event cut short
-  NewtonCounters newton;     ///< of implicit methods
-};
-
 /// An ordinary differential equation whose right-hand side changes at events, with what wants to know of its solution.
 class EventedOde : public Ode {
  public:

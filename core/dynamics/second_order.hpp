@@ -4,14 +4,10 @@
 #include <vector>
 
 #include "core/dynamics/fields.hpp"
+#include "core/dynamics/solver_counters.hpp"
+#include "core/dynamics/tallies.hpp"
 
 namespace vlbeam {
-
-/// How far a state is from its constraints C(q) = 0, the largest of all.
-struct ConstraintResidual {
-  double position = 0;  ///< |C| [m]
-  double velocity = 0;  ///< |C_q q'| [m/s], the hidden constraint
-};
 
 /// Equations of motion M(q) q'' = Q(q, q', t) as an implicit method sees them: a residual in (q, v, a) and its tangent.
 /// Supports and the like are either eliminated, and fixed coordinates then have zero residual and never move, or
@@ -48,25 +44,18 @@ class SecondOrderSystem {
   /// Writes dC/dt = C_q v + C_t where the multipliers stand, at the end of `rates`.
   virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, double /*t*/,
                                 Eigen::VectorXd& /*rates*/) const {}
-  /// Whether supports move as given functions of time: the state then ends with the work they have done [J].
+  /// Whether supports move as given functions of time.
   virtual bool driven() const { return false; }
   /// Writes how far eliminated coordinates that are driven are from where they are at time t; false where none are.
   virtual bool driven_offset(const Eigen::VectorXd& /*q*/, double /*t*/, Eigen::VectorXd& /*offset*/) const {
     return false;
   }
-  /// Power with which moving supports do work at (q, v, a, t) [W].
-  virtual double supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
-                                const Eigen::VectorXd& /*a*/, double /*t*/) {
-    return 0;
-  }
-  /// How many energies a state of the size of `y` counts at its end: what is dissipated, if anything is, and what is
-  /// supplied, if supports move.
-  Eigen::Index tallies(const Eigen::VectorXd& y) const { return driven() ? 2 - y.size() % 2 : y.size() % 2; }
-  /// Adds energies to these.
-  void tally(double dissipated, double supplied, Eigen::VectorXd& y) const {
-    const Eigen::Index count = tallies(y);
-    if (driven()) y[y.size() - 1] += supplied;
-    if (count > (driven() ? 1 : 0)) y[y.size() - count] += dissipated;
+  /// Which energies the state counts.
+  virtual Tallies tallies() const { return {}; }
+  /// Powers with which supports and loads do work at (q, v, a, t) [W].
+  virtual Tally supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
+                               double /*t*/) {
+    return {};
   }
   /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before. Returns false where
   /// it is singular.

@@ -204,7 +204,7 @@ class Ida final : public SundialsStepper {
     n_ = system_.coordinates();
     multipliers_ = system_.multipliers();
     own_ = n_ - multipliers_;
-    tallies_ = system_.tallies(y);
+    tallies_ = system_.tallies().count();
     a_.resize(n_);
     r_.resize(n_);
     system_.acceleration(q_, v_, t, a_);
@@ -265,8 +265,9 @@ class Ida final : public SundialsStepper {
   /// Adds the rates of the energies that the state counts.
   template <class Powers>
   void add_powers(double dissipated, double t, Powers&& powers) {
-    if (system_.driven()) powers[tallies_ - 1] += system_.supplied_power(q_, v_, a_, t);
-    if (tallies_ > (system_.driven() ? 1 : 0)) powers[0] += dissipated;
+    Tally power = system_.supplied_power(q_, v_, a_, t);
+    power.dissipated = dissipated;
+    system_.tallies().add(power, powers);
   }
 
   static int residual(double t, N_Vector state, N_Vector rate, N_Vector result, void* self) {
@@ -337,7 +338,8 @@ class Ida final : public SundialsStepper {
     auto& largest = counters_->constraints;
     largest.position = std::max(largest.position, now.position);
     largest.velocity = std::max(largest.velocity, now.velocity);
-    counters_->multipliers = a_.tail(multipliers_);
+    const auto multipliers = a_.tail(multipliers_);
+    counters_->multipliers.assign(multipliers.begin(), multipliers.end());
   }
 
   double proposed() override {

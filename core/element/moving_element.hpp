@@ -129,4 +129,24 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   return eq;
 }
 
+// Instantiated once; those of a field of one component belong to spin_chain.cpp, which knows its energy.
+extern template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::a>(
+    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const WeightFunction&,
+    const ShapeTabulation&, const MovingLaw<2>&);
+extern template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::b>(
+    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const WeightFunction&,
+    const ShapeTabulation&, const MovingLaw<2>&);
+extern template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::both>(
+    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const WeightFunction&,
+    const ShapeTabulation&, const MovingLaw<2>&);
+extern template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::a>(
+    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const WeightFunction&,
+    const ShapeTabulation&, const MovingLaw<3>&);
+extern template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::b>(
+    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const WeightFunction&,
+    const ShapeTabulation&, const MovingLaw<3>&);
+extern template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::both>(
+    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const WeightFunction&,
+    const ShapeTabulation&, const MovingLaw<3>&);
+
 }  // namespace vlbeam

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/geometry/vec.hpp"
+#include "core/joint/axial_friction.hpp"
 
 namespace vlbeam {
 
@@ -12,20 +13,6 @@ namespace vlbeam {
 // on that point, t = r_x/|r_x|, do the virtual work F t.(dr - (dr - r_x dx)) = F |r_x| dx: friction acts on the joint's
 // material coordinate alone. Where the slopes of the two sides differ, r_x is their mean, that of the two relative
 // velocities.
-
-/// Coulomb friction, regularised: F = -coefficient N tanh(v/velocity), v = |r_x| x' and N the magnitude of the contact
-/// force normal to the beam.
-struct AxialFriction {
-  double coefficient;      ///< mu
-  double velocity = 1e-3;  ///< [m/s], below which friction fades
-
-  /// Share of the normal force that resists the relative velocity `v` [m/s]: of its sign.
-  template <class Real>
-  Real share(const Real& v) const {
-    using std::tanh;
-    return tanh(Real(v / velocity)) * coefficient;
-  }
-};
 
 /// The beam as the mass on it feels it.
 template <class Real, int D>

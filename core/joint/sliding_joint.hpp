@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <optional>
 
 #include "core/beam/span.hpp"
@@ -29,189 +27,6 @@ struct JointMotion {
   Vec<double, D> gravity;                               ///< [m/s^2]
 };
 
-namespace detail {
-
-/// One side of a sliding joint: the open node of a span, tied to the joint by a variable-length element. Eliminating
-/// that node leaves a mass and a force on the joint's own unknowns: r, one or two slopes of which this side's stands at
-/// `Slope`, and x.
-template <int D, int Unknowns, int Slope>
-class JointSide {
- public:
-  using Vector = Vec<double, D>;
-  using Components = typename Span<D>::Components;
-  static constexpr int unknowns = Unknowns, x = Unknowns - 1;
-  using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
-  using Column = Eigen::Matrix<double, unknowns, 1>;
-
-  /// `joint_end` is 0 where the joint is the element's end A, 2 where it is its end B.
-  JointSide(const Span<D>& span, const MovingEquations<double, D>& eq, std::size_t joint_end)
-      : span_(span), j_(joint_end), i_(2 - joint_end), eq_(eq) {
-    const auto& m = eq.mass;
-    NodeBlock<D> block = span.open_mass();
-    block.rr += m[i_][i_];
-    block.rs += m[i_][i_ + 1];
-    block.ss += m[i_ + 1][i_ + 1];
-    inverse_ = block.inverse(span.open_free_position(), span.open_free_slope());
-    c_ = {m[i_][j_], m[i_][j_ + 1], m[i_ + 1][j_], m[i_ + 1][j_ + 1]};
-  }
-
-  /// Adds what this side leaves on the joint; `force` is the nodal array with the span already reduced.
-  void eliminate(const double* force, Matrix& mass, Column& rhs) {
-    const auto& support = span_.support();
-    const auto& m = eq_.mass;
-    const auto& border = j_ == 2 ? eq_.mass_b : eq_.mass_a;
-    const Components h_r = support.into_frame(border[i_]).array(), h_s = support.into_frame(border[i_ + 1]).array();
-    const Components f_r = support.into_frame(position<D>(force, span_.open())).array();
-    const Components f_s = support.into_frame(slope<D>(force, span_.open())).array();
-    next_ = {inverse_.rr * c_.rr + inverse_.rs * c_.sr, inverse_.rr * c_.rs + inverse_.rs * c_.ss,
-             inverse_.rs * c_.rr + inverse_.ss * c_.sr, inverse_.rs * c_.rs + inverse_.ss * c_.ss};
-    next_x_r_ = inverse_.rr * h_r + inverse_.rs * h_s;
-    next_x_s_ = inverse_.rs * h_r + inverse_.ss * h_s;
-    y_r_ = inverse_.rr * f_r + inverse_.rs * f_s;
-    y_s_ = inverse_.rs * f_r + inverse_.ss * f_s;
-
-    add_block(mass, 0, 0, m[j_][j_] - (c_.rr * next_.rr + c_.sr * next_.sr));
-    add_block(mass, 0, Slope, m[j_][j_ + 1] - (c_.rr * next_.rs + c_.sr * next_.ss));
-    add_block(mass, Slope, Slope, m[j_ + 1][j_ + 1] - (c_.rs * next_.rs + c_.ss * next_.ss));
-    auto out = [&](const Components& a) { return support.out_of_frame(a.matrix()); };
-    mass.template block<D, 1>(0, x) += border[j_] - out(c_.rr * next_x_r_ + c_.sr * next_x_s_);
-    mass.template block<D, 1>(Slope, x) += border[j_ + 1] - out(c_.rs * next_x_r_ + c_.ss * next_x_s_);
-    mass(x, x) += (j_ == 2 ? eq_.mass_bb : eq_.mass_aa) - (h_r * next_x_r_).sum() - (h_s * next_x_s_).sum();
-    rhs.template segment<D>(0) -= out(c_.rr * y_r_ + c_.sr * y_s_);
-    rhs.template segment<D>(Slope) -= out(c_.rs * y_r_ + c_.ss * y_s_);
-    rhs(x) -= (h_r * y_r_).sum() + (h_s * y_s_).sum();
-  }
-
-  /// Acceleration of the open node, given the joint's, in place of its force.
-  void substitute(const Column& joint, double* force) const {
-    const auto& support = span_.support();
-    const Components a_r = support.into_frame(joint.template segment<D>(0)).array();
-    const Components a_s = support.into_frame(joint.template segment<D>(Slope)).array();
-    const double a_x = joint(x);
-    const Components x_r = y_r_ - (next_.rr * a_r + next_.rs * a_s) - next_x_r_ * a_x;
-    const Components x_s = y_s_ - (next_.sr * a_r + next_.ss * a_s) - next_x_s_ * a_x;
-    position<D>(force, span_.open()) = support.out_of_frame(x_r.matrix());
-    slope<D>(force, span_.open()) = support.out_of_frame(x_s.matrix());
-  }
-
- private:
-  void add_block(Matrix& mass, int row, int column, const Components& diagonal) const {
-    const auto& support = span_.support();
-    if (support.aligned) {
-      mass.template block<D, D>(row, column).diagonal() += diagonal.matrix();
-    } else {
-      mass.template block<D, D>(row, column) +=
-          support.frame * diagonal.matrix().asDiagonal() * support.frame.transpose();
-    }
-  }
-
-  const Span<D>& span_;
-  std::size_t j_, i_;
-  const MovingEquations<double, D>& eq_;
-  NodeBlock<D> inverse_;
-  CouplingBlock<double> c_;
-  CouplingBlock<Components> next_;
-  Components next_x_r_, next_x_s_, y_r_, y_s_;
-};
-
-/// Mass matrix of a joint's own unknowns, factored, and the conditions on their accelerations.
-template <int D, int Unknowns>
-class JointEquations {
- public:
-  using Matrix = Eigen::Matrix<double, Unknowns, Unknowns>;
-  using Column = Eigen::Matrix<double, Unknowns, 1>;
-
-  /// Conditions C'' = 0 on the slopes, which stand behind r; none with one slope.
-  JointEquations(const Matrix& mass, const SlidingJoint& joint, const JointMotion<D>& motion) : factor_(mass) {
-    if constexpr (Unknowns == 3 * D + 1) {
-      const SlopeConditions<D> conditions(joint.slopes, longest_axis<D>(motion.slopes.template head<D>()));
-      gradients_.setZero();
-      drift_.setZero();
-      for (int i = 0; i < conditions.count(); ++i) {
-        gradients_.col(i).template segment<2 * D>(D) = conditions.gradient(i, motion.slopes);
-        drift_[i] = conditions.rate(i, motion.slope_rates, motion.slope_rates);
-      }
-      response_ = factor_.solve(gradients_);
-      Square schur = gradients_.transpose() * response_;
-      for (int i = conditions.count(); i < most; ++i) schur(i, i) = 1;  // conditions there are none of
-      schur_inverse_ = schur.inverse();
-    }
-  }
-
-  bool positive_definite() const { return factor_.info() == Eigen::Success; }
-
-  /// Accelerations under the forces `f` of slopes that move, or of slopes at rest.
-  Column solve(const Column& f, bool moving) const {
-    Column a = factor_.solve(f);
-    if constexpr (Unknowns == 3 * D + 1) {
-      Few excess = gradients_.transpose() * a;
-      if (moving) excess += drift_;
-      a -= response_ * (schur_inverse_ * excess);
-    }
-    return a;
-  }
-
- private:
-  static constexpr int most = SlopeConditions<D>::most;
-  using Few = Eigen::Matrix<double, most, 1>;
-  using Square = Eigen::Matrix<double, most, most>;
-  using Columns = Eigen::Matrix<double, Unknowns, most>;
-
-  Eigen::LLT<Matrix, Eigen::Upper> factor_;
-  Columns gradients_, response_;
-  Few drift_;
-  Square schur_inverse_;
-};
-
-template <int D, bool Kinked>
-std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right,
-                                       const MovingEquations<double, D>& left_element,
-                                       const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
-                                       const JointMotion<D>& motion, double* force, double* joint_force) {
-  constexpr int unknowns = (Kinked ? 3 : 2) * D + 1, behind = (Kinked ? 2 : 1) * D, x = unknowns - 1;
-  using Equations = JointEquations<D, unknowns>;
-  using Column = typename Equations::Column;
-  const int node = left.open() + 1;
-  left.reduce(force);
-  right.reduce(force);
-  typename Equations::Matrix mass = Equations::Matrix::Zero();
-  Column rhs;
-  rhs.template segment<D>(0) = position<D>(force, node);
-  rhs.template segment<D>(D) = slope<D>(force, node);
-  if constexpr (Kinked) rhs.template segment<D>(behind) = Eigen::Map<const Vec<double, D>>(joint_force + 1);
-  rhs[x] = *joint_force;
-  mass.diagonal().template head<D>().array() += joint.mass;
-  JointSide<D, unknowns, D> left_side(left, left_element, 2);
-  JointSide<D, unknowns, behind> right_side(right, right_element, 0);
-  left_side.eliminate(force, mass, rhs);
-  right_side.eliminate(force, mass, rhs);
-  const Equations equations(mass, joint, motion);
-  if (!equations.positive_definite()) return std::nullopt;
-  Column a = equations.solve(rhs, true);
-  double dissipation = 0;
-  if (joint.friction) {
-    const Contact<double, D> contact((motion.slopes.template head<D>() + motion.slopes.template tail<D>()) / 2);
-    const double v = contact.stretch * motion.x_rate, share = joint.friction->share(v);
-    const Column by_friction = equations.solve(contact.stretch * Column::Unit(x), false);
-    const auto normal = normal_force<D>(contact.normal_part(joint.mass * (a.template head<D>() - motion.gravity)),
-                                        contact.normal_part(joint.mass * by_friction.template head<D>()), share);
-    if (!normal) return std::nullopt;
-    a -= share * *normal * by_friction;
-    dissipation = share * *normal * v;
-  }
-  left_side.substitute(a, force);
-  right_side.substitute(a, force);
-  position<D>(force, node) = a.template segment<D>(0);
-  slope<D>(force, node) = a.template segment<D>(D);
-  if constexpr (Kinked) Eigen::Map<Vec<double, D>>(joint_force + 1) = a.template segment<D>(behind);
-  *joint_force = a[x];
-  left.substitute(force);
-  right.substitute(force);
-  return dissipation;
-}
-
-}  // namespace detail
-
 /// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force`
 /// is the nodal array of forces and `joint_force` those on the joint's material coordinate and, where the joint is
 /// kinked, on the slope behind it (that of the node is the one before it); on return they are the accelerations. With
@@ -223,29 +38,10 @@ template <int D>
 std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right,
                                        const MovingEquations<double, D>& left_element,
                                        const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
-                                       const JointMotion<D>& motion, double* force, double* joint_force) {
-  const auto solve = joint.kinked() ? detail::solve_with_joint<D, true> : detail::solve_with_joint<D, false>;
-  return solve(left, right, left_element, right_element, joint, motion, force, joint_force);
-}
+                                       const JointMotion<D>& motion, double* force, double* joint_force);
 
 /// Solves M a = f of two spans that share their open node, in place.
 template <int D>
-void solve_without_joint(const Span<D>& left, const Span<D>& right, double* force) {
-  constexpr int unknowns = 2 * D;
-  left.reduce(force);
-  right.reduce(force);
-  Eigen::Matrix<double, unknowns, unknowns> mass = Eigen::Matrix<double, unknowns, unknowns>::Zero();
-  for (const Span<D>* span : {&left, &right}) {
-    const auto& frame = span->support().frame;
-    const auto& block = span->open_mass();
-    mass.template block<D, D>(0, 0) += frame * block.rr.matrix().asDiagonal() * frame.transpose();
-    mass.template block<D, D>(0, D) += frame * block.rs.matrix().asDiagonal() * frame.transpose();
-    mass.template block<D, D>(D, D) += frame * block.ss.matrix().asDiagonal() * frame.transpose();
-  }
-  Eigen::Map<Eigen::Matrix<double, unknowns, 1>> at_node(force + node_size<D> * left.open());
-  at_node = mass.template selfadjointView<Eigen::Upper>().llt().solve(at_node.eval());
-  left.substitute(force);
-  right.substitute(force);
-}
+void solve_without_joint(const Span<D>& left, const Span<D>& right, double* force);
 
 }  // namespace vlbeam

@@ -5,17 +5,9 @@
 #include <cstddef>
 
 #include "core/geometry/vec.hpp"
+#include "core/joint/joint_slopes.hpp"
 
 namespace vlbeam {
-
-/// What ties the beam's slopes on the two sides of a sliding joint (Ding & Ouyang 2022, Eq. 39-40; the operator of its
-/// "discontinuous slopes" is lost in print and may be that of `tangent` or of `equal_stretch`).
-enum class JointSlopes {
-  continuous,     ///< one slope vector
-  tangent,        ///< one direction, two magnitudes: r_x- x r_x+ = 0
-  equal_stretch,  ///< a kink between slopes of one magnitude, |r_x-| = |r_x+|: a frictionless slider on a cable
-  free,           ///< independent slopes: a hinge that moves and carries no moment
-};
 
 /// Conditions C(z) = 0 on the slopes z = (r_x-, r_x+) of a joint that has two. Each is a quadratic form with a constant
 /// matrix, C = z.H z/2, so that C' = z.H z' and C'' = z.H z'' + z'.H z'.

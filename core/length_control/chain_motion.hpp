@@ -29,11 +29,6 @@ PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, We
   return kinematics.at(u, rational_shape(kinematics.weights(), u));
 }
 
-/// Index of the element of `mesh` that holds x.
-inline int element_at(const Mesh& mesh, double x) {
-  return static_cast<int>(std::upper_bound(mesh.x.begin() + 1, mesh.x.end() - 1, x) - mesh.x.begin()) - 1;
-}
-
 /// The intervals between neighbouring nodes of either mesh, from `start` to `end`.
 inline std::vector<double> common_pieces(const Mesh& a, const Mesh& b, double start, double end) {
   std::vector<double> nodes, pieces;

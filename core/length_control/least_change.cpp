@@ -48,7 +48,7 @@ class Search {
         common_pieces(before.mesh, chain.mesh, x[static_cast<std::size_t>(first)], x[static_cast<std::size_t>(last)]);
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const double a = pieces[i], size = pieces[i + 1] - a;
-      const int from = element_at(before.mesh, a + size / 2), to = element_at(chain.mesh, a + size / 2);
+      const int from = before.mesh.element_at(a + size / 2), to = chain.mesh.element_at(a + size / 2);
       for (const auto& [u, weight] : gauss_legendre(points_a_piece)) {
         const double at = a + u * size;
         points_.push_back(

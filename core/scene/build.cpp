@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/scene/build_flow.hpp"
+#include "core/scene/build_loads.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/time_function.hpp"
 
@@ -248,6 +250,14 @@ BeamModel<D> build_model(const Scene& scene) {
                           control.hysteresis, merge_policy(scene),    !is_polynomial(scene.beam.element),
                           control.velocities, end_merge(scene)};
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
+  if (flows(scene)) return model;  // FlowingModel has the loads
+  BeamLoads<D> loads = build_loads<D>(scene);
+  model.loads = {std::move(loads.points), std::move(loads.line_force)};
+  const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
+  for (PointLoad<D>& load : model.loads.points) {
+    if (load.node < 0) continue;
+    load.x = [x = nodes[static_cast<std::size_t>(load.node)]](double) { return x; };  // the point that it marks now
+  }
   return model;
 }
 

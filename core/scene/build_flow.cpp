@@ -1,12 +1,12 @@
 #include "core/scene/build_flow.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "core/dynamics/stepper.hpp"
 #include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
+#include "core/scene/build_loads.hpp"
 #include "core/scene/time_function.hpp"
 #include "core/system/steady_flow.hpp"
 
@@ -37,31 +37,6 @@ std::vector<MeshMotion::Guide> build_guides(const Scene& scene) {
   return guides;
 }
 
-template <int D>
-PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis) {
-  const TimeFunction magnitude = time_function(spec.magnitude), x = time_function(spec.x);
-  PointLoad<D> load;
-  if (spec.at == LoadPlace::node) load.node = spec.node;
-  if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
-  auto size = [magnitude](double t) { return magnitude(t).value; };
-  if (spec.type == LoadType::follower) load.follower = size;
-  if (spec.type == LoadType::torque) load.torque = size;
-  if (spec.type == LoadType::force) {
-    const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
-    const TimeFunction turn = time_function(spec.turn);
-    load.force = [=](double t) -> Vec<double, D> {
-      const double angle = turn(t).value, c = std::cos(angle), s = std::sin(angle);
-      if constexpr (D == 2) {
-        return size(t) * Vec<double, D>(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]);
-      } else {
-        return size(t) *
-               (c * direction + s * axis.cross(direction) + (1 - c) * axis.dot(direction) * axis);  // Rodrigues
-      }
-    };
-  }
-  return load;
-}
-
 double initial_stretch(const Scene& scene) {
   if (!scene.flow) return 1;
   return stretch_under(scene.flow->tension, build_section(scene.beam).stiffness.EA, scene.beam.strain_law);
@@ -69,7 +44,9 @@ double initial_stretch(const Scene& scene) {
 
 }  // namespace
 
-bool keeps_ledger(const Scene& scene) { return scene.integrator.type != IntegratorType::generalized_alpha; }
+bool keeps_ledger(const Scene& scene) {
+  return !flows(scene) || scene.integrator.type != IntegratorType::generalized_alpha;
+}
 
 double initial_spin(const Scene& scene) {
   if (!scene.spin) return 0;
@@ -119,22 +96,11 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
       model.supports.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
     }
   }
-  for (const LoadSpec& spec : scene.loads) {
-    const PointLoad<D> load = build_load<D>(spec, along);
-    if (spec.at != LoadPlace::beam) {
-      model.loads.push_back(load);
-    } else if (load.torque) {
-      model.line_torque = [before = model.line_torque, torque = load.torque](double t) {
-        return torque(t) + (before ? before(t) : 0);
-      };
-    } else {
-      model.line_force = [before = model.line_force, force = load.force](double t) -> Vec<double, D> {
-        Vec<double, D> sum = force(t);
-        if (before) sum += before(t);
-        return sum;
-      };
-    }
-  }
+  BeamLoads<D> loads = build_loads<D>(scene);
+  model.loads = std::move(loads.points);
+  model.line_force = std::move(loads.line_force);
+  model.line_torque = std::move(loads.line_torque);
+  model.rest = beam.rest;
   model.ledger = keeps_ledger(scene);
   return model;
 }

@@ -8,8 +8,7 @@
 namespace vlbeam {
 
 /// Where the energy of a run came from and went [J]: change = supplied + at_events + at_contacts + unexplained, of the
-/// total that counts what is dissipated as still there. By a 25-point rule, independent of the model's own points; of a
-/// beam that spins, flows or bears loads, by the model's own.
+/// total that counts what is dissipated as still there. By a 25-point rule, independent of the model's own points.
 struct EnergyLedger {
   double change = 0;       ///< of the total, from the first sample to the last
   double supplied = 0;     ///< by supports that move, gravity that grows, loads, and through the ends

@@ -354,13 +354,11 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           beam.rest_shape);
   visitor(Option{.pointer = "/beam/strain_law", .unit = "", .description = "how stretch and curvature are measured"},
           beam.strain_law);
-  visitor(
-      Option{.pointer = "/beam/rotary_inertia",
-             .unit = "",
-             .description = "inertia of sections that turn as the beam bends, and that spin, too: for small slopes, "
-                            "in scenes with /spin, /flow or /loads",
-             .source = "Katz 2001"},
-      beam.rotary_inertia);
+  visitor(Option{.pointer = "/beam/rotary_inertia",
+                 .unit = "",
+                 .description = "inertia of sections that turn as the beam bends, and that spin, too: for small slopes",
+                 .source = "Katz 2001"},
+          beam.rotary_inertia);
   visitor(Option{.pointer = "/beam/quadrature_points",
                  .unit = "-",
                  .description = "Gauss points an element, 3 to 25; 0 takes the element's default",

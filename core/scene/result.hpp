@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/integrate.hpp"
+#include "core/dynamics/solver_counters.hpp"
 #include "core/length_control/event_type.hpp"
 #include "core/scene/scene.hpp"
 #include "core/system/energy.hpp"

@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/generalized_alpha.hpp"
-#include "core/dynamics/stepper.hpp"
+#include "core/dynamics/integrator_type.hpp"
+#include "core/element/angle_field.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
 #include "core/joint/at_support.hpp"
-#include "core/joint/friction.hpp"
-#include "core/joint/slope_conditions.hpp"
+#include "core/joint/axial_friction.hpp"
+#include "core/joint/joint_slopes.hpp"
 #include "core/length_control/merge_policy.hpp"
 #include "core/system/constraints.hpp"
-#include "core/system/spin_chain.hpp"
 
 namespace vlbeam {
 
@@ -215,8 +214,8 @@ struct OutputSpec {
   std::vector<double> configurations;  ///< times [s] at which the whole shape is kept
 };
 
-/// One beam, its supports, and at most one mass that slides on it; or a shaft that spins, flows through its supports or
-/// bears loads. SI units.
+/// One beam, its supports and loads, and at most one mass that slides on it; or a shaft that spins or flows through its
+/// supports. SI units.
 struct Scene {
   std::string title;
   SceneSetting setting = SceneSetting::standard;

@@ -31,7 +31,7 @@ void check(const Configuration& shape, int per_element) {
 template <int D>
 std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape, int per_element) {
   const BeamSection section = build_section(scene.beam);
-  const bool curved = !flows(scene) && has_rest_shape(scene);
+  const bool curved = has_rest_shape(scene);
   Configuration::Rest rest = shape.rest;
   if (curved && rest.r.empty()) {  // nodes that stand where they were built
     const Axis<D> axis = build_axis<D>(scene);

@@ -91,17 +91,28 @@ class Run {
       sample.strains = strain_sample(*seen.extremes);
       const OuterForces<D> forces = system_.forces(y, t);
       for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+      if (system_.model().loads.present()) sample.flow = flow_sample(y, t, seen);
       if (system_.mass_on_beam()) sample.joint = joint_sample(y, chain, forces.on_mass);
       const ConstraintResidual slopes = system_.slope_residual(y);
       result_.slopes.position = std::max(result_.slopes.position, slopes.position);
       result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
-      result_.max_energy_drift = std::max(
-          result_.max_energy_drift, std::abs(sample.discrete_total - sample.energy.supplied - first_total_ - jumps_));
+      const double supplied = sample.energy.supplied + seen.load_work;
+      result_.max_energy_drift =
+          std::max(result_.max_energy_drift, std::abs(sample.discrete_total - supplied - first_total_ - jumps_));
       result_.samples.push_back(std::move(sample));
     }
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  std::shared_ptr<const FlowSample> flow_sample(const Eigen::VectorXd& y, double t, const Observation<D>& seen) const {
+    FlowSample flow;
+    flow.mass = seen.mass;
+    const ChainView<D> beam = system_.view(y.data(), y.data() + system_.coordinates());
+    for (const auto& place : system_.model().loads.places(beam, t)) flow.loads.push_back(point_of<D>(place));
+    flow.ledger = {.mass = 0, .ends = 0, .loads = seen.load_work, .mesh = 0};
+    return std::make_shared<const FlowSample>(std::move(flow));
   }
 
   /// Material coordinate of the mass, while it is on the beam.

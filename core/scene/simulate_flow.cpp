@@ -55,18 +55,17 @@ class FlowRun {
   }
 
   void sample(const Eigen::VectorXd& y, double t) {
-    const FlowObservation<D> seen = beam_.observe(y, t);
+    const Observation<D> seen = beam_.observe(y, t, ledger_points, true);
     Sample sample;
     sample.t = t;
     sample.end = point_of<D>(position<D>(y.data(), beam_.elements()));
     sample.beam_length = seen.beam_length;
     sample.beam_length_rate = seen.beam_length_rate;
     sample.energy = seen.energy;
-    sample.discrete_total = seen.energy.total();
-    sample.energy.supplied = beam_.ramp_work(t, seen);
+    sample.discrete_total = beam_.observe(y, t).energy.total();
     sample.momentum = point_of<D>(seen.momentum);
     sample.angular_momentum = point_of<3>(seen.angular_momentum);
-    sample.strains = strain_sample(seen.extremes);
+    sample.strains = strain_sample(*seen.extremes);
     FlowSample flow;
     flow.mass = seen.mass;
     if (beam_.model().spin) {

@@ -8,6 +8,7 @@
 #include "core/geometry/nurbs.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
+#include "core/scene/build_loads.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/time_function.hpp"
 #include "core/scene/validate_flow.hpp"
@@ -298,6 +299,10 @@ void check_energy_momentum(const Scene& scene) {
     refuse("/beam/rest_shape", quoted(to_string(scene.beam.rest_shape)),
            "\"energy-momentum\" measures strains from a straight beam: take \"paper\", or another integrator");
   }
+  if (!scene.loads.empty()) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it keeps an energy that loads change: take any other integrator");
+  }
   if (!scene.sliding_mass) return;
   if (scene.formulation != Formulation::variational) {
     refuse("/formulation", quoted(to_string(scene.formulation)),
@@ -360,10 +365,44 @@ void check_support_motion(const Scene& scene) {
       refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
              "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
     }
-    if (flows(scene)) refuse(at, "this key", "it goes together with neither /spin, /flow nor /loads");
+    if (flows(scene)) refuse(at, "this key", "it goes together with neither /spin, /flow nor rotary inertia");
   };
   check("/supports/at=start/motion", scene.start);
   check("/supports/at=end/motion", scene.end);
+}
+
+void check_loads(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadSpec& load = scene.loads[i];
+    const std::string at = "/loads/" + std::to_string(i);
+    if (load.at == LoadPlace::node && load.node > scene.beam.elements) {
+      refuse(at + "/node", std::to_string(load.node),
+             "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
+    }
+    if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
+      refuse(at + "/at", quoted(to_string(load.at)), "a follower is at a \"node\" or a \"point\"");
+    }
+    if (load.type == LoadType::force && load.direction == Point{}) {
+      refuse(at + "/direction", "a vector of zeros", "it must have a direction");
+    }
+    if (load.type == LoadType::torque && !scene.spin) {
+      refuse("/spin", "a missing key",
+             at + " is a torque, which turns the section about the axis: it needs this object");
+    }
+    const TimeSpec& size = load.magnitude;
+    if (size.value == 0 && size.rate == 0 && size.acceleration == 0 && size.amplitude == 0) {
+      refuse(at + "/magnitude", "zero at all times", "give its value, rate, acceleration or amplitude");
+    }
+  }
+}
+
+/// Loads on a beam whose nodes rest, or all of which but one do.
+template <int D>
+void check_load_places(const Scene& scene) {
+  const double length = beam_length(scene);
+  check_places<D>(build_loads<D>(scene).points, scene.duration, 1e-9 * standard_length(scene), [length](double) {
+    return std::pair{0.0, length};
+  });
 }
 
 void check_output(const Scene& scene) {
@@ -404,11 +443,11 @@ void validate(const Scene& scene) {
   check_energy_momentum(scene);
   check_support_motion(scene);
   check_output(scene);
+  check_loads(scene);
   if (flows(scene)) {
     validate_flow(scene);
-  } else if (scene.beam.rotary_inertia != BendingInertia::none) {
-    refuse("/beam/rotary_inertia", quoted(to_string(scene.beam.rotary_inertia)),
-           "without /spin, /flow and /loads it must be \"none\"");
+  } else if (!scene.loads.empty()) {
+    scene.dimension == 2 ? check_load_places<2>(scene) : check_load_places<3>(scene);
   }
 }
 

@@ -26,10 +26,11 @@ std::string quoted(E value) {
 
 void check_parts(const Scene& scene) {
   if (scene.sliding_mass) {
-    refuse("/sliding_mass", "this key", "it goes together with neither /spin, /flow nor /loads");
+    refuse("/sliding_mass", "this key", "it goes together with neither /spin, /flow nor rotary inertia");
   }
   if (scene.beam.curve.type != CurveType::line) {
-    refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /spin, /flow or /loads it must be \"line\"");
+    refuse("/beam/curve/type", quoted(scene.beam.curve.type),
+           "with /spin, /flow or rotary inertia it must be \"line\"");
   }
   const auto& section = scene.beam.section;
   const BendingInertia rotary = scene.beam.rotary_inertia;
@@ -47,10 +48,10 @@ void check_parts(const Scene& scene) {
   const IntegratorType type = scene.integrator.type;
   if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum || of_sundials(type)) {
     refuse("/integrator/type", quoted(type),
-           "with /spin, /flow or /loads take an explicit method of Odeint or \"generalized-alpha\"");
+           "with /spin, /flow or rotary inertia take an explicit method of Odeint or \"generalized-alpha\"");
   }
   if (scene.constraints != Constraints::eliminated) {
-    refuse("/constraints", quoted(scene.constraints), "with /spin, /flow or /loads it must be \"eliminated\"");
+    refuse("/constraints", quoted(scene.constraints), "with /spin, /flow or rotary inertia it must be \"eliminated\"");
   }
 }
 
@@ -84,31 +85,6 @@ void check_guides(const Scene& scene) {
   }
 }
 
-void check_loads(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    const LoadSpec& load = scene.loads[i];
-    const std::string at = "/loads/" + std::to_string(i);
-    if (load.at == LoadPlace::node && load.node > scene.beam.elements) {
-      refuse(at + "/node", std::to_string(load.node),
-             "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
-    }
-    if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
-      refuse(at + "/at", quoted(load.at), "a follower is at a \"node\" or a \"point\"");
-    }
-    if (load.type == LoadType::force && load.direction == Point{}) {
-      refuse(at + "/direction", "a vector of zeros", "it must have a direction");
-    }
-    if (load.type == LoadType::torque && !scene.spin) {
-      refuse("/spin", "a missing key",
-             at + " is a torque, which turns the section about the axis: it needs this object");
-    }
-    const TimeSpec& size = load.magnitude;
-    if (size.value == 0 && size.rate == 0 && size.acceleration == 0 && size.amplitude == 0) {
-      refuse(at + "/magnitude", "zero at all times", "give its value, rate, acceleration or amplitude");
-    }
-  }
-}
-
 template <int D>
 void check_model(const Scene& scene) {
   const FlowingBeam<D> beam(build_flowing_model<D>(scene));
@@ -130,7 +106,6 @@ void check_model(const Scene& scene) {
 void validate_flow(const Scene& scene) {
   check_parts(scene);
   check_guides(scene);
-  check_loads(scene);
   scene.dimension == 2 ? check_model<2>(scene) : check_model<3>(scene);
 }
 

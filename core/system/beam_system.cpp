@@ -106,7 +106,7 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y.segment<D>(behind_) = chain.kink->slope;
     y.segment<D>(coordinates_ + behind_) = chain.kink->rate;
   }
-  const Eigen::Index tallies = y.size() - 2 * coordinates_;
+  const Eigen::Index tallies = model_.tallies().count();
   if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
   return y;
 }
@@ -329,12 +329,13 @@ double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
   Eigen::VectorXd exact = y;
   impose(exact, t);
   const double *q = exact.data(), *rate = q + coordinates_;
-  const Vector g = gravity(t);
+  const Vector on_beam = beam_gravity(t);
   Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
-  left_->add_forces(q, rate, g, a.data());
-  right_->add_forces(q, rate, g, a.data());
+  left_->add_forces(q, rate, on_beam, a.data());
+  right_->add_forces(q, rate, on_beam, a.data());
+  model_.loads.add_forces(view(q, rate), t, a.data());
   solve_apart(t, a.data());
-  const auto solved = solve_rider(rider_motion(q, rate), g, a.data());
+  const auto solved = solve_rider(rider_motion(q, rate), gravity(t), a.data());
   return solved ? solved->contact : 0;
 }
 
@@ -351,8 +352,13 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   dydt.head(coordinates_) = Eigen::Map<const Eigen::VectorXd>(rate, coordinates_);
   dydt.tail(dydt.size() - coordinates_).setZero();
   double* force = dydt.data() + coordinates_;
-  const Vector g = gravity(t);
-  double dissipation = left_->add_forces(q, rate, g, force) + right_->add_forces(q, rate, g, force);
+  const Vector g = gravity(t), on_beam = beam_gravity(t);
+  Tally power;
+  power.dissipated = left_->add_forces(q, rate, on_beam, force) + right_->add_forces(q, rate, on_beam, force);
+  if (model_.loads.present()) {
+    const ChainView<D> beam = view(q, rate);
+    power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
+  }
   std::optional<Pull> pull;  // of moving supports
 
   if (has_joint()) {
@@ -363,14 +369,14 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     position<D>(force, joint_) += before.force[2] + behind.force[0] + model_.joint->mass * g;
     if (kinked()) {
       slope<D>(force, joint_) += before.force[3];
-      Eigen::Map<Vector>(force + behind_) = behind.force[1];
+      Eigen::Map<Vector>(force + behind_) += behind.force[1];
     } else {
       slope<D>(force, joint_) += before.force[3] + behind.force[1];
     }
     position<D>(force, joint_ + 1) += behind.force[2];
     slope<D>(force, joint_ + 1) += behind.force[3];
-    force[nodal_] = before.force_b + behind.force_a;
-    dissipation += before.dissipation + behind.dissipation;
+    force[nodal_] += before.force_b + behind.force_a;
+    power.dissipated += before.dissipation + behind.dissipation;
     if (driven) pull.emplace(*this, &at_joint, force, t);
     const auto friction = solve_with_joint(*left_, *right_, before, behind, *model_.joint, joint_motion(q, rate, t),
                                            force, force + nodal_);
@@ -378,7 +384,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
       return;
     }
-    dissipation += *friction;
+    power.dissipated += *friction;
     if (driven) pull->complete(force);
   } else {
     pull = solve_apart(t, force);
@@ -390,13 +396,13 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
         return;
       }
       force[nodal_] = solved->x;
-      dissipation += solved->dissipation;
+      power.dissipated += solved->dissipation;
       if (driven) pull->add_rider(solved->force, at.s);
     }
     if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
   }
-  if (model_.dissipates()) dydt[2 * coordinates_] = dissipation;
-  if (driven) dydt[dydt.size() - 1] = pull->power(force);
+  if (driven) power.supports = pull->power(force);
+  model_.tallies().add(power, dydt);
 }
 
 template <int D>
@@ -422,63 +428,34 @@ OuterForces<D> BeamSystem<D>::forces(const Eigen::VectorXd& y, double t) {
 template <int D>
 void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                                      Observation<D>& seen) const {
-  const auto& rule = gauss_legendre(points);
-  const ShapeTabulation polynomial(rule, unit_weights);
-  const MovingLaw<D> moving = moving_law(t);
-  const double rhoA = model_.section.rhoA;
+  const Observer<D> observer(model_.section, gravity(t), points);
   for (int k = first; k < last; ++k) {
-    const WeightFunction& weights = chain.mesh.weights[static_cast<std::size_t>(k)];
     const bool at_joint = chain.joint != no_joint && (k == chain.joint || k + 1 == chain.joint);
-    const auto q = chain.coordinates(k), rate = chain.rates(k);
-    const MovingKinematics<double, D> kinematics(q, rate, at_joint ? moving.transport : WeightTransport::frozen,
-                                                 weights);
-    const bool unit = weights.w == unit_weights;
-    const auto table = unit ? polynomial : ShapeTabulation(rule, kinematics.weights());
-    const auto& section = model_.section;
-    struct Seen {
-      PointMotion<double, D> at;
-      RestStrain<double> strain;
-      const RestStrain<double>* rest() const { return curved ? &strain : nullptr; }
-      bool curved;
-    };
-    const auto see = [&](double u, const ShapeTable<double>& shape) {
-      Seen point{kinematics.at(u, shape), {}, chain.curved_at_rest()};
-      if (!point.curved) return point;
-      const auto rest = chain.rest_nodes(k);
-      point.strain = rest_strain<D>(combine_nodes(point.at.s_x, rest), combine_nodes(point.at.s_xx, rest), section);
-      return point;
-    };
-    const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
-    for_each_point(kinematics, table, false, none, see, [&](const auto& point, const Seen& look, const auto*) {
-      const double wl = point.weight;
-      const auto& at = look.at;
-      if (look.curved) {
-        const RestStress<double, D> stress(at.r_x, at.r_xx, look.strain, section);
-        seen.energy.axial += wl * stress.axial;
-        seen.energy.bending += wl * stress.bending;
-      } else {
-        const ElasticStress<double, D> stress(at.r_x, at.r_xx, section.stiffness);
-        seen.energy.axial += wl * stress.axial;
-        seen.energy.bending += wl * stress.bending;
-      }
-      seen.energy.kinetic += 0.5 * wl * rhoA * at.v.squaredNorm();
-      seen.energy.gravity -= wl * rhoA * moving.gravity.dot(at.r);
-      seen.momentum += wl * rhoA * at.v;
-      seen.angular_momentum += wl * rhoA * moment_about_origin<D>(at.r, at.v);
-      seen.mass_moment += wl * rhoA * at.r;
-      if (seen.extremes) seen.extremes->add(section, at, look.rest());
-      const double stretch = at.r_x.norm();
-      seen.beam_length += wl * stretch;
-      // at a fixed reference point, which moves along the beam
-      seen.beam_length_rate +=
-          wl * at.r_x.dot(at.v_x + point.mesh_velocity * at.r_xx) / stretch + point.weight_rate * stretch;
-    });
-    if (!seen.extremes) continue;
-    for (const double u : {0.0, 1.0}) {
-      const Seen look = see(u, rational_shape(kinematics.weights(), u));
-      seen.extremes->add(section, look.at, look.rest());
+    const MovingKinematics<double, D> element(chain.coordinates(k), chain.rates(k),
+                                              at_joint ? model_.transport : WeightTransport::frozen,
+                                              chain.mesh.weights[static_cast<std::size_t>(k)]);
+    if (chain.curved_at_rest()) {
+      const NodalCubic<double, D> rest = chain.rest_nodes(k);
+      observer.add(element, &rest, seen);
+    } else {
+      observer.add(element, nullptr, seen);
     }
   }
+}
+
+template <int D>
+double BeamSystem<D>::line_power(const ChainView<D>& beam, double t) const {
+  if (!model_.loads.line_force) return 0;
+  const Eigen::Index shift = beam.cut ? node_size<D> : 0;
+  const double rhoA = model_.section.rhoA;
+  Vector sum = (left_->first_moment(beam.rate) + right_->first_moment(beam.rate + shift)) / rhoA;
+  if (has_joint()) {
+    for (const int k : {joint_ - 1, joint_}) {
+      const bool reshaped = model_.transport == WeightTransport::transported && beam.weights(k).w != unit_weights;
+      sum += swept(beam.kinematics(k), k < joint_ ? left_table_ : right_table_, reshaped, model_.formulation);
+    }
+  }
+  return model_.loads.line_force(t).dot(sum);
 }
 
 template <int D>
@@ -494,8 +471,10 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     seen.angular_momentum += m * moment_about_origin<D>(mass->r, mass->v);
     seen.mass_moment += m * mass->r;
   }
-  if (model_.dissipates()) seen.energy.dissipated = y[2 * coordinates_];
-  if (model_.driven()) seen.energy.supplied = y[y.size() - 1];
+  const Tally counted = model_.tallies().of(y);
+  seen.energy.dissipated = counted.dissipated;
+  seen.load_work = counted.loads;
+  seen.energy.supplied = counted.supports;
   seen.energy.supplied += ramp_.until(t, {seen.mass_moment, seen.momentum});
   return seen;
 }

@@ -6,15 +6,16 @@
 
 #include "core/beam/support_motion.hpp"
 #include "core/dynamics/integrate.hpp"
+#include "core/dynamics/tallies.hpp"
 #include "core/geometry/axis.hpp"
 #include "core/joint/at_support.hpp"
 #include "core/joint/rider.hpp"
 #include "core/length_control/event_type.hpp"
 #include "core/length_control/length_control.hpp"
+#include "core/parts/loads.hpp"
 #include "core/system/constraints.hpp"
-#include "core/system/energy.hpp"
+#include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
-#include "core/system/strain_extremes.hpp"
 
 namespace vlbeam {
 
@@ -30,6 +31,7 @@ struct BeamModel {
   Support<D> start, end;
   SupportMotion<D> start_motion, end_motion;
   bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
+  Loads<D> loads;
   std::optional<SlidingJoint> joint;
   double separation_distance = 0;  ///< [m]
   Impact at_support;               ///< where the mass may not leave
@@ -39,25 +41,12 @@ struct BeamModel {
   /// straight, unstrained rest shape.
   std::shared_ptr<const Axis<D>> rest;
 
-  /// Whether energy is lost, which the state then counts.
+  /// Whether energy is lost.
   bool dissipates() const { return section.damped() || (joint && joint->friction); }
-  /// Whether supports move, and so do work, which the state then counts.
+  /// Whether supports move, and so do work.
   bool driven() const { return start_motion || end_motion; }
-};
-
-/// Gauss points an element of what is reported of a run, whatever the model's own are.
-inline constexpr int ledger_points = 25;
-
-/// Quantities of the whole system at one instant.
-template <int D>
-struct Observation {
-  Energy energy;
-  double beam_length = 0;                                    ///< [m]
-  double beam_length_rate = 0;                               ///< [m/s]
-  Vec<double, D> momentum = Vec<double, D>::Zero();          ///< [kg m/s]
-  Vec<double, 3> angular_momentum = Vec<double, 3>::Zero();  ///< about the origin [kg m^2/s]
-  Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
-  std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
+  /// The energies that the state counts.
+  Tallies tallies() const { return {dissipates(), loads.present(), driven()}; }
 };
 
 /// Forces between the beam and what it is connected to, at one instant.
@@ -89,11 +78,10 @@ template <int D>
 class ImplicitBeam;
 
 /// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
-/// State y = (q, q', dissipated, supplied): q holds the nodes (position and slope each) and then x_i of the joint and,
+/// State y = (q, q', tallies): q holds the nodes (position and slope each) and then x_i of the joint and,
 /// where the joint is kinked, the slope behind it, or x of a mass that rides inside an end element, or the free mass's
-/// position once it has left; the dissipated energy
-/// is there only where the model dissipates, the work of supports only where they move. What a support drives stands in
-/// the state too, but is read from its motion, wherever it counts.
+/// position once it has left; the tallies are those of BeamModel::tallies(). What a support drives stands in the state
+/// too, but is read from its motion, wherever it counts.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
@@ -104,9 +92,7 @@ class BeamSystem final : public EventedOde {
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
   ~BeamSystem() override;
 
-  Eigen::Index size() const override {
-    return 2 * coordinates_ + (model_.dissipates() ? 1 : 0) + (model_.driven() ? 1 : 0);
-  }
+  Eigen::Index size() const override { return 2 * coordinates_ + model_.tallies().count(); }
   std::vector<FieldRun> fields() const override;
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
@@ -124,6 +110,18 @@ class BeamSystem final : public EventedOde {
   const BeamModel<D>& model() const { return model_; }
   /// Gravity at time t [m/s^2].
   Vector gravity(double t) const { return model_.gravity * smooth_ramp(t, model_.gravity_ramp).value; }
+  /// What acts on the beam's mass as gravity does: that, and the load along the beam [m/s^2].
+  Vector beam_gravity(double t) const {
+    Vector sum = gravity(t);
+    if (model_.loads.line_force) sum += model_.loads.line_force(t) / model_.section.rhoA;
+    return sum;
+  }
+  /// The beam with coordinates q and their rates, arrays like those of the state.
+  ChainView<D> view(const double* q, const double* rate) const {
+    return {mesh_, model_.transport, q, rate, joint_, nodal_, kinked() ? behind_ : -1};
+  }
+  /// Power of the load along the beam [W].
+  double line_power(const ChainView<D>& beam, double t) const;
   Eigen::VectorXd initial_state() const { return initial_; }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
     second_order()->jacobian(y, t, dfdy, dfdt);
@@ -179,7 +177,9 @@ class BeamSystem final : public EventedOde {
   /// Shape functions of the two elements at the joint.
   const ShapeTabulation& left_table() const { return left_table_; }
   const ShapeTabulation& right_table() const { return right_table_; }
-  MovingLaw<D> moving_law(double t) const { return {model_.section, model_.formulation, model_.transport, gravity(t)}; }
+  MovingLaw<D> moving_law(double t) const {
+    return {model_.section, model_.formulation, model_.transport, beam_gravity(t)};
+  }
   /// The rest shape of the two elements at the joint, which is at x; nothing if it is straight.
   struct JointRest {
     RestElement<D> left, right;

@@ -139,7 +139,7 @@ void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
   auto strike = [&](double restitution) {
     auto rate = y.segment(coordinates_, coordinates_);
     const double change = -(1 + restitution) * rate[nodal_] / answer[nodal_];
-    if (model_.driven()) y[y.size() - 1] += change * (momentum.dot(rate) - momentum[nodal_] * rate[nodal_]);
+    model_.tallies().add({.supports = change * (momentum.dot(rate) - momentum[nodal_] * rate[nodal_])}, y);
     rate += change * answer;
   };
   bool rests = impact.law == AtSupport::rest || impact.restitution == 0;
@@ -200,7 +200,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
           .total();
 
   const Eigen::VectorXd momenta_before = momenta(y, t);
-  const double work_before = model_.driven() ? y[y.size() - 1] : 0;
+  const double work_before = model_.tallies().of(y).supports;
 
   const auto mass = mass_motion(y);
   switch (type) {
@@ -268,9 +268,10 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     record.discrete_jump = energies(record.after, model_.quadrature_points).total() - own_before;
   }
   if (model_.driven()) {  // what supports do in an impact is no jump
-    record.jump.kinetic -= y[y.size() - 1] - work_before;
-    record.jump.supplied -= y[y.size() - 1] - work_before;
-    record.discrete_jump -= y[y.size() - 1] - work_before;
+    const double work = model_.tallies().of(y).supports - work_before;
+    record.jump.kinetic -= work;
+    record.jump.supplied -= work;
+    record.discrete_jump -= work;
   }
   if (!leaving) record.momentum_jump = momenta(y, t) - momenta_before;
   if (ramped) ramp_.restart(t, moment(y, t));

@@ -181,15 +181,24 @@ MovingLaw<D> FlowingBeam<D>::law(double t) const {
 }
 
 template <int D>
+std::optional<RestElement<D>> FlowingBeam<D>::rest_of(int k) const {
+  if (!model_.rest) return std::nullopt;
+  const double a = nodes_[static_cast<std::size_t>(k)].value, b = nodes_[static_cast<std::size_t>(k) + 1].value;
+  return RestElement<D>{{a, model_.rest->derivatives(a)}, {b, model_.rest->derivatives(b)}};
+}
+
+template <int D>
 bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
   ++rhs_evaluations_;
   model_.motion.at(t, nodes_);
   for (std::size_t k = 0; k < elements_.size(); ++k) {
     if (!(nodes_[k + 1].value - nodes_[k].value > 0)) return false;
   }
-  const MovingLaw<D> moving = law(t);
+  MovingLaw<D> moving = law(t);
   for (int k = 0; k < elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
+    const auto rest = rest_of(k);
+    moving.rest = rest ? &*rest : nullptr;
     elements_[i] = moving_equations<double, D>(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
                                                weights(k), tables_[i], moving);
   }
@@ -287,7 +296,7 @@ template <int D>
 void FlowingBeam<D>::add_loads(const double* q, const double* rate, double t, double* f) const {
   for (const PointLoad<D>& load : model_.loads) {
     const Loaded at = loaded(load, q, rate, t);
-    const Vector force = force_of(load, at.axis.r_x, t);
+    const Vector force = load.force_on(at.axis.r_x, t);
     position<D>(f, at.element) += at.axis.s[0] * force;
     slope<D>(f, at.element) += at.axis.s[1] * force;
     position<D>(f, at.element + 1) += at.axis.s[2] * force;
@@ -304,14 +313,6 @@ void FlowingBeam<D>::add_loads(const double* q, const double* rate, double t, do
     const double l = nodes_[static_cast<std::size_t>(k) + 1].value - nodes_[static_cast<std::size_t>(k)].value;
     spin_->scatter(k, {torque * l / 2, torque * l * l / 12, torque * l / 2, -torque * l * l / 12}, f + nodal_);
   }
-}
-
-template <int D>
-Vec<double, D> FlowingBeam<D>::force_of(const PointLoad<D>& load, const Vector& tangent, double t) {
-  Vector force = Vector::Zero();
-  if (load.force) force += load.force(t);
-  if (load.follower) force += load.follower(t) * tangent.normalized();
-  return force;
 }
 
 template <int D>
@@ -438,7 +439,7 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
   for (const PointLoad<D>& load : model_.loads) {
     // on the material point: what is along the beam goes into the motion of the nodes, not into the matter
     const Loaded at = loaded(load, q, rate, t);
-    const Vector force = force_of(load, at.axis.r_x, t);
+    const Vector force = load.force_on(at.axis.r_x, t);
     const double torque = load.torque ? load.torque(t) : 0;
     loads += force.dot(at.axis.v) + torque * at.angle.spin;
     const std::array<double, 2> along{force.dot(at.axis.y_a) + torque * at.angle.by_a,
@@ -559,18 +560,11 @@ void FlowingBeam<D>::check_motion(double until) const {
                            " has no length left at t = " + text(tangle->t) + " s",
                        "material coordinates must increase from node to node until the end, t = " + text(until) + " s");
   }
-  constexpr int instants = 2000;
   std::vector<Prescribed> nodes;
-  for (const PointLoad<D>& load : model_.loads) {
-    for (int i = 0; load.x && i <= instants; ++i) {
-      const double t = until * i / instants, x = load.x(t), slack = 1e-9 * reference_length_;
-      model_.motion.at(t, nodes);
-      if (x >= nodes.front().value - slack && x <= nodes.back().value + slack) continue;
-      throw InvalidInput("/loads", "one at the material coordinate " + text(x) + " m at t = " + text(t) + " s",
-                         "it must be a point of the beam, " + text(nodes.front().value) + " to " +
-                             text(nodes.back().value) + " m at that time");
-    }
-  }
+  check_places<D>(model_.loads, until, 1e-9 * reference_length_, [&](double t) {
+    model_.motion.at(t, nodes);
+    return std::pair{nodes.front().value, nodes.back().value};
+  });
 }
 
 template <int D>
@@ -590,40 +584,27 @@ Eigen::VectorXd FlowingBeam<D>::straight_state(const Vector& start, const Vector
 }
 
 template <int D>
-FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) const {
-  FlowObservation<D> seen;
+Observation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t, int points, bool strains) const {
+  Observation<D> seen;
+  if (strains) seen.extremes.emplace();
   const double* q = y.data();
   const double* rate = q + coordinates();
   model_.motion.at(t, nodes_);
   const Vector gravity = model_.gravity * smooth_ramp(t, model_.gravity_ramp).value;
+  const Observer<D> observer(model_.section, gravity, points, model_.rotary.present() ? &model_.rotary : nullptr);
   for (int k = 0; k < elements(); ++k) {
-    const MovingKinematics<double, D> kinematics(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
-                                                 model_.transport, weights(k));
-    for (const auto& [u, w] : tables_[static_cast<std::size_t>(k)].rule) {
-      const PointMotion<double, D> at = kinematics.at(u, rational_shape(kinematics.weights(), u));
-      const double length = w * kinematics.length(), mass = length * model_.section.rhoA;
-      const ElasticStress<double, D> elastic(at.r_x, at.r_xx, model_.section.stiffness);
-      seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm() +
-                             0.5 * length * model_.rotary.rhoJ * model_.rotary.across(at.v_x).squaredNorm();
-      seen.energy.axial += length * elastic.axial;
-      seen.energy.bending += length * elastic.bending;
-      seen.energy.gravity -= mass * gravity.dot(at.r);
-      seen.mass += mass;
-      seen.momentum += mass * at.v;
-      seen.angular_momentum += mass * moment_about_origin<D>(at.r, at.v);
-      seen.mass_moment += mass * at.r;
-      seen.extremes.add(model_.section, at, nullptr);
-      const double stretch = at.r_x.norm();
-      seen.beam_length += length * stretch;
-      seen.beam_length_rate += length * at.r_x.dot(at.v_x) / stretch;
-    }
-    for (const double u : {0.0, 1.0}) {
-      seen.extremes.add(model_.section, kinematics.at(u, rational_shape(kinematics.weights(), u)), nullptr);
+    const MovingKinematics<double, D> element(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
+                                              model_.transport, weights(k));
+    if (const auto rest = rest_of(k)) {
+      const NodalCubic<double, D> nodes{rest->a.curve[0], rest->a.curve[1], rest->b.curve[0], rest->b.curve[1]};
+      observer.add(element, &nodes, seen);
+    } else {
+      observer.add(element, nullptr, seen);
     }
     if (!spin_) continue;
     const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value),
                                  rates = spin_of(rate, k, &Prescribed::rate);
-    for (const auto& [u, w] : spin_->rule()) {
+    for (const auto& [u, w] : gauss_legendre(points)) {
       const SpinChain::Point at = spin_->at(angles, rates, u);
       const double length = w * (angles.x_b - angles.x_a);
       seen.energy.kinetic += 0.5 * length * model_.spin->rhoIp * at.spin * at.spin;
@@ -631,9 +612,8 @@ FlowObservation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t) c
       seen.spin_momentum += length * model_.spin->rhoIp * at.spin;
     }
   }
-  seen.beam_length_rate += nodes_.back().rate * slope<D>(q, elements()).norm();
-  seen.beam_length_rate -= nodes_.front().rate * slope<D>(q, 0).norm();
   if (y.size() > 2 * coordinates()) seen.energy.dissipated = y[y.size() - 1];
+  seen.energy.supplied = ramp_.until(t, {seen.mass_moment, seen.momentum});
   return seen;
 }
 

@@ -10,11 +10,11 @@
 #include "core/beam/support.hpp"
 #include "core/dynamics/integrate.hpp"
 #include "core/element/driven_tangent.hpp"
-#include "core/element/rotary_inertia.hpp"
-#include "core/system/energy.hpp"
+#include "core/geometry/axis.hpp"
+#include "core/parts/loads.hpp"
+#include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
 #include "core/system/spin_chain.hpp"
-#include "core/system/strain_extremes.hpp"
 
 namespace vlbeam {
 
@@ -29,16 +29,6 @@ struct NodeSupport {
 struct DrivenAngle {
   int node;
   TimeFunction theta;
-};
-
-/// Concentrated loads on one material point, each a function of time; those that are empty are absent.
-template <int D>
-struct PointLoad {
-  int node = -1;                                       ///< at which the point is; if negative, it is at
-  std::function<double(double t)> x = {};              ///< this material coordinate [m], which may travel over nodes
-  std::function<Vec<double, D>(double t)> force = {};  ///< [N], of a direction of its own
-  std::function<double(double t)> follower = {};       ///< [N], along the tangent of the axis
-  std::function<double(double t)> torque = {};         ///< [N m], about the axis; needs spin
 };
 
 /// What a flowing beam is made of and which choices its equations follow.
@@ -60,6 +50,8 @@ struct FlowingModel {
   std::vector<PointLoad<D>> loads = {};
   std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
   std::function<double(double t)> line_torque = {};         ///< on the whole beam [N m/m]; needs spin
+  /// What the nodes of the rest shape follow, by arc length; null for a straight, unstrained one.
+  std::shared_ptr<const Axis<D>> rest = nullptr;
   bool ledger = false;  ///< the state holds what crossed the boundary; for methods of first-order equations
 };
 
@@ -76,20 +68,6 @@ struct FlowLedger {
 
   /// Energy that has come in less what damping has taken.
   double energy() const { return ends + loads + mesh - dissipated; }
-};
-
-/// Quantities of a flowing beam at one instant.
-template <int D>
-struct FlowObservation {
-  Energy energy;
-  double mass = 0;                                           ///< between the end nodes [kg]
-  double beam_length = 0;                                    ///< of the deformed axis [m]
-  double beam_length_rate = 0;                               ///< [m/s], by stretching and by inflow
-  double spin_momentum = 0;                                  ///< about the axis [N m s]
-  Vec<double, D> momentum = Vec<double, D>::Zero();          ///< [N s]
-  Vec<double, 3> angular_momentum = Vec<double, 3>::Zero();  ///< of the axis about the origin [N m s]
-  Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
-  StrainExtremes extremes;                                   ///< at the points of the rule and the elements' ends
 };
 
 /// Forces and torques from outside the beam that hold it, at one instant.
@@ -136,7 +114,7 @@ class FlowingBeam final : public EventedOde {
   }
   bool proceed(const Eigen::VectorXd& y, double t) override {
     if (ramp_.due(t)) {
-      const FlowObservation<D> seen = observe(y, t);
+      const Observation<D> seen = observe(y, t);
       ramp_.advance(t, {seen.mass_moment, seen.momentum});
     }
     return !on_step || on_step(t);
@@ -160,15 +138,14 @@ class FlowingBeam final : public EventedOde {
   Eigen::VectorXd straight_state(const Vector& start, const Vector& along, double stretch, double velocity, double spin,
                                  double t = 0) const;
 
-  /// Energies, mass and momenta by the model's own points.
-  FlowObservation<D> observe(const Eigen::VectorXd& y, double t) const;
+  /// Energies, mass, momenta and length, summed with `points` Gauss points an element; strains only where they are
+  /// asked for.
+  Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
+  /// The same by the model's own points.
+  Observation<D> observe(const Eigen::VectorXd& y, double t) const { return observe(y, t, model_.quadrature_points); }
   FlowLedger<D> ledger(const Eigen::VectorXd& y) const;
   /// By the accelerations that belong to the state.
   FlowReactions<D> reactions(const Eigen::VectorXd& y, double t);
-  /// Work that gravity has done by growing, until a time no earlier than the last step's [J].
-  double ramp_work(double t, const FlowObservation<D>& seen) const {
-    return ramp_.until(t, {seen.mass_moment, seen.momentum});
-  }
   /// Material coordinates of the nodes at time t.
   std::vector<Prescribed> nodes_at(double t) const;
   /// Position of the material point x at time t, which must lie between the end nodes.
@@ -191,6 +168,8 @@ class FlowingBeam final : public EventedOde {
 
   void check_model() const;
   void adopt_supports();
+  /// The rest shape of element k between the nodes as they are, if it is not straight and unstrained.
+  std::optional<RestElement<D>> rest_of(int k) const;
   bool damped() const { return model_.section.damped() || (model_.spin && model_.spin->damping != 0); }
   MovingCoordinates<double, D> axis_of(const double* q, int k, double Prescribed::*x) const;
   SpinChain::Coordinates spin_of(const double* q, int k, double Prescribed::*x) const;
@@ -202,7 +181,6 @@ class FlowingBeam final : public EventedOde {
   void add_residual(const double* a, double* r) const;
   void add_loads(const double* q, const double* rate, double t, double* f) const;
   Loaded loaded(const PointLoad<D>& load, const double* q, const double* rate, double t) const;
-  static Vector force_of(const PointLoad<D>& load, const Vector& tangent, double t);
   /// Adds the momentum that comes in with the matter at the end nodes.
   void add_inflow(const double* q, const double* rate, double* f) const;
   /// Momentum conjugate to the slope at an end, of rotary inertia [kg m/s].

@@ -193,11 +193,12 @@ template <int D>
 double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                       double t, Eigen::VectorXd& r) const {
   const auto& model = system_.model();
-  const Vec<double, D> gravity = system_.gravity(t);
+  const Vec<double, D> gravity = system_.gravity(t), on_beam = system_.beam_gravity(t);
   const int shift = B * cut();  // of the nodes behind the joint
   r.setZero();
-  double dissipation = system_.left().add_forces(q.data(), v.data(), gravity, r.data()) +
-                       system_.right().add_forces(q.data() + shift, v.data() + shift, gravity, r.data() + shift);
+  double dissipation = system_.left().add_forces(q.data(), v.data(), on_beam, r.data()) +
+                       system_.right().add_forces(q.data() + shift, v.data() + shift, on_beam, r.data() + shift);
+  model.loads.add_forces(view(q, v), t, r.data());
   r = -r;
   system_.left().add_inertia(a.data(), r.data());
   system_.right().add_inertia(a.data() + shift, r.data() + shift);
@@ -323,18 +324,23 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
 }
 
 template <int D>
-double ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                       double t) {
-  if (!driven()) return 0;
+Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                      double t) {
+  Tally power;
+  const Loads<D>& loads = system_.model().loads;
+  if (loads.present()) {
+    free_.setZero(q.size());
+    power.loads = loads.add_forces(view(q, v), t, free_.data()) + system_.line_power(view(q, v), t);
+  }
+  if (!driven()) return power;
   system_.count_evaluation();
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  double power = 0;
   at_end_nodes([&](int node, const Support<D>& support) {
     if (!(node == 0 ? system_.model().start_motion : system_.model().end_motion)) return;
     const Vec<double, D> force = support.into_frame(position<D>(free_.data(), node)),
                          velocity = support.into_frame(position<D>(v.data(), node));
-    power += (force.array() * velocity.array() * (1 - support.free_position)).sum();
+    power.supports += (force.array() * velocity.array() * (1 - support.free_position)).sum();
   });
   return power;
 }
@@ -343,9 +349,9 @@ template <int D>
 double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
                                             const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
                                             Eigen::VectorXd& r) {
-  if (driven()) {
+  if (driven() || system_.model().loads.present()) {
     throw InvalidInput("/integrator/type", "\"energy-momentum\"",
-                       "it keeps an energy that moving supports change: take any other integrator");
+                       "it keeps an energy that moving supports and loads change: take any other integrator");
   }
   system_.count_evaluation();
   return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
@@ -366,12 +372,16 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   const Eigen::Index extra = after_nodes();
   constexpr int N = 4 * D + 1;
   // adds the tangent of an element at `node` to blocks and to the border of x
-  auto add_element = [&](auto& border, int node, const Eigen::Matrix<double, N, N>& matrix) {
-    const auto k = static_cast<std::size_t>(node), reach = static_cast<std::size_t>(node - border.first);
+  auto add_blocks = [&](int node, const Eigen::Matrix<double, N, N>& matrix) {
+    const auto k = static_cast<std::size_t>(node);
     tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
     tangent_.upper[k] += matrix.template block<B, B>(0, B);
     tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
     tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
+  };
+  auto add_element = [&](auto& border, int node, const Eigen::Matrix<double, N, N>& matrix) {
+    const auto reach = static_cast<std::size_t>(node - border.first);
+    add_blocks(node, matrix);
     for (int end = 0; end < 2; ++end) {
       border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, N - 1);
       border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(N - 1, end * B).transpose();
@@ -405,6 +415,14 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     for (int c = 0; c < D; ++c) tangent_.add_border(0);
     tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
   }
+  const ChainView<D> beam = view(q, v);
+  model.loads.add_tangent(beam, t, [&](int k, const typename Loads<D>::ElementMatrix& matrix) {
+    if (beam.at_joint(k)) {
+      add_element(tangent_.border.front(), beam.first_node(k), matrix);
+    } else {
+      add_blocks(beam.first_node(k), matrix);
+    }
+  });
 }
 
 template <int D>

@@ -38,8 +38,8 @@ class ImplicitBeam final : public SecondOrderSystem {
                         Eigen::VectorXd& rates) const override;
   bool driven() const override { return system_.model().driven(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
-  double supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                        double t) override;
+  Tallies tallies() const override { return system_.model().tallies(); }
+  Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
@@ -89,6 +89,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   int nodes() const { return system_.mesh().last() + 1 + cut(); }
   /// Where what follows the nodes stands: the joint's material coordinate or the free mass.
   Eigen::Index after_nodes() const { return Eigen::Index{B} * nodes(); }
+  ChainView<D> view(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const {
+    return {system_.mesh(), system_.model().transport, q.data(), v.data(), system_.joint(), after_nodes(), -1,
+            cut() > 0};
+  }
   /// Residual without constraints.
   double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                        Eigen::VectorXd& r) const;

@@ -72,11 +72,13 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
                                const TangentWeights& by) {
   beam_.model_.motion.at(t, beam_.nodes_);
   axis_.reset(beam_.nodes());
-  const MovingLaw<D> law = beam_.law(t);
+  MovingLaw<D> law = beam_.law(t);
   const auto& spin = beam_.spin_;
   if (spin) angles_.reset(beam_.nodes());
   for (int k = 0; k < beam_.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
+    const auto rest = beam_.rest_of(k);
+    law.rest = rest ? &*rest : nullptr;
     auto axis = driven_tangent<D>(
         beam_.axis_of(q.data(), k, &Prescribed::value), beam_.axis_of(v.data(), k, &Prescribed::rate),
         beam_.axis_of(a.data(), k, &Prescribed::acceleration), by, beam_.weights(k), beam_.tables_[i], law);
@@ -106,10 +108,7 @@ void ImplicitFlow<D>::add_loads(const double* q, const double* rate, double t, c
   for (const PointLoad<D>& load : beam_.model_.loads) {
     if (!load.follower) continue;
     const auto at = beam_.loaded(load, q, rate, t);
-    const Vec<double, D> tangent = at.axis.r_x.normalized();
-    const Eigen::Matrix<double, D, D> turning =
-        by.q * load.follower(t) / at.axis.r_x.norm() *
-        (Eigen::Matrix<double, D, D>::Identity() - tangent * tangent.transpose());
+    const Eigen::Matrix<double, D, D> turning = by.q * load.turning(at.axis.r_x, t);
     const auto k = static_cast<std::size_t>(at.element);
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) {

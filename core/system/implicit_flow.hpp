@@ -16,6 +16,7 @@ class ImplicitFlow final : public SecondOrderSystem {
 
   Eigen::Index coordinates() const override { return beam_.coordinates(); }
   std::vector<FieldRun> fields() const override { return beam_.fields(); }
+  Tallies tallies() const override { return {.dissipated = beam_.damped()}; }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;

@@ -5,16 +5,11 @@
 
 #include "core/beam/chain_mass.hpp"
 #include "core/beam/mesh_motion.hpp"
+#include "core/element/angle_field.hpp"
 #include "core/element/moving_element.hpp"
 #include "core/element/spin_element.hpp"
 
 namespace vlbeam {
-
-/// How the section's angle runs between the nodes.
-enum class AngleField {
-  linear,   ///< one unknown a node; the twist jumps there
-  hermite,  ///< cubic, angle and twist at each node
-};
 
 /// The section's angle along a chain of variable-length elements: one field of one component, with the equations of the
 /// axis or, where it is linear, their closed form. Coordinates are those of node 0, of node 1, ...: angle [rad] and, if

@@ -82,7 +82,7 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     const double a = pieces[piece], length = pieces[piece + 1] - a;
-    const int from = element_at(before.mesh, a + length / 2), to = element_at(after.mesh, a + length / 2);
+    const int from = before.mesh.element_at(a + length / 2), to = after.mesh.element_at(a + length / 2);
     for (const auto& [u, weight] : rule) {
       const double x = a + u * length;
       const auto was = motion_at(before, from, x, model_.transport), is = motion_at(after, to, x, model_.transport);

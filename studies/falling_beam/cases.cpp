@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 
 namespace vlbeam::falling_beam {

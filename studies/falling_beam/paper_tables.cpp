@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
 #include "studies/falling_beam/tables.hpp"
 #include "studies/harness/measures.hpp"

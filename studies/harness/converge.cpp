@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/simulate.hpp"

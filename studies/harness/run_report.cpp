@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/energy_ledger.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/scene/build_flow.hpp"
+#include "core/scene/derived.hpp"
 
 namespace vlbeam {
 namespace {
@@ -104,9 +104,7 @@ void add_energy(Quantities& q, const Scene& scene) {
   }
   energy("total", "sum of these but `supplied`; total - supplied is what is conserved",
          [](const Sample& s) { return s.energy.total(); });
-  energy("discrete_total",
-         "the total by the model's own quadrature points; the others are by a 25-point rule, but in "
-         "scenes with spin, flow or loads",
+  energy("discrete_total", "the total by the model's own quadrature points; the others are by a 25-point rule",
          [](const Sample& s) { return s.discrete_total; });
 }
 
@@ -239,7 +237,7 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
   if (scene.sliding_mass) add_joint(q);
   add_strains(q);
   add_reactions(q, scene);
-  if (flows(scene)) add_flow(q, scene);
+  if (flows(scene) || !scene.loads.empty()) add_flow(q, scene);
   return q.take();
 }
 

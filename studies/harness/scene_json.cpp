@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/scene/build.hpp"
-#include "core/scene/build_flow.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/element/moving_element.hpp"
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_sweep.hpp"

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"

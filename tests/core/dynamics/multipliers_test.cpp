@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/scene/simulate.hpp"
 #include "tests/core/support/scenes.hpp"
@@ -101,7 +103,8 @@ TEST(Multipliers, AreOfSecondOrder) {
   for (auto& result : multipliers) {
     const auto run = simulate(scene);
     ASSERT_TRUE(run.events.empty());
-    result = run.solver.newton.multipliers;
+    const std::vector<double>& found = run.solver.newton.multipliers;
+    result = Eigen::Map<const Eigen::VectorXd>(found.data(), std::ssize(found));
     scene.integrator.step /= 2;
   }
   ASSERT_EQ(multipliers[0].size(), 7);  // a direction clamp and the two halves of the joint

@@ -1,6 +1,7 @@
 // What a run observes, checked by what it must be: balances of momentum, differences in time, statics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/energy_ledger.hpp"

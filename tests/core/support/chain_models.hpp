@@ -19,6 +19,27 @@ BeamModel<D> model_of(const ChainShape& shape, Random& random) {
   return model;
 }
 
+/// Forces of every kind on a beam of this length that change in time: at points that travel, of fixed directions and
+/// along the tangent, and along the whole beam.
+template <int D>
+Loads<D> loads_on(double length, Random& random) {
+  const auto swinging = [&random](double size) {
+    return [size, phase = random.uniform(0, 6)](double t) { return size * std::sin(5 * t + phase); };
+  };
+  Loads<D> loads;
+  for (const double place : {0.05, 0.3, 0.45, 0.6, 0.95}) {
+    loads.points.push_back({.x = [x = place * length, speed = 0.02 * length](double t) { return x + speed * t; },
+                            .force = [size = swinging(4), along = random.vector<D>()](double t) -> Vec<double, D> {
+                              return size(t) * along;
+                            },
+                            .follower = swinging(3)});
+  }
+  loads.line_force = [size = swinging(5), along = random.vector<D>()](double t) -> Vec<double, D> {
+    return size(t) * along;
+  };
+  return loads;
+}
+
 /// Angular momentum about the origin by the model's own points; in the plane its last component only.
 template <int D>
 Vec<double, 3> angular_momentum(const BeamSystem<D>& system, const Eigen::VectorXd& y) {

@@ -63,6 +63,7 @@ void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double da
   model.section.stiffness.law = kind.law;
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
+  model.loads = loads_on<D>(shape.elements * shape.element_length, random);
   BeamSystem<D> system(model, random_chain<D>(shape, random));
   const Eigen::VectorXd y = system.initial_state();
   Eigen::VectorXd dydt(system.size());

@@ -60,14 +60,14 @@ Gap gap_of(const FlowingModel<D>& model) {
   FlowingBeam<D> beam(model);
   Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0.3, 6);
   position<D>(y.data() + beam.coordinates(), 0).setZero();
-  const FlowObservation<D> before = beam.observe(y, 0);
+  const Observation<D> before = beam.observe(y, 0);
   IntegrationOptions options;
   options.type = IntegratorType::fehlberg78;
   options.tolerances = {1e-12, 1e-12};
   SolverCounters counters;
   double t = 0;
   integrate(beam, y, t, 0.3, {}, options, counters);
-  const FlowObservation<D> after = beam.observe(y, t);
+  const Observation<D> after = beam.observe(y, t);
   const FlowLedger<D> ledger = beam.ledger(y);
   EXPECT_GT(std::abs(ledger.ends), 1e-2);
   EXPECT_GT(std::abs(ledger.loads), 1e-2);

@@ -88,7 +88,7 @@ TYPED_TEST(DrivenEquations, ExplicitAndImplicitFormsAreTheSame) {
       EXPECT_LE(r.norm(), 1e-11 * (1 + a.norm()));
       const double power = dydt[dydt.size() - 1];
       EXPECT_GT(std::abs(power), 1e-3);
-      EXPECT_NEAR(implicit.supplied_power(q, v, a, t), power, 1e-11 * (1 + a.norm()));
+      EXPECT_NEAR(implicit.supplied_power(q, v, a, t).supports, power, 1e-11 * (1 + a.norm()));
       const auto reactions = system.forces(y, t).supports;
       EXPECT_NEAR(
           reactions[0].template head<D>().dot(points[0].rate) + reactions[1].template head<D>().dot(points[1].rate),

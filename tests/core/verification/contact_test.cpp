@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/scene/build.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/energy_ledger.hpp"
 #include "core/scene/names.hpp"
 #include "tests/core/support/scenes.hpp"

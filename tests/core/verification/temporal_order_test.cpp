@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace vlbeam {
+
+/// How far a state is from its constraints C(q) = 0, the largest of all.
+struct ConstraintResidual {
+  double position = 0;  ///< |C| [m]
+  double velocity = 0;  ///< |C_q q'| [m/s], the hidden constraint
+};
+
+/// What Newton's iterations took.
+struct NewtonCounters {
+  std::size_t iterations = 0;
+  std::size_t tangents = 0;
+  std::vector<double> longest;      ///< corrections, relative to the increment, of the step that took most of them
+  ConstraintResidual constraints;   ///< the largest of all steps
+  std::vector<double> multipliers;  ///< of the last step, as the system scales them
+};
+
+struct SolverCounters {
+  std::size_t steps = 0;
+  std::size_t rejected = 0;
+  std::size_t rhs_evaluations = 0;
+  double smallest_step = 0;  ///< [s], of the accepted steps that no event cut short
+  NewtonCounters newton;     ///< of implicit methods
+};
+
+}  // namespace vlbeam

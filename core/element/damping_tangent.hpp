@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "core/element/moving_kinematics.hpp"
+#include "core/element/section.hpp"
+#include "core/element/strain.hpp"
+
+namespace vlbeam {
+
+/// Derivatives of the viscous stresses by r_x, r_xx, v_x and v_xx, by automatic differentiation.
+template <int D>
+struct DampingTangent {
+  using Matrix = Eigen::Matrix<double, D, D>;
+  std::array<Matrix, 4> p, m;
+  Vec<double, D> viscous_p, viscous_m;
+
+  DampingTangent(const PointMotion<double, D>& at, const BeamSection& section) {
+    constexpr int N = 4 * D;
+    using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+    auto seed = [](const Vec<double, D>& value, int first) {
+      Vec<Real, D> result;
+      for (int c = 0; c < D; ++c) result[c] = Real(value[c], N, first + c);
+      return result;
+    };
+    const DampingStress<Real, D> stress(seed(at.r_x, 0), seed(at.r_xx, D), seed(at.v_x, 2 * D), seed(at.v_xx, 3 * D),
+                                        section.stiffness, section.damping, section.curvature_regularization);
+    for (int c = 0; c < D; ++c) {
+      viscous_p[c] = stress.p[c].value();
+      viscous_m[c] = section.bends() ? stress.m[c].value() : 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto by = static_cast<int>(i) * D;
+        p[i].row(c) = stress.p[c].derivatives().template segment<D>(by).transpose();
+        m[i].row(c).setZero();
+        if (section.bends()) m[i].row(c) = stress.m[c].derivatives().template segment<D>(by).transpose();
+      }
+    }
+  }
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cmath>
+
+namespace vlbeam {
+
+/// Coulomb friction, regularised: F = -coefficient N tanh(v/velocity), v = |r_x| x' and N the magnitude of the contact
+/// force normal to the beam.
+struct AxialFriction {
+  double coefficient;      ///< mu
+  double velocity = 1e-3;  ///< [m/s], below which friction fades
+
+  /// Share of the normal force that resists the relative velocity `v` [m/s]: of its sign.
+  template <class Real>
+  Real share(const Real& v) const {
+    using std::tanh;
+    return tanh(Real(v / velocity)) * coefficient;
+  }
+};
+
+}  // namespace vlbeam

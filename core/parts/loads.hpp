@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/beam/chain_view.hpp"
+#include "core/element/moving_points.hpp"
+
+namespace vlbeam {
+
+/// Concentrated loads on one material point, each a function of time; those that are empty are absent.
+template <int D>
+struct PointLoad {
+  int node = -1;                                       ///< at which the point is; if negative, it is at
+  std::function<double(double t)> x = {};              ///< this material coordinate [m], which may travel over nodes
+  std::function<Vec<double, D>(double t)> force = {};  ///< [N], of a direction of its own
+  std::function<double(double t)> follower = {};       ///< [N], along the tangent of the axis
+  std::function<double(double t)> torque = {};         ///< [N m], about the axis; needs spin
+
+  /// Of force and follower, where the axis has the slope r_x [N].
+  Vec<double, D> force_on(const Vec<double, D>& r_x, double t) const {
+    Vec<double, D> sum = Vec<double, D>::Zero();
+    if (force) sum += force(t);
+    if (follower) sum += follower(t) * r_x.normalized();
+    return sum;
+  }
+  /// Its derivative by r_x.
+  Eigen::Matrix<double, D, D> turning(const Vec<double, D>& r_x, double t) const {
+    const Vec<double, D> tangent = r_x.normalized();
+    return (follower ? follower(t) / r_x.norm() : 0) *
+           (Eigen::Matrix<double, D, D>::Identity() - tangent * tangent.transpose());
+  }
+};
+
+/// Throws InvalidInput where the material point of a load is not between the ends of the beam in [0, until]; `ends`
+/// gives their material coordinates, `slack` [m] is what rounding may be off.
+template <int D>
+void check_places(const std::vector<PointLoad<D>>& loads, double until, double slack,
+                  const std::function<std::pair<double, double>(double t)>& ends);
+
+/// Forces on material points of a beam, and along all of it. A force F on the material point x is N^T F of the
+/// element that holds it, N = [S, y_A, y_B]; along the beam it acts on the mark of a joint, if that is an end of it.
+/// What is distributed evenly acts as gravity does, of the beam alone: see BeamSystem::beam_gravity.
+template <int D>
+struct Loads {
+  static constexpr int element_size = 4 * D + 1;  ///< nodal coordinates of an element, and the mark
+  using ElementMatrix = Eigen::Matrix<double, element_size, element_size>;
+
+  std::vector<PointLoad<D>> points = {};                    ///< each at a material coordinate
+  std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
+
+  bool present() const { return !points.empty() || line_force; }
+
+  /// Adds the concentrated ones to an array like q; returns their power [W].
+  double add_forces(const ChainView<D>& beam, double t, double* force) const;
+  /// Calls `add(element, matrix)` with the derivatives of minus these forces by the element's coordinates.
+  template <class Add>
+  void add_tangent(const ChainView<D>& beam, double t, const Add& add) const {
+    for (const PointLoad<D>& load : points) {
+      const int k = beam.element_at(load.x(t));
+      if (load.follower || beam.at_joint(k)) add(k, tangent(load, beam, k, t));
+    }
+  }
+  /// Where the concentrated ones are [m].
+  std::vector<Vec<double, D>> places(const ChainView<D>& beam, double t) const;
+
+ private:
+  ElementMatrix tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k, double t) const;
+};
+
+/// Rate of the integral of r dx over an element [m^2/s], by the points of its table: as they move along the beam, or,
+/// for the virtual work, at fixed material points. The power of an even force over the force.
+template <int D>
+Vec<double, D> swept(const MovingKinematics<double, D>& element, const ShapeTabulation& table, bool reshaped,
+                     Formulation formulation);
+
+}  // namespace vlbeam

@@ -1,0 +1,82 @@
+#include "core/scene/build_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/build.hpp"
+#include "core/scene/time_function.hpp"
+
+namespace vlbeam {
+namespace {
+
+/// A force may turn about `axis`, a unit vector.
+template <int D>
+PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis) {
+  const TimeFunction magnitude = time_function(spec.magnitude), x = time_function(spec.x);
+  PointLoad<D> load;
+  if (spec.at == LoadPlace::node) load.node = spec.node;
+  if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
+  auto size = [magnitude](double t) { return magnitude(t).value; };
+  if (spec.type == LoadType::follower) load.follower = size;
+  if (spec.type == LoadType::torque) load.torque = size;
+  if (spec.type == LoadType::force) {
+    const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
+    const TimeFunction turn = time_function(spec.turn);
+    load.force = [=](double t) -> Vec<double, D> {
+      const double angle = turn(t).value, c = std::cos(angle), s = std::sin(angle);
+      if constexpr (D == 2) {
+        return size(t) * Vec<double, D>(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]);
+      } else {
+        return size(t) *
+               (c * direction + s * axis.cross(direction) + (1 - c) * axis.dot(direction) * axis);  // Rodrigues
+      }
+    };
+  }
+  return load;
+}
+
+/// Material coordinate at t = 0 of where a load acts; of one on the whole beam its start [m].
+double initial_place(const LoadSpec& spec, const std::vector<double>& nodes) {
+  switch (spec.at) {
+    case LoadPlace::node:
+      return nodes[static_cast<std::size_t>(std::clamp(spec.node, 0, static_cast<int>(nodes.size()) - 1))];
+    case LoadPlace::point:
+      return time_function(spec.x)(0).value;
+    case LoadPlace::beam:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+template <int D>
+BeamLoads<D> build_loads(const Scene& scene) {
+  BeamLoads<D> loads;
+  if (scene.loads.empty()) return loads;
+  const Axis<D> axis = build_axis<D>(scene);
+  const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
+  for (const LoadSpec& spec : scene.loads) {
+    const double x = std::clamp(initial_place(spec, nodes), 0.0, axis.length());
+    const PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized());
+    if (spec.at != LoadPlace::beam) {
+      loads.points.push_back(load);
+    } else if (load.torque) {
+      loads.line_torque = [before = loads.line_torque, torque = load.torque](double t) {
+        return torque(t) + (before ? before(t) : 0);
+      };
+    } else {
+      loads.line_force = [before = loads.line_force, force = load.force](double t) -> Vec<double, D> {
+        Vec<double, D> sum = force(t);
+        if (before) sum += before(t);
+        return sum;
+      };
+    }
+  }
+  return loads;
+}
+
+template BeamLoads<2> build_loads(const Scene&);
+template BeamLoads<3> build_loads(const Scene&);
+
+}  // namespace vlbeam

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+namespace vlbeam {
+
+// What follows from a scene where it does not say.
+
+/// A scene to which nothing but the setting is given. Options that depend on others stay open; what they stand for is
+/// said by the functions below.
+Scene scene_in(SceneSetting setting);
+
+/// Gauss points an element that a scene asks for, its element's default filled in.
+int quadrature_points(const Scene& scene);
+
+/// Length of the beam [m] and standard element length L_std [m].
+double beam_length(const Scene& scene);
+double standard_length(const Scene& scene);
+
+/// Whether strains are measured from a shape other than a straight, unstrained one.
+bool has_rest_shape(const Scene& scene);
+
+/// How the elements of the scene follow a curved axis: evenly; in the paper's setting exactly, where its elements can
+/// and no mass slides along a beam that is curved at rest.
+AxisForm axis_form(const Scene& scene);
+
+/// How the scene's elements are merged: if it does not say so by the paper's fit, or, where the beam is curved at rest,
+/// with the weights of the arc.
+MergePolicy merge_policy(const Scene& scene);
+
+/// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
+/// the beam is curved at rest.
+WeightTransport weight_transport(const Scene& scene);
+
+/// Distance from a free end at which the sliding mass of the scene leaves [m].
+double separation_distance(const Scene& scene);
+
+/// Length of the last element, over L_std, at which the sliding mass of the scene loses its node; 0 for never.
+double end_merge(const Scene& scene);
+/// With what is not given.
+AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
+
+/// Whether a scene spins, flows or has rotary inertia: its beam is then a FlowingBeam.
+inline bool flows(const Scene& scene) {
+  return scene.spin || scene.flow || scene.beam.rotary_inertia != BendingInertia::none;
+}
+
+/// Whether its state holds a ledger of what crosses the boundary: that of a flowing beam is integrated along by methods
+/// of first-order equations.
+bool keeps_ledger(const Scene& scene);
+
+/// What such a scene starts with where it does not say: the spin of its first drive [rad/s], and the velocity of the
+/// matter along the axis at which node 0 stands still [m/s].
+double initial_spin(const Scene& scene);
+double initial_velocity(const Scene& scene);
+
+}  // namespace vlbeam

@@ -1,0 +1,68 @@
+#include "core/system/observation.hpp"
+
+namespace vlbeam {
+
+template <int D>
+Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, int points,
+                      const RotaryInertia<D>* rotary)
+    : section_(section), gravity_(gravity), polynomial_(gauss_legendre(points), unit_weights), rotary_(rotary) {}
+
+template <int D>
+void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
+                      Observation<D>& seen) const {
+  struct Seen {
+    PointMotion<double, D> at;
+    RestStrain<double> strain;
+  };
+  const auto see = [&](double u, const ShapeTable<double>& shape) {
+    Seen point{element.at(u, shape), {}};
+    if (rest != nullptr) {
+      point.strain = rest_strain<D>(combine_nodes(point.at.s_x, *rest), combine_nodes(point.at.s_xx, *rest), section_);
+    }
+    return point;
+  };
+  const auto add_strains = [&](const Seen& point) {
+    seen.extremes->add(section_, point.at, rest != nullptr ? &point.strain : nullptr);
+  };
+  const auto visit = [&](const auto& point, const Seen& look, const auto*) {
+    const double wl = point.weight, mass = wl * section_.rhoA;
+    const auto& at = look.at;
+    if (rest != nullptr) {
+      const RestStress<double, D> stress(at.r_x, at.r_xx, look.strain, section_);
+      seen.energy.axial += wl * stress.axial;
+      seen.energy.bending += wl * stress.bending;
+    } else {
+      const ElasticStress<double, D> stress(at.r_x, at.r_xx, section_.stiffness);
+      seen.energy.axial += wl * stress.axial;
+      seen.energy.bending += wl * stress.bending;
+    }
+    seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm();
+    if (rotary_ != nullptr) {
+      seen.energy.kinetic += 0.5 * wl * rotary_->rhoJ * rotary_->across(at.v_x).squaredNorm();
+    }
+    seen.energy.gravity -= mass * gravity_.dot(at.r);
+    seen.mass += mass;
+    seen.momentum += mass * at.v;
+    seen.angular_momentum += mass * moment_about_origin<D>(at.r, at.v);
+    seen.mass_moment += mass * at.r;
+    if (seen.extremes) add_strains(look);
+    const double stretch = at.r_x.norm();
+    seen.beam_length += wl * stretch;
+    // at a fixed reference point, which moves along the beam
+    seen.beam_length_rate +=
+        wl * at.r_x.dot(at.v_x + point.mesh_velocity * at.r_xx) / stretch + point.weight_rate * stretch;
+  };
+  const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
+  if (element.weights() == unit_weights) {
+    for_each_point(element, polynomial_, false, none, see, visit);
+  } else {
+    for_each_point(element, ShapeTabulation(polynomial_.rule, element.weights()), false, none, see, visit);
+  }
+  if (!seen.extremes) return;
+  for (const double u : {0.0, 1.0}) add_strains(see(u, rational_shape(element.weights(), u)));
+}
+
+template class Observer<2>;
+template class Observer<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+
+#include "core/element/moving_points.hpp"
+#include "core/element/rotary_inertia.hpp"
+#include "core/geometry/vec.hpp"
+#include "core/system/energy.hpp"
+#include "core/system/strain_extremes.hpp"
+
+namespace vlbeam {
+
+/// Gauss points an element of what is reported of a run, whatever the model's own are.
+inline constexpr int ledger_points = 25;
+
+/// Quantities of the whole system at one instant.
+template <int D>
+struct Observation {
+  Energy energy;
+  double beam_length = 0;                                    ///< [m]
+  double beam_length_rate = 0;                               ///< [m/s], by stretching and by inflow
+  Vec<double, D> momentum = Vec<double, D>::Zero();          ///< [kg m/s]
+  Vec<double, 3> angular_momentum = Vec<double, 3>::Zero();  ///< about the origin [kg m^2/s]
+  Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
+  double mass = 0;                                           ///< of the beam, between its end nodes [kg]
+  double spin_momentum = 0;                                  ///< about the axis [kg m^2/s]
+  double load_work = 0;                                      ///< done by loads since the start, where counted [J]
+  std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
+};
+
+/// Sums energies, momenta and length of a beam's axis, element by element, by a rule of one's own.
+template <int D>
+class Observer {
+ public:
+  /// `section` and `rotary` (null without) must outlive this object.
+  Observer(const BeamSection& section, const Vec<double, D>& gravity, int points,
+           const RotaryInertia<D>* rotary = nullptr);
+
+  /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
+  /// where `seen` has a place for them.
+  void add(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest, Observation<D>& seen) const;
+
+ private:
+  const BeamSection& section_;
+  Vec<double, D> gravity_;
+  ShapeTabulation polynomial_;  ///< of unit weights
+  const RotaryInertia<D>* rotary_;
+};
+
+extern template class Observer<2>;
+extern template class Observer<3>;
+
+}  // namespace vlbeam
