@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 #include "core/scene/derived.hpp"
 #include "core/scene/energy_ledger.hpp"
@@ -315,19 +314,32 @@ TEST(EndMerge, KeepsEnergyAndMomentaOfAFreeBeam) {
   EXPECT_NEAR(first(result, EventType::separation).joint_position, 0.999 * beam_length(scene), 1e-9);
 }
 
+/// When the mass leaves on 60 elements [s]: 0.71322 with ALE-ANCF, 0.71336 with ALE-RANCF.
+constexpr double converged_exit = 0.7133;
+
 TEST(EndMerge, LetsTheMassLeaveCoarseMeshes) {
-  for (const auto& [element, elements, t] :
-       {std::tuple{ElementKind::ale_ancf, 10, 0.6275}, std::tuple{ElementKind::ale_rancf, 14, 0.7361}}) {
-    Scene scene = falling_beam(element, elements);
+  struct Case {
+    ElementKind element;
+    int elements;
+    double within;  ///< of the converged time
+  };
+  for (const Case& at : {Case{ElementKind::ale_rancf, 10, 0.15}, Case{ElementKind::ale_ancf, 10, 0.15},
+                         Case{ElementKind::ale_rancf, 14, 0.05}, Case{ElementKind::ale_rancf, 28, 0.01}}) {
+    Scene scene = falling_beam(at.element, at.elements);
     scene.length_control.velocities = VelocityTransfer::projected;
     scene.duration = 0.75;
     const RunResult result = simulate(scene);
     ASSERT_EQ(result.status, RunStatus::separated) << result.failure;
-    EXPECT_NEAR(first(result, EventType::separation).t, t, 5e-4);
-    if (elements > 10) continue;
-    scene.length_control.end_merge = 0;
-    EXPECT_EQ(simulate(scene).status, RunStatus::completed) << "a vanishing element holds the mass";
+    EXPECT_NEAR(first(result, EventType::separation).t, converged_exit, at.within * converged_exit) << at.elements;
   }
+}
+
+TEST(EndMerge, NeedsToBeThereOnCoarseMeshes) {
+  Scene scene = falling_beam(ElementKind::ale_ancf, 10);
+  scene.length_control.velocities = VelocityTransfer::projected;
+  scene.duration = 0.75;
+  scene.length_control.end_merge = 0;
+  EXPECT_EQ(simulate(scene).status, RunStatus::completed) << "a vanishing element holds the mass";
 }
 
 }  // namespace
