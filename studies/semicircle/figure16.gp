@@ -45,11 +45,15 @@ set title "(d) energies, N = " . finest
 set xlabel "t (s)"
 set ylabel "energy less its initial value (J)"
 set key top center horizontal maxrows 2
+stats csv(history) using "strain_n".finest every ::0::0 nooutput
+strain = STATS_mean
 stats csv(history) using "gravity_n".finest every ::0::0 nooutput
-start = STATS_mean
+gravity = STATS_mean
+stats csv(history) using "total_n".finest every ::0::0 nooutput
+total = STATS_mean
 set yrange [-40:45]
 plot csv(history) using "t":"kinetic_n".finest with lines linewidth 2 linecolor rgb "#a63603" title "kinetic", \
-     "" using "t":"strain_n".finest with lines linewidth 2 linecolor rgb "#4292c6" title "strain", \
-     "" using "t":(column("gravity_n".finest) - start) with lines linewidth 2 linecolor rgb "#08306b" title "gravity", \
-     "" using "t":(column("total_n".finest) - start) with lines linewidth 2 linecolor rgb "#222222" dashtype 2 title "total"
+     "" using "t":(column("strain_n".finest) - strain) with lines linewidth 2 linecolor rgb "#4292c6" title "strain", \
+     "" using "t":(column("gravity_n".finest) - gravity) with lines linewidth 2 linecolor rgb "#08306b" title "gravity", \
+     "" using "t":(column("total_n".finest) - total) with lines linewidth 2 linecolor rgb "#222222" dashtype 2 title "total"
 unset multiplot

@@ -8,10 +8,13 @@ set xtics (5, 10, 20, 30, 40)
 set format y "10^{%T}"
 set xlabel "elements N"
 set key bottom left
+letters = "abcd"
+panel = 0
 do for [what in "kinetic_jumps elastic_jumps"] {
   set ylabel (what eq "kinetic_jumps" ? "Σ |ΔT| (J)" : "Σ |ΔU| (J)")
   do for [kind in kinds] {
-    set title (kind eq "ALE-RANCF" ? "(a) " : "(b) ") . kind . (what eq "kinetic_jumps" ? ", kinetic" : ", elastic")
+    panel = panel + 1
+    set title "(" . letters[panel:panel] . ") " . kind . (what eq "kinetic_jumps" ? ", kinetic" : ", elastic")
     plot for [i=1:3] csv("meshes") using "elements":(is(kind, word(transfers, i)) * column(what)) \
            with linespoints linewidth 2 pointtype mark(i) linecolor rgb colour(i) title word(transfers, i)
   }
