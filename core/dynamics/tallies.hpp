@@ -8,21 +8,24 @@ namespace vlbeam {
 struct Tally {
   double dissipated = 0;  ///< by damping and friction
   double loads = 0;       ///< done by loads
+  double drives = 0;      ///< done by what drives angles
   double supports = 0;    ///< done by supports that move
 
-  double supplied() const { return loads + supports; }
-
   friend Tally operator+(const Tally& a, const Tally& b) {
-    return {a.dissipated + b.dissipated, a.loads + b.loads, a.supports + b.supports};
+    return {a.dissipated + b.dissipated, a.loads + b.loads, a.drives + b.drives, a.supports + b.supports};
   }
-  friend Tally operator*(double h, const Tally& a) { return {h * a.dissipated, h * a.loads, h * a.supports}; }
+  friend Tally operator*(double h, const Tally& a) {
+    return {h * a.dissipated, h * a.loads, h * a.drives, h * a.supports};
+  }
 };
 
 /// Which of them a state counts: at its end, behind coordinates and rates, in the order of Tally.
 struct Tallies {
-  bool dissipated = false, loads = false, supports = false;
+  bool dissipated = false, loads = false, drives = false, supports = false;
 
-  Eigen::Index count() const { return Eigen::Index{dissipated} + Eigen::Index{loads} + Eigen::Index{supports}; }
+  Eigen::Index count() const {
+    return Eigen::Index{dissipated} + Eigen::Index{loads} + Eigen::Index{drives} + Eigen::Index{supports};
+  }
 
   /// What the end of `y` holds; zero of what is not counted.
   Tally of(const Eigen::VectorXd& y) const {
@@ -42,6 +45,7 @@ struct Tallies {
     Eigen::Index at = size - count();
     if (dissipated) visit(at++, tally.dissipated);
     if (loads) visit(at++, tally.loads);
+    if (drives) visit(at++, tally.drives);
     if (supports) visit(at, tally.supports);
   }
 };

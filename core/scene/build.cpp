@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/build_loads.hpp"
@@ -109,6 +110,17 @@ BeamSection build_section(const BeamSpec& beam) {
   section.damping = beam.material.damping;
   section.curvature_regularization = beam.material.curvature_regularization;
   return section;
+}
+
+SpinSection build_spin(const BeamSpec& beam) {
+  const Section& section = beam.section;
+  if (section.type == Section::Type::stiffness) return {section.rhoIp, section.GIp, beam.material.damping};
+  return CircularShaft{.radius = section.radius,
+                       .density = beam.material.density,
+                       .youngs_modulus = beam.material.youngs_modulus,
+                       .poisson_ratio = beam.material.poisson_ratio,
+                       .damping = beam.material.damping}
+      .spin();
 }
 
 template <int D>
@@ -252,12 +264,23 @@ BeamModel<D> build_model(const Scene& scene) {
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
   if (flows(scene)) return model;  // FlowingModel has the loads
   BeamLoads<D> loads = build_loads<D>(scene);
-  model.loads = {std::move(loads.points), std::move(loads.line_force)};
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
-  for (PointLoad<D>& load : model.loads.points) {
+  for (PointLoad<D>& load : loads.points) {
     if (load.node < 0) continue;
     load.x = [x = nodes[static_cast<std::size_t>(load.node)]](double) { return x; };  // the point that it marks now
   }
+  if (scene.spin) {
+    SpinModel& spin = model.spin.emplace();
+    spin.section = build_spin(scene.beam);
+    spin.field = scene.spin->angles;
+    spin.rate = initial_spin(scene);
+    for (const auto& drive : scene.spin->drives) spin.drives.push_back({drive.node, time_function(drive.angle)});
+    for (const PointLoad<D>& load : loads.points) {
+      if (load.torque) spin.torques.points.push_back({load.x, load.torque});
+    }
+    spin.torques.line = std::move(loads.line_torque);
+  }
+  model.loads = {std::move(loads.points), std::move(loads.line_force)};
   return model;
 }
 

@@ -19,6 +19,7 @@ struct InitialNodes {
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks);
 
 BeamSection build_section(const BeamSpec& beam);
+SpinSection build_spin(const BeamSpec& beam);
 
 /// What holds a node at which the axis has the given tangent.
 template <int D>

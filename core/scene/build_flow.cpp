@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/dynamics/stepper.hpp"
-#include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_loads.hpp"
@@ -16,17 +15,6 @@ namespace {
 template <int D>
 Vec<double, D> direction_of(const Scene& scene) {
   return build_axis<D>(scene).tangent(0).normalized();
-}
-
-SpinSection build_spin(const BeamSpec& beam) {
-  const Section& section = beam.section;
-  if (section.type == Section::Type::stiffness) return {section.rhoIp, section.GIp, beam.material.damping};
-  return CircularShaft{.radius = section.radius,
-                       .density = beam.material.density,
-                       .youngs_modulus = beam.material.youngs_modulus,
-                       .poisson_ratio = beam.material.poisson_ratio,
-                       .damping = beam.material.damping}
-      .spin();
 }
 
 std::vector<MeshMotion::Guide> build_guides(const Scene& scene) {

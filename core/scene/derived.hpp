@@ -40,10 +40,11 @@ double end_merge(const Scene& scene);
 /// With what is not given.
 AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 
-/// Whether a scene spins, flows or has rotary inertia: its beam is then a FlowingBeam.
-inline bool flows(const Scene& scene) {
-  return scene.spin || scene.flow || scene.beam.rotary_inertia != BendingInertia::none;
-}
+/// Whether a scene flows or has rotary inertia: its beam is then a FlowingBeam.
+inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_inertia != BendingInertia::none; }
+
+/// Whether its samples have what FlowSample holds.
+inline bool has_flow_sample(const Scene& scene) { return flows(scene) || scene.spin || !scene.loads.empty(); }
 
 /// Whether its state holds a ledger of what crosses the boundary: that of a flowing beam is integrated along by methods
 /// of first-order equations.

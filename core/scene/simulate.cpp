@@ -71,7 +71,14 @@ class Run {
   void sample(const Eigen::VectorXd& y, double t) {
     const auto started = std::chrono::steady_clock::now();
     if (stops_.keeps_shape_at(t)) {
-      result_.configurations.push_back(configuration_of(system_.chain(y), t, weight_transport(scene_)));
+      Configuration shape = configuration_of(system_.chain(y), t, weight_transport(scene_));
+      const RestingSpin* spin = system_.spin();
+      for (int k = 0; spin != nullptr && k <= system_.mesh().last(); ++k) {
+        const double* angle = y.data() + system_.angles() + spin->angle(k);
+        shape.angles.push_back(angle[0]);
+        shape.rates.spins.push_back(angle[system_.coordinates()]);
+      }
+      result_.configurations.push_back(std::move(shape));
     }
     if (stops_.samples_at(t)) {
       const auto seen = system_.observe(y, t, ledger_points, true);
@@ -90,15 +97,15 @@ class Run {
       sample.angular_momentum = point_of<3>(seen.angular_momentum);
       sample.strains = strain_sample(*seen.extremes);
       const OuterForces<D> forces = system_.forces(y, t);
+      if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
       for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
-      if (system_.model().loads.present()) sample.flow = flow_sample(y, t, seen);
       if (system_.mass_on_beam()) sample.joint = joint_sample(y, chain, forces.on_mass);
       const ConstraintResidual slopes = system_.slope_residual(y);
       result_.slopes.position = std::max(result_.slopes.position, slopes.position);
       result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
-      const double supplied = sample.energy.supplied + seen.load_work;
+      const double supplied = sample.energy.supplied + seen.load_work + seen.drive_work;
       result_.max_energy_drift =
           std::max(result_.max_energy_drift, std::abs(sample.discrete_total - supplied - first_total_ - jumps_));
       result_.samples.push_back(std::move(sample));
@@ -106,12 +113,19 @@ class Run {
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
 
-  std::shared_ptr<const FlowSample> flow_sample(const Eigen::VectorXd& y, double t, const Observation<D>& seen) const {
+  std::shared_ptr<const FlowSample> flow_sample(const Eigen::VectorXd& y, double t, const Observation<D>& seen,
+                                                const OuterForces<D>& forces) const {
     FlowSample flow;
     flow.mass = seen.mass;
+    if (const RestingSpin* spin = system_.spin()) {
+      const double* angles = y.data() + system_.angles();
+      flow.end_angles = {angles[0], angles[spin->angle(system_.mesh().last())]};
+      flow.spin_momentum = seen.spin_momentum;
+      flow.torques = forces.drives;
+    }
     const ChainView<D> beam = system_.view(y.data(), y.data() + system_.coordinates());
     for (const auto& place : system_.model().loads.places(beam, t)) flow.loads.push_back(point_of<D>(place));
-    flow.ledger = {.mass = 0, .ends = 0, .loads = seen.load_work, .mesh = 0};
+    flow.ledger = {.mass = 0, .ends = seen.drive_work, .loads = seen.load_work, .mesh = 0};
     return std::make_shared<const FlowSample>(std::move(flow));
   }
 

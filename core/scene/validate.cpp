@@ -8,7 +8,6 @@
 #include "core/geometry/nurbs.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
-#include "core/scene/build_loads.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/time_function.hpp"
 #include "core/scene/validate_flow.hpp"
@@ -396,13 +395,23 @@ void check_loads(const Scene& scene) {
   }
 }
 
-/// Loads on a beam whose nodes rest, or all of which but one do.
+/// Of a beam whose nodes rest, or all of which but one do.
 template <int D>
-void check_load_places(const Scene& scene) {
+void check_resting_parts(const Scene& scene) {
+  const BeamModel<D> model = build_model<D>(scene);
   const double length = beam_length(scene);
-  check_places<D>(build_loads<D>(scene).points, scene.duration, 1e-9 * standard_length(scene), [length](double) {
+  check_places<D>(model.loads.points, scene.duration, 1e-9 * standard_length(scene), [length](double) {
     return std::pair{0.0, length};
   });
+  if (!model.spin) return;
+  check_drives(model.spin->drives, scene.beam.elements);
+  for (const LoadSpec& load : scene.loads) {
+    const auto at_drive = [&load](const DrivenAngle& drive) { return drive.node == load.node; };
+    if (load.type != LoadType::torque || load.at != LoadPlace::node) continue;
+    if (std::ranges::any_of(model.spin->drives, at_drive)) {
+      refuse("/loads", "a torque at node " + std::to_string(load.node), "the angle there is prescribed already");
+    }
+  }
 }
 
 void check_output(const Scene& scene) {
@@ -444,11 +453,8 @@ void validate(const Scene& scene) {
   check_support_motion(scene);
   check_output(scene);
   check_loads(scene);
-  if (flows(scene)) {
-    validate_flow(scene);
-  } else if (!scene.loads.empty()) {
-    scene.dimension == 2 ? check_load_places<2>(scene) : check_load_places<3>(scene);
-  }
+  if (flows(scene) || scene.spin) validate_flow(scene);
+  if (!flows(scene)) scene.dimension == 2 ? check_resting_parts<2>(scene) : check_resting_parts<3>(scene);
 }
 
 }  // namespace vlbeam

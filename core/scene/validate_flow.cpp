@@ -28,9 +28,8 @@ void check_parts(const Scene& scene) {
   if (scene.sliding_mass) {
     refuse("/sliding_mass", "this key", "it goes together with neither /spin, /flow nor rotary inertia");
   }
-  if (scene.beam.curve.type != CurveType::line) {
-    refuse("/beam/curve/type", quoted(scene.beam.curve.type),
-           "with /spin, /flow or rotary inertia it must be \"line\"");
+  if (flows(scene) && scene.beam.curve.type != CurveType::line) {
+    refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /flow or rotary inertia it must be \"line\"");
   }
   const auto& section = scene.beam.section;
   const BendingInertia rotary = scene.beam.rotary_inertia;
@@ -105,6 +104,7 @@ void check_model(const Scene& scene) {
 
 void validate_flow(const Scene& scene) {
   check_parts(scene);
+  if (!flows(scene)) return;
   check_guides(scene);
   scene.dimension == 2 ? check_model<2>(scene) : check_model<3>(scene);
 }

@@ -4,7 +4,7 @@
 
 namespace vlbeam {
 
-/// What validate() checks of a scene that spins, flows or bears loads. Throws InvalidInput.
+/// What validate() checks of a scene that spins, flows or has rotary inertia. Throws InvalidInput.
 void validate_flow(const Scene& scene);
 
 }  // namespace vlbeam

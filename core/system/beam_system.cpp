@@ -9,12 +9,17 @@
 namespace vlbeam {
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
+  if (model.spin && model.joint) {
+    throw InvalidInput("/sliding_mass", "this key", "it does not go together with /spin");
+  }
+  if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
   if (model.driven() && model.joint && model.length_control.velocities == VelocityTransfer::conservative) {
     throw InvalidInput("/length_control/velocities", "\"conservative\"",
                        "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
   }
   adopt(chain);
   initial_ = state_of(chain, {});
+  if (spin_) spin_->start(initial_.data() + nodal_, initial_.data() + coordinates_ + nodal_);
   anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
   impose(initial_, 0);
   ramp_ = RampWork<D>(model.gravity, model.gravity_ramp);
@@ -31,7 +36,10 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   joint_ = chain.joint;
   free_mass_ = model_.joint.has_value() && joint_ == no_joint && !chain.rider;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
-  coordinates_ = nodal_ + (has_joint() || chain.rider ? 1 : 0) + (kinked() || free_mass_ ? D : 0);
+  spin_.reset();
+  if (model_.spin) spin_.emplace(*model_.spin, mesh_.x, model_.formulation, model_.quadrature_points);
+  coordinates_ = nodal_ + (spin_ ? spin_->coordinates() : 0) + (has_joint() || chain.rider ? 1 : 0) +
+                 (kinked() || free_mass_ ? D : 0);
   behind_ = kinked() ? nodal_ + 1 : Eigen::Index{node_size<D>} * joint_ + D;
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
@@ -86,6 +94,9 @@ std::vector<FieldRun> BeamSystem<D>::fields() const {
   if (has_joint() || rider_) runs.push_back({Field::mark, nodal_});
   if (kinked()) runs.push_back({Field::slope, behind_, D});
   if (free_mass_) runs.push_back({Field::mass, nodal_, D});
+  if (spin_) {
+    for (const FieldRun& run : spin_->fields(nodal_)) runs.push_back(run);
+  }
   return runs;
 }
 
@@ -401,6 +412,10 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     }
     if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
   }
+  if (spin_ && !spin_->accelerate(q + nodal_, rate + nodal_, t, force + nodal_, power)) {
+    dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   if (driven) power.supports = pull->power(force);
   model_.tallies().add(power, dydt);
 }
@@ -471,9 +486,16 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     seen.angular_momentum += m * moment_about_origin<D>(mass->r, mass->v);
     seen.mass_moment += m * mass->r;
   }
+  if (spin_) {
+    const RestingSpin::Seen turning = spin_->observe(y.data() + nodal_, y.data() + coordinates_ + nodal_, points);
+    seen.energy.kinetic += turning.kinetic;
+    seen.energy.torsion += turning.torsion;
+    seen.spin_momentum += turning.momentum;
+  }
   const Tally counted = model_.tallies().of(y);
   seen.energy.dissipated = counted.dissipated;
   seen.load_work = counted.loads;
+  seen.drive_work = counted.drives;
   seen.energy.supplied = counted.supports;
   seen.energy.supplied += ramp_.until(t, {seen.mass_moment, seen.momentum});
   return seen;

@@ -16,6 +16,7 @@
 #include "core/system/constraints.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
+#include "core/system/resting_spin.hpp"
 
 namespace vlbeam {
 
@@ -32,6 +33,7 @@ struct BeamModel {
   SupportMotion<D> start_motion, end_motion;
   bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
   Loads<D> loads;
+  std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no sliding mass
   std::optional<SlidingJoint> joint;
   double separation_distance = 0;  ///< [m]
   Impact at_support;               ///< where the mass may not leave
@@ -42,11 +44,16 @@ struct BeamModel {
   std::shared_ptr<const Axis<D>> rest;
 
   /// Whether energy is lost.
-  bool dissipates() const { return section.damped() || (joint && joint->friction); }
+  bool dissipates() const {
+    return section.damped() || (joint && joint->friction) || (spin && spin->section.damping != 0);
+  }
   /// Whether supports move, and so do work.
   bool driven() const { return start_motion || end_motion; }
   /// The energies that the state counts.
-  Tallies tallies() const { return {dissipates(), loads.present(), driven()}; }
+  Tallies tallies() const {
+    return {dissipates(), loads.present() || (spin && spin->torques.present()), spin && !spin->drives.empty(),
+            driven()};
+  }
 };
 
 /// Forces between the beam and what it is connected to, at one instant.
@@ -56,6 +63,7 @@ struct OuterForces {
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> supports;
   /// With which the beam acts on the sliding mass [N]; zero off the beam and without one.
   Vec<double, D> on_mass = Vec<double, D>::Zero();
+  std::vector<double> drives;  ///< about the axis, of what drives angles on the beam [N m]
 };
 
 /// What happened to a beam system at an event.
@@ -78,10 +86,10 @@ template <int D>
 class ImplicitBeam;
 
 /// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
-/// State y = (q, q', tallies): q holds the nodes (position and slope each) and then x_i of the joint and,
-/// where the joint is kinked, the slope behind it, or x of a mass that rides inside an end element, or the free mass's
-/// position once it has left; the tallies are those of BeamModel::tallies(). What a support drives stands in the state
-/// too, but is read from its motion, wherever it counts.
+/// State y = (q, q', tallies): q holds the nodes (position and slope each) and then the angles of a section that spins,
+/// or x_i of the joint and, where the joint is kinked, the slope behind it, or x of a mass that rides inside an end
+/// element, or the free mass's position once it has left; the tallies are those of BeamModel::tallies(). What a support
+/// drives stands in the state too, but is read from its motion, wherever it counts.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
@@ -160,6 +168,10 @@ class BeamSystem final : public EventedOde {
                                            held ? 0 : rate[nodal_]);
   }
   int joint() const { return joint_; }
+  /// How the section turns; null if it does not. Its angles stand behind the nodes.
+  RestingSpin* spin() { return spin_ ? &*spin_ : nullptr; }
+  const RestingSpin* spin() const { return spin_ ? &*spin_ : nullptr; }
+  Eigen::Index angles() const { return nodal_; }
   /// The beam has two slopes at the joint.
   bool kinked() const { return has_joint() && model_.joint->kinked(); }
   /// Slopes at the joint, before and behind it, of an array of coordinates or rates.
@@ -291,6 +303,7 @@ class BeamSystem final : public EventedOde {
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
+  std::optional<RestingSpin> spin_;
   RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;
   std::unique_ptr<ImplicitBeam<D>> implicit_;

@@ -14,7 +14,7 @@
 #include "core/parts/loads.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
-#include "core/system/spin_chain.hpp"
+#include "core/system/resting_spin.hpp"
 
 namespace vlbeam {
 
@@ -23,12 +23,6 @@ template <int D>
 struct NodeSupport {
   int node;
   Support<D> support;
-};
-
-/// The section's angle at a node as a function of time [rad].
-struct DrivenAngle {
-  int node;
-  TimeFunction theta;
 };
 
 /// What a flowing beam is made of and which choices its equations follow.

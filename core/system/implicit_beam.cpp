@@ -96,6 +96,9 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   } else if (system_.model().joint) {
     runs.push_back({Field::mass, after_nodes(), D});
   }
+  if (const RestingSpin* spin = system_.spin()) {
+    for (const FieldRun& run : spin->fields(after_nodes())) runs.push_back(run);
+  }
   Eigen::Index at = coordinates() - multipliers();
   for (const auto& constraint : constraints_) {
     const bool place = !constraint.direction.template head<D>().isZero(0);
@@ -244,6 +247,9 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
   } else if (model.joint) {
     r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
   }
+  if (RestingSpin* spin = system_.spin()) {
+    dissipation += spin->residual(q.data() + extra, v.data() + extra, a.data() + extra, t, r.data() + extra);
+  }
   return dissipation;
 }
 
@@ -254,6 +260,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   const Eigen::Index first = coordinates() - multipliers();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
+  if (const RestingSpin* spin = system_.spin()) spin->drive(a.data() + after_nodes(), t, r.data() + after_nodes());
   const auto driven = system_.driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
@@ -332,6 +339,12 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     free_.setZero(q.size());
     power.loads = loads.add_forces(view(q, v), t, free_.data()) + system_.line_power(view(q, v), t);
   }
+  if (RestingSpin* spin = system_.spin()) {
+    const Eigen::Index at = after_nodes();
+    free_.resize(q.size());
+    spin->residual(q.data() + at, v.data() + at, a.data() + at, t, free_.data() + at);
+    power = power + spin->power(q.data() + at, v.data() + at, free_.data() + at, t);
+  }
   if (!driven()) return power;
   system_.count_evaluation();
   free_.resize(q.size());
@@ -349,6 +362,9 @@ template <int D>
 double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
                                             const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
                                             Eigen::VectorXd& r) {
+  if (system_.model().spin) {
+    throw InvalidInput("/integrator/type", "\"energy-momentum\"", "it knows no spin: take any other integrator");
+  }
   if (driven() || system_.model().loads.present()) {
     throw InvalidInput("/integrator/type", "\"energy-momentum\"",
                        "it keeps an energy that moving supports and loads change: take any other integrator");
@@ -434,6 +450,9 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
     add_constraints(q, a, constraint_scale_);
   } else {
     constrain_tangent();
+  }
+  if (const RestingSpin* spin = system_.spin(); spin != nullptr && !spin->linearize(by_v, by_a, spin_tangent_)) {
+    return false;
   }
   return tangent_.factor();
 }
@@ -556,6 +575,7 @@ template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   tangent_.solve(r.data());
+  if (system_.spin() != nullptr) spin_tangent_.solve(r.data() + after_nodes());
 }
 
 template <int D>
@@ -565,7 +585,9 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   acceleration(q, v, t, a);
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  OuterForces<D> forces{{free_.head<B>(), free_.segment<B>(after_nodes() - B)}};
+  OuterForces<D> forces;
+  forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
+  if (const RestingSpin* spin = system_.spin()) forces.drives = spin->drive_torques(free_.data() + after_nodes());
   if (!system_.mass_on_beam()) return forces;
   Vec<double, D> acceleration;
   if (const auto& rider = system_.rider()) {

@@ -123,6 +123,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   mutable double reference_mass_ = 1;            ///< [kg], makes an acceleration of a multiplier
   double constraint_scale_ = 1;                  ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
+  SpinTangent spin_tangent_;
   Eigen::VectorXd y_, dydt_, free_;
   Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian
   Eigen::MatrixXd stiffness_, damping_;

@@ -5,26 +5,6 @@
 #include "core/error.hpp"
 
 namespace vlbeam {
-namespace {
-
-/// The angles of one element enter linearly: the residual of unit ones is the tangent.
-Eigen::Matrix4d angle_tangent(const SpinChain& chain, const SpinChain::Coordinates& q,
-                              const SpinChain::Coordinates& rate, const SpinChain::Coordinates& a,
-                              const TangentWeights& by) {
-  auto unit = [](int i, double size, const SpinChain::Coordinates& like) -> SpinChain::Coordinates {
-    auto entry = [&](int j) -> Vec<double, 1> { return Vec<double, 1>::Constant(i == j ? size : 0); };
-    return {{entry(0), entry(1), entry(2), entry(3)}, like.x_a, like.x_b};
-  };
-  Eigen::Matrix4d tangent;
-  for (int j = 0; j < 4; ++j) {
-    const auto r = nodal_residual(chain.equations(unit(j, by.q, q), unit(j, by.v, rate)), unit(j, by.a, a));
-    for (int i = 0; i < 4; ++i) tangent(i, j) = r[static_cast<std::size_t>(i)][0];
-  }
-  return tangent;
-}
-
-}  // namespace
-
 template <int D>
 void ImplicitFlow<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
   y_.setZero(beam_.size());
@@ -74,7 +54,7 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   axis_.reset(beam_.nodes());
   MovingLaw<D> law = beam_.law(t);
   const auto& spin = beam_.spin_;
-  if (spin) angles_.reset(beam_.nodes());
+  if (spin) angles_.assemble(*spin, beam_.nodes_, by);
   for (int k = 0; k < beam_.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto rest = beam_.rest_of(k);
@@ -90,14 +70,6 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     axis_.upper[i] += axis.template topRightCorner<B, B>();
     axis_.lower[i + 1] += axis.template bottomLeftCorner<B, B>();
     axis_.diagonal[i + 1] += axis.template bottomRightCorner<B, B>();
-    if (!spin) continue;
-    const Eigen::Matrix4d angles = angle_tangent(*spin, beam_.spin_of(q.data(), k, &Prescribed::value),
-                                                 beam_.spin_of(v.data(), k, &Prescribed::rate),
-                                                 beam_.spin_of(a.data(), k, &Prescribed::acceleration), by);
-    angles_.diagonal[i] += angles.topLeftCorner<2, 2>();
-    angles_.upper[i] += angles.topRightCorner<2, 2>();
-    angles_.lower[i + 1] += angles.bottomLeftCorner<2, 2>();
-    angles_.diagonal[i + 1] += angles.bottomRightCorner<2, 2>();
   }
   add_loads(q.data(), v.data(), t, by);
   if (beam_.model_.formulation == Formulation::variational) add_inflow(by);
@@ -133,15 +105,15 @@ void ImplicitFlow<D>::add_inflow(const TangentWeights& by) {
     if (!beam_.spin_) continue;
     // the spin of the matter at the end is the rate of its angle less x' times the twist there
     const double inertia = beam_.spin_->section().rhoIp * in, twist = by.q * inertia * x_rate;
-    angles_.diagonal[i](0, 0) -= inertia * by.v;
+    angles_.band.diagonal[i](0, 0) -= inertia * by.v;
     if (beam_.spin_->per_node() == 2) {
-      angles_.diagonal[i](0, 1) += twist;
+      angles_.band.diagonal[i](0, 1) += twist;
       continue;
     }
     const std::size_t other = k == 0 ? 1 : i - 1;
     const double share = twist / (beam_.nodes_[i].value - beam_.nodes_[other].value);  // negative at the start
-    angles_.diagonal[i](0, 0) += share;
-    (k == 0 ? angles_.upper[0] : angles_.lower[i])(0, 0) -= share;
+    angles_.band.diagonal[i](0, 0) += share;
+    (k == 0 ? angles_.band.upper[0] : angles_.band.lower[i])(0, 0) -= share;
   }
 }
 
@@ -191,31 +163,13 @@ bool ImplicitFlow<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   constrain();
   if (!axis_.factor()) return false;
   if (!beam_.spin_) return true;
-  for (const DrivenAngle& driven : beam_.model_.angles) {
-    const auto k = static_cast<std::size_t>(driven.node);
-    for (auto* block : {&angles_.diagonal[k], &angles_.upper[k], &angles_.lower[k]}) block->row(0).setZero();
-    angles_.diagonal[k](0, 0) = by_a == 0 ? 1 : by_a;
-  }
-  if (beam_.spin_->per_node() == 1) {
-    for (auto& block : angles_.diagonal) block(1, 1) = 1;  // no twist is a coordinate
-  }
-  return angles_.factor();
+  return angles_.factor(*beam_.spin_, by_a);
 }
 
 template <int D>
 void ImplicitFlow<D>::solve(Eigen::VectorXd& r) const {
   axis_.solve(r.data());
-  if (!beam_.spin_) return;
-  if (beam_.spin_->per_node() == 2) {
-    angles_.solve(r.data() + beam_.angle(0));
-    return;
-  }
-  Eigen::Map<Eigen::VectorXd> angles(r.data() + beam_.angle(0), beam_.nodes());
-  Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<2>> padded(work_.data(), beam_.nodes());
-  work_.setZero();
-  padded = angles;
-  angles_.solve(work_.data());
-  angles = padded;
+  if (beam_.spin_) angles_.solve(r.data() + beam_.angle(0));
 }
 
 template <int D>
@@ -252,7 +206,7 @@ typename ImplicitFlow<D>::Tangent ImplicitFlow<D>::free_tangent(const Eigen::Vec
     if (!driven[static_cast<std::size_t>(k)]) basis(2 * k, columns++) = 1;
     if (beam_.spin_->per_node() == 2) basis(2 * k + 1, columns++) = 1;
   }
-  result.angles = reduced(angles_, 2, basis.leftCols(columns));
+  result.angles = reduced(angles_.band, 2, basis.leftCols(columns));
   return result;
 }
 

@@ -12,7 +12,7 @@ template <int D>
 class ImplicitFlow final : public SecondOrderSystem {
  public:
   /// `beam` must outlive this object.
-  explicit ImplicitFlow(FlowingBeam<D>& beam) : beam_(beam), work_(2 * beam.nodes()) {}
+  explicit ImplicitFlow(FlowingBeam<D>& beam) : beam_(beam) {}
 
   Eigen::Index coordinates() const override { return beam_.coordinates(); }
   std::vector<FieldRun> fields() const override { return beam_.fields(); }
@@ -55,9 +55,8 @@ class ImplicitFlow final : public SecondOrderSystem {
 
   FlowingBeam<D>& beam_;
   BorderedBlockTridiagonal<B> axis_;
-  BorderedBlockTridiagonal<2> angles_;  // angle and twist at each node
+  SpinTangent angles_;
   Eigen::VectorXd force_, y_, dydt_;
-  mutable Eigen::VectorXd work_;  // of solve()
 };
 
 extern template class ImplicitFlow<2>;

@@ -25,6 +25,7 @@ struct Observation {
   double mass = 0;                                           ///< of the beam, between its end nodes [kg]
   double spin_momentum = 0;                                  ///< about the axis [kg m^2/s]
   double load_work = 0;                                      ///< done by loads since the start, where counted [J]
+  double drive_work = 0;                                     ///< by what drives angles [J]
   std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
 };
 

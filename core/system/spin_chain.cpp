@@ -1,6 +1,5 @@
 #include "core/system/spin_chain.hpp"
 
-#include "core/element/driven_tangent.hpp"
 #include "core/element/twist_law.hpp"
 
 namespace vlbeam {
@@ -84,6 +83,22 @@ double SpinChain::dissipation() const {
   return power;
 }
 
+/// The angles enter linearly: the residual of unit ones is the tangent.
+Eigen::Matrix4d SpinChain::tangent(const Nodes& nodes, const TangentWeights& by, int k) const {
+  const auto k0 = static_cast<std::size_t>(k);
+  auto unit = [&](int i, double size, double Prescribed::*x) -> Coordinates {
+    auto entry = [&](int j) { return one(i == j ? size : 0); };
+    return {{entry(0), entry(1), entry(2), entry(3)}, nodes[k0].*x, nodes[k0 + 1].*x};
+  };
+  Eigen::Matrix4d tangent;
+  for (int j = 0; j < 4; ++j) {
+    const auto r = nodal_residual(equations(unit(j, by.q, &Prescribed::value), unit(j, by.v, &Prescribed::rate)),
+                                  unit(j, by.a, &Prescribed::acceleration));
+    for (int i = 0; i < 4; ++i) tangent(i, j) = r[static_cast<std::size_t>(i)][0];
+  }
+  return tangent;
+}
+
 SpinChain::Point SpinChain::at(const Coordinates& q, const Coordinates& rate, double u) const {
   if (field_ == AngleField::linear) {
     const SpinMotion<double> motion(angles_of(q), angles_of(rate));
@@ -96,6 +111,47 @@ SpinChain::Point SpinChain::at(const Coordinates& q, const Coordinates& rate, do
   const MovingKinematics<double, 1> kinematics(q, rate, WeightTransport::frozen, {});
   const PointMotion<double, 1> point = kinematics.at(u, hermite_shape(u));
   return {point.s, point.y_a[0], point.y_b[0], point.r_x[0], point.v[0]};
+}
+
+void SpinTangent::assemble(const SpinChain& chain, const SpinChain::Nodes& nodes, const TangentWeights& by) {
+  twists_ = chain.per_node() == 2;
+  band.reset(chain.nodes());
+  work_.assign(2 * band.diagonal.size(), 0.0);
+  for (int k = 0; k + 1 < chain.nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Eigen::Matrix4d angles = chain.tangent(nodes, by, k);
+    band.diagonal[i] += angles.topLeftCorner<2, 2>();
+    band.upper[i] += angles.topRightCorner<2, 2>();
+    band.lower[i + 1] += angles.bottomLeftCorner<2, 2>();
+    band.diagonal[i + 1] += angles.bottomRightCorner<2, 2>();
+  }
+}
+
+bool SpinTangent::factor(const SpinChain& chain, double by_a) {
+  for (int node = 0; node < chain.nodes(); ++node) {
+    if (!chain.driven(node)) continue;
+    const auto k = static_cast<std::size_t>(node);
+    for (auto* block : {&band.diagonal[k], &band.upper[k], &band.lower[k]}) block->row(0).setZero();
+    band.diagonal[k](0, 0) = by_a == 0 ? 1 : by_a;
+  }
+  if (!twists_) {
+    for (auto& block : band.diagonal) block(1, 1) = 1;  // no twist is a coordinate
+  }
+  return band.factor();
+}
+
+void SpinTangent::solve(double* angles) const {
+  if (twists_) {
+    band.solve(angles);
+    return;
+  }
+  const std::size_t nodes = work_.size() / 2;
+  for (std::size_t k = 0; k < nodes; ++k) {
+    work_[2 * k] = angles[k];
+    work_[2 * k + 1] = 0;
+  }
+  band.solve(work_.data());
+  for (std::size_t k = 0; k < nodes; ++k) angles[k] = work_[2 * k];
 }
 
 }  // namespace vlbeam

@@ -3,9 +3,11 @@
 #include <array>
 #include <vector>
 
+#include "core/beam/block_tridiagonal.hpp"
 #include "core/beam/chain_mass.hpp"
 #include "core/beam/mesh_motion.hpp"
 #include "core/element/angle_field.hpp"
+#include "core/element/driven_tangent.hpp"
 #include "core/element/moving_element.hpp"
 #include "core/element/spin_element.hpp"
 
@@ -27,6 +29,7 @@ class SpinChain {
   int per_node() const { return field_ == AngleField::linear ? 1 : 2; }
   int nodes() const { return static_cast<int>(free_.size()); }
   Eigen::Index coordinates() const { return Eigen::Index{per_node()} * nodes(); }
+  bool driven(int node) const { return free_[static_cast<std::size_t>(node)][0][0] == 0; }
   const SpinSection& section() const { return section_; }
   const QuadratureRule& rule() const { return table_.rule; }
 
@@ -44,6 +47,8 @@ class SpinChain {
   /// Solves M a = f in place; of driven angles f becomes zero.
   bool solve(double* f);
   double dissipation() const;
+  /// Derivative of the residual of element k by angle and twist at its ends.
+  Eigen::Matrix4d tangent(const Nodes& nodes, const TangentWeights& by, int k) const;
 
   /// What is at a point of element k: its shape functions, how its angle changes with x_A and x_B at a fixed material
   /// point, its twist [rad/m] and the spin of the matter there [rad/s].
@@ -62,6 +67,23 @@ class SpinChain {
   std::vector<std::array<ChainMass<1>::Components, 2>> free_;
   ChainMass<1> mass_;
   std::vector<double> work_;  // angle and twist at each node
+};
+
+/// The tangent of a chain's angles, tridiagonal in the nodes.
+class SpinTangent {
+ public:
+  /// Of angle and twist at each node; whoever assembles may add to it before it is factored.
+  BorderedBlockTridiagonal<2> band;
+
+  void assemble(const SpinChain& chain, const SpinChain::Nodes& nodes, const TangentWeights& by);
+  /// Rows of driven angles become those of unit matrices times `by_a`. Returns false where it is singular.
+  bool factor(const SpinChain& chain, double by_a);
+  /// Solves in place.
+  void solve(double* angles) const;
+
+ private:
+  bool twists_ = false;
+  mutable std::vector<double> work_;
 };
 
 }  // namespace vlbeam

@@ -237,7 +237,7 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
   if (scene.sliding_mass) add_joint(q);
   add_strains(q);
   add_reactions(q, scene);
-  if (flows(scene) || !scene.loads.empty()) add_flow(q, scene);
+  if (has_flow_sample(scene)) add_flow(q, scene);
   return q.take();
 }
 
