@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/element/circular_shaft.hpp"
 #include "core/scene/build.hpp"
@@ -26,11 +27,9 @@ Scene falling_beam(int elements, ElementKind element) {
 }
 
 template <int D>
-void right_hand_side(benchmark::State& state, ElementKind element, WeightTransport transport) {
-  const int elements = static_cast<int>(state.range(0));
-  Scene scene = falling_beam(elements, element);
+void right_hand_side(benchmark::State& state, Scene scene) {
+  const int elements = scene.beam.elements;
   scene.dimension = D;
-  scene.weights = transport;
   BeamSystem<D> system(build_model<D>(scene), build_chain<D>(scene));
   Eigen::VectorXd y = system.initial_state(), dydt(y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += 1e-6 * std::sin(static_cast<double>(i));  // a bent, moving beam
@@ -42,11 +41,26 @@ void right_hand_side(benchmark::State& state, ElementKind element, WeightTranspo
       static_cast<double>(elements), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+template <int D>
+void right_hand_side(benchmark::State& state, ElementKind element, WeightTransport transport) {
+  Scene scene = falling_beam(static_cast<int>(state.range(0)), element);
+  scene.weights = transport;
+  right_hand_side<D>(state, std::move(scene));
+}
+
 void planar(benchmark::State& state, ElementKind element, WeightTransport transport) {
   right_hand_side<2>(state, element, transport);
 }
 void spatial(benchmark::State& state, ElementKind element, WeightTransport transport) {
   right_hand_side<3>(state, element, transport);
+}
+
+/// A beam without a sliding mass.
+void resting(benchmark::State& state, bool spins, AngleField angles) {
+  Scene scene = falling_beam(static_cast<int>(state.range(0)), ElementKind::ale_ancf);
+  scene.sliding_mass.reset();
+  if (spins) scene.spin.emplace().angles = angles;
+  right_hand_side<3>(state, std::move(scene));
 }
 
 BENCHMARK_CAPTURE(planar, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)
@@ -63,6 +77,9 @@ BENCHMARK_CAPTURE(planar, ALE_RANCF, ElementKind::ale_rancf, WeightTransport::fr
     ->Arg(10000);
 BENCHMARK_CAPTURE(planar, ALE_RANCF_transported, ElementKind::ale_rancf, WeightTransport::transported)->Arg(40);
 BENCHMARK_CAPTURE(spatial, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)->Arg(40);
+BENCHMARK_CAPTURE(resting, no_spin, false, AngleField::linear)->Arg(40);
+BENCHMARK_CAPTURE(resting, spin, true, AngleField::linear)->Arg(40);
+BENCHMARK_CAPTURE(resting, spin_cubic, true, AngleField::hermite)->Arg(40);
 
 /// A beam all of whose nodes travel, as one under a moving load.
 template <int D>

@@ -179,7 +179,7 @@ class Documents(unittest.TestCase):
 
         scenes = {"one sliding mass": falling(), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
                   "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
-                  "loads": library("moving_force"), "shafts": library("rotating_load")}
+                  "loads": library("moving_force"), "spin": library("torsion"), "flow": library("moving_string")}
         self.assertEqual(len(scenes), len(rows) - 2)
         for row in rows[2:]:
             name = next(name for name in scenes if row[0].startswith(name))

@@ -169,6 +169,57 @@ TEST_P(RestTest, ASpinOfNoRateChangesNothing) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, RestTest, testing::ValuesIn(laws()));
 
+/// The section's angle of a beam whose nodes rest, driven and under torques of every kind, is that of a flowing beam
+/// that does not flow, with what drives and torques do.
+TEST(SpinOfRestingNodes, IsThatOfABeamThatDoesNotFlow) {
+  for (const AngleField angles : {AngleField::linear, AngleField::hermite}) {
+    for (const bool implicit : {false, true}) {
+      Scene scene = soft_beam(ElementKind::ale_ancf, 3);
+      scene.gravity_ramp = 0;
+      scene.beam.material.poisson_ratio = 0.4;
+      scene.beam.material.damping = 1e-4;
+      scene.spin.emplace().angles = angles;
+      scene.spin->drives = {{.node = 0, .angle = {.rate = 6, .amplitude = 0.1, .frequency = 30}}};
+      scene.loads = {
+          {.type = LoadType::torque, .node = 6, .x = {}, .magnitude = {.value = -0.1}, .turn = {}},
+          {.type = LoadType::torque,
+           .at = LoadPlace::point,
+           .x = {.value = 0.2, .rate = 3},
+           .magnitude = {.amplitude = 0.3, .frequency = 20},
+           .turn = {}},
+          {.type = LoadType::torque, .at = LoadPlace::beam, .x = {}, .magnitude = {.value = 0.2}, .turn = {}}};
+      test::set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
+      if (implicit) {
+        scene.integrator = {};
+        scene.integrator.type = IntegratorType::generalized_alpha;
+        scene.integrator.newton_tolerance = 1e-11;
+      }
+      Scene flowing = scene;
+      flowing.flow.emplace().nodes = {{.node = 0, .x = {}}, {.node = 6, .x = {.value = 1}}};
+      const RunResult a = simulate(scene), b = simulate(flowing);
+      expect_same(scene, a, b, scene.duration, in_space_of_time);
+      for (std::size_t i = 0; i < a.samples.size(); ++i) {
+        const FlowSample &x = *a.samples[i].flow, &y = *b.samples[i].flow;
+        for (const std::size_t end : {0U, 1U}) EXPECT_NEAR((*x.end_angles)[end], (*y.end_angles)[end], 1e-8);
+        EXPECT_NEAR(x.spin_momentum, y.spin_momentum, 1e-8);
+        ASSERT_EQ(x.torques.size(), 1U);
+        EXPECT_NEAR(x.torques[0], y.torques[0], 1e-7);
+        EXPECT_NEAR(a.samples[i].energy.torsion, b.samples[i].energy.torsion, 1e-8);
+        ASSERT_TRUE(x.ledger);
+        if (implicit) continue;
+        EXPECT_NEAR(x.ledger->ends, y.ledger->ends, 1e-8);
+        EXPECT_NEAR(x.ledger->loads, y.ledger->loads, 1e-8);
+      }
+      const FlowSample& last = *a.samples.back().flow;
+      EXPECT_GT(std::abs(last.ledger->ends), 1e-3);
+      EXPECT_GT(std::abs(last.ledger->loads), 1e-3);
+      double largest = 0;
+      for (const Sample& s : a.samples) largest = std::max(largest, s.energy.kinetic + s.energy.torsion);
+      EXPECT_LE(a.max_energy_drift, (implicit ? 1e-2 : 1e-9) * largest);
+    }
+  }
+}
+
 /// What supports, loads and growing gravity supply is all that the energy changes by, between events: of a sliding mass
 /// under loads that travel, follow and swing, with each element.
 TEST(LoadsWithASlidingMass, CloseTheLedger) {
