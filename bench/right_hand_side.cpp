@@ -88,7 +88,7 @@ void flowing(benchmark::State& state, bool spins) {
   const CircularShaft shaft{.radius = 0.01, .density = 7200, .youngs_modulus = 2e7};
   FlowingModel<D> model;
   model.section = shaft.section();
-  if (spins) model.spin = shaft.spin();
+  if (spins) model.spin.emplace().section = shaft.spin();
   model.motion = MeshMotion({{0, steadily(0, -0.1)}, {elements / 2, steadily(0.5, 1)}, {elements, steadily(1, 0.1)}});
   model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
   FlowingBeam<D> beam(model);

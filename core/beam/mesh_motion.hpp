@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -24,6 +25,14 @@ inline Prescribed smooth_ramp(double t, double duration) {
   const double s = t / duration, v = s * (1 - s);
   return {s * s * s * s * (35 + s * (-84 + s * (70 - 20 * s))), 140 * v * v * v / duration,
           420 * v * v * (1 - 2 * s) / (duration * duration)};
+}
+
+/// Index of the element between nodes at `marks` that holds the material point x; of the first or the last one beyond
+/// the ends.
+inline int element_at(const std::vector<Prescribed>& marks, double x) {
+  const auto next = std::upper_bound(marks.begin() + 1, marks.end() - 1, x,
+                                     [](double at, const Prescribed& node) { return at < node.value; });
+  return static_cast<int>(next - marks.begin()) - 1;
 }
 
 /// Material coordinates of the nodes of a chain as functions of time: those of some nodes are given, the ones between

@@ -39,10 +39,10 @@ void check_places(const std::vector<PointLoad<D>>& loads, double until, double s
 }
 
 template <int D>
-double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force) const {
+double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force, double* on_marks) const {
   double power = 0;
   for (const PointLoad<D>& load : points) {
-    const double x = load.x(t);
+    const double x = load.place(beam, t);
     const int k = beam.element_at(x);
     const PointMotion<double, D> at = point_at(beam.kinematics(k), x);
     const Vec<double, D> f = load.force_on(at.r_x, t);
@@ -51,6 +51,9 @@ double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force) c
     }
     if (beam.at_joint(k)) force[beam.mark] += f.dot(k == beam.joint ? at.y_a : at.y_b);
     power += f.dot(at.v);
+    if (on_marks == nullptr) continue;
+    on_marks[k] += f.dot(at.y_a);
+    on_marks[k + 1] += f.dot(at.y_b);
   }
   return power;
 }
@@ -59,7 +62,7 @@ template <int D>
 typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k,
                                                    double t) const {
   constexpr int X = element_size - 1;
-  const double x = load.x(t);
+  const double x = load.place(beam, t);
   const PointMotion<double, D> at = point_at(beam.kinematics(k), x);
   const Eigen::Matrix<double, D, D> turning = load.turning(at.r_x, t);
   ElementMatrix matrix = ElementMatrix::Zero();
@@ -100,7 +103,7 @@ template <int D>
 std::vector<Vec<double, D>> Loads<D>::places(const ChainView<D>& beam, double t) const {
   std::vector<Vec<double, D>> result;
   for (const PointLoad<D>& load : points) {
-    const double x = load.x(t);
+    const double x = load.place(beam, t);
     result.push_back(point_at(beam.kinematics(beam.element_at(x)), x).r);
   }
   return result;

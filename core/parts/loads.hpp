@@ -12,12 +12,13 @@ namespace vlbeam {
 /// Concentrated loads on one material point, each a function of time; those that are empty are absent.
 template <int D>
 struct PointLoad {
-  int node = -1;                                       ///< at which the point is; if negative, it is at
-  std::function<double(double t)> x = {};              ///< this material coordinate [m], which may travel over nodes
+  int node = -1;                                       ///< the point is what this node marks, wherever that moves to,
+  std::function<double(double t)> x = {};              ///< or has this material coordinate [m], which may travel
   std::function<Vec<double, D>(double t)> force = {};  ///< [N], of a direction of its own
   std::function<double(double t)> follower = {};       ///< [N], along the tangent of the axis
-  std::function<double(double t)> torque = {};         ///< [N m], about the axis; needs spin
 
+  /// Its material coordinate on a beam [m].
+  double place(const ChainView<D>& beam, double t) const { return x ? x(t) : beam.mark_of(node); }
   /// Of force and follower, where the axis has the slope r_x [N].
   Vec<double, D> force_on(const Vec<double, D>& r_x, double t) const {
     Vec<double, D> sum = Vec<double, D>::Zero();
@@ -47,18 +48,19 @@ struct Loads {
   static constexpr int element_size = 4 * D + 1;  ///< nodal coordinates of an element, and the mark
   using ElementMatrix = Eigen::Matrix<double, element_size, element_size>;
 
-  std::vector<PointLoad<D>> points = {};                    ///< each at a material coordinate
+  std::vector<PointLoad<D>> points = {};
   std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
 
   bool present() const { return !points.empty() || line_force; }
 
-  /// Adds the concentrated ones to an array like q; returns their power [W].
-  double add_forces(const ChainView<D>& beam, double t, double* force) const;
+  /// Adds the concentrated ones to an array like q; returns their power [W]. Where nodes are prescribed, what they do
+  /// along the beam [N] is added to `on_marks`, one entry a node, unless that is null.
+  double add_forces(const ChainView<D>& beam, double t, double* force, double* on_marks = nullptr) const;
   /// Calls `add(element, matrix)` with the derivatives of minus these forces by the element's coordinates.
   template <class Add>
   void add_tangent(const ChainView<D>& beam, double t, const Add& add) const {
     for (const PointLoad<D>& load : points) {
-      const int k = beam.element_at(load.x(t));
+      const int k = beam.element_at(load.place(beam, t));
       if (load.follower || beam.at_joint(k)) add(k, tangent(load, beam, k, t));
     }
   }

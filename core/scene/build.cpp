@@ -262,25 +262,25 @@ BeamModel<D> build_model(const Scene& scene) {
                           control.hysteresis, merge_policy(scene),    !is_polynomial(scene.beam.element),
                           control.velocities, end_merge(scene)};
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
-  if (flows(scene)) return model;  // FlowingModel has the loads
-  BeamLoads<D> loads = build_loads<D>(scene);
+  auto [loads, torques] = build_loads<D>(scene);
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
-  for (PointLoad<D>& load : loads.points) {
-    if (load.node < 0) continue;
-    load.x = [x = nodes[static_cast<std::size_t>(load.node)]](double) { return x; };  // the point that it marks now
-  }
+  const auto stay = [&](auto& points) {  // at what the node marks now, wherever it moves to
+    if (flows(scene)) return;
+    for (auto& load : points) {
+      if (load.node >= 0) load.x = [x = nodes[static_cast<std::size_t>(load.node)]](double) { return x; };
+    }
+  };
+  stay(loads.points);
+  stay(torques.points);
   if (scene.spin) {
     SpinModel& spin = model.spin.emplace();
     spin.section = build_spin(scene.beam);
     spin.field = scene.spin->angles;
     spin.rate = initial_spin(scene);
     for (const auto& drive : scene.spin->drives) spin.drives.push_back({drive.node, time_function(drive.angle)});
-    for (const PointLoad<D>& load : loads.points) {
-      if (load.torque) spin.torques.points.push_back({load.x, load.torque});
-    }
-    spin.torques.line = std::move(loads.line_torque);
+    spin.torques = std::move(torques);
   }
-  model.loads = {std::move(loads.points), std::move(loads.line_force)};
+  model.loads = std::move(loads);
   return model;
 }
 

@@ -5,7 +5,6 @@
 #include "core/dynamics/stepper.hpp"
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
-#include "core/scene/build_loads.hpp"
 #include "core/scene/time_function.hpp"
 #include "core/system/steady_flow.hpp"
 
@@ -54,11 +53,7 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
   const Vec<double, D> along = direction_of<D>(scene);
   FlowingModel<D> model;
   model.section = beam.section;
-  if (scene.spin) {
-    model.spin = build_spin(scene.beam);
-    model.angle_field = scene.spin->angles;
-    for (const auto& drive : scene.spin->drives) model.angles.push_back({drive.node, time_function(drive.angle)});
-  }
+  model.spin = beam.spin;
   if (scene.beam.rotary_inertia != BendingInertia::none) {
     const double rhoIp = build_spin(scene.beam).rhoIp;
     model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = 0, .direction = along};
@@ -84,10 +79,7 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
       model.supports.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
     }
   }
-  BeamLoads<D> loads = build_loads<D>(scene);
-  model.loads = std::move(loads.points);
-  model.line_force = std::move(loads.line_force);
-  model.line_torque = std::move(loads.line_torque);
+  model.loads = beam.loads;
   model.rest = beam.rest;
   model.ledger = keeps_ledger(scene);
   return model;
@@ -99,11 +91,8 @@ Eigen::VectorXd initial_flow(const Scene& scene, FlowingBeam<D>& beam) {
   const double stretch = initial_stretch(scene);
   const Vec<double, D> origin = start + along * (stretch * beam.nodes_at(0).front().value);
   Eigen::VectorXd y = beam.straight_state(origin, along, stretch, initial_velocity(scene), initial_spin(scene));
-  for (const DrivenAngle& driven : beam.model().angles) {
-    const Prescribed angle = driven.theta(0);
-    y[beam.angle(driven.node)] = angle.value;
-    y[beam.coordinates() + beam.angle(driven.node)] = angle.rate;
-  }
+  if (const auto& spin = beam.spin())
+    spin->start(y.data() + beam.angle(0), y.data() + beam.coordinates() + beam.angle(0));
   return scene.flow && scene.flow->steady ? steady_state(beam, y) : y;
 }
 

@@ -18,7 +18,6 @@ PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis) {
   if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
   auto size = [magnitude](double t) { return magnitude(t).value; };
   if (spec.type == LoadType::follower) load.follower = size;
-  if (spec.type == LoadType::torque) load.torque = size;
   if (spec.type == LoadType::force) {
     const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
     const TimeFunction turn = time_function(spec.turn);
@@ -48,32 +47,43 @@ double initial_place(const LoadSpec& spec, const std::vector<double>& nodes) {
   return 0;
 }
 
+template <class Value>
+void add_to(std::function<Value(double t)>& sum, const std::function<Value(double t)>& more) {
+  if (!sum) {
+    sum = more;
+  } else {
+    sum = [before = sum, more](double t) -> Value { return before(t) + more(t); };
+  }
+}
+
 }  // namespace
 
 template <int D>
 BeamLoads<D> build_loads(const Scene& scene) {
-  BeamLoads<D> loads;
-  if (scene.loads.empty()) return loads;
+  BeamLoads<D> result;
+  if (scene.loads.empty()) return result;
   const Axis<D> axis = build_axis<D>(scene);
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
   for (const LoadSpec& spec : scene.loads) {
     const double x = std::clamp(initial_place(spec, nodes), 0.0, axis.length());
-    const PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized());
-    if (spec.at != LoadPlace::beam) {
-      loads.points.push_back(load);
-    } else if (load.torque) {
-      loads.line_torque = [before = loads.line_torque, torque = load.torque](double t) {
-        return torque(t) + (before ? before(t) : 0);
+    PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized());
+    if (spec.type == LoadType::torque) {
+      const std::function<double(double t)> torque = [size = time_function(spec.magnitude)](double t) {
+        return size(t).value;
       };
+      if (spec.at == LoadPlace::beam) {
+        add_to(result.torques.line, torque);
+        continue;
+      }
+      result.torques.points.push_back({load.node, load.x, torque});
+    }
+    if (spec.at == LoadPlace::beam) {
+      add_to(result.loads.line_force, load.force);
     } else {
-      loads.line_force = [before = loads.line_force, force = load.force](double t) -> Vec<double, D> {
-        Vec<double, D> sum = force(t);
-        if (before) sum += before(t);
-        return sum;
-      };
+      result.loads.points.push_back(std::move(load));
     }
   }
-  return loads;
+  return result;
 }
 
 template BeamLoads<2> build_loads(const Scene&);

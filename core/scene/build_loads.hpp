@@ -1,16 +1,16 @@
 #pragma once
 
 #include "core/parts/loads.hpp"
+#include "core/parts/spin.hpp"
 #include "core/scene/scene.hpp"
 
 namespace vlbeam {
 
-/// The loads of a scene: those at a node say which.
+/// The loads of a scene: those at a node say which, and a torque has a place among the loads, too.
 template <int D>
 struct BeamLoads {
-  std::vector<PointLoad<D>> points;
-  std::function<Vec<double, D>(double t)> line_force;  ///< on the whole beam [N/m]
-  std::function<double(double t)> line_torque;         ///< on the whole beam [N m/m]
+  Loads<D> loads;
+  Torques torques;
 };
 template <int D>
 BeamLoads<D> build_loads(const Scene& scene);

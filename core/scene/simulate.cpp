@@ -72,7 +72,7 @@ class Run {
     const auto started = std::chrono::steady_clock::now();
     if (stops_.keeps_shape_at(t)) {
       Configuration shape = configuration_of(system_.chain(y), t, weight_transport(scene_));
-      const RestingSpin* spin = system_.spin();
+      const Spin* spin = system_.spin();
       for (int k = 0; spin != nullptr && k <= system_.mesh().last(); ++k) {
         const double* angle = y.data() + system_.angles() + spin->angle(k);
         shape.angles.push_back(angle[0]);
@@ -117,7 +117,7 @@ class Run {
                                                 const OuterForces<D>& forces) const {
     FlowSample flow;
     flow.mass = seen.mass;
-    if (const RestingSpin* spin = system_.spin()) {
+    if (const Spin* spin = system_.spin()) {
       const double* angles = y.data() + system_.angles();
       flow.end_angles = {angles[0], angles[spin->angle(system_.mesh().last())]};
       flow.spin_momentum = seen.spin_momentum;

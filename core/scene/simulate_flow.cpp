@@ -72,7 +72,7 @@ class FlowRun {
       flow.end_angles = {y[beam_.angle(0)], y[beam_.angle(beam_.elements())]};
       flow.spin_momentum = seen.spin_momentum;
     }
-    for (const auto& load : beam_.model().loads) flow.loads.push_back(point_of<D>(beam_.position_of(load, y, t)));
+    for (const auto& place : beam_.load_places(y, t)) flow.loads.push_back(point_of<D>(place));
     const FlowReactions<D> reactions = beam_.reactions(y, t);
     flow.torques = reactions.torques;
     for (std::size_t i = 0; i < reactions.supports.size(); ++i) {

@@ -37,7 +37,11 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   free_mass_ = model_.joint.has_value() && joint_ == no_joint && !chain.rider;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
   spin_.reset();
-  if (model_.spin) spin_.emplace(*model_.spin, mesh_.x, model_.formulation, model_.quadrature_points);
+  if (model_.spin) {
+    std::vector<Prescribed> marks;
+    for (const double x : mesh_.x) marks.push_back({x, 0, 0});
+    spin_.emplace(*model_.spin, std::move(marks), model_.formulation, model_.quadrature_points);
+  }
   coordinates_ = nodal_ + (spin_ ? spin_->coordinates() : 0) + (has_joint() || chain.rider ? 1 : 0) +
                  (kinked() || free_mass_ ? D : 0);
   behind_ = kinked() ? nodal_ + 1 : Eigen::Index{node_size<D>} * joint_ + D;
@@ -412,9 +416,12 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     }
     if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
   }
-  if (spin_ && !spin_->accelerate(q + nodal_, rate + nodal_, t, force + nodal_, power)) {
-    dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
-    return;
+  if (spin_) {
+    if (!spin_->accelerate(q + nodal_, rate + nodal_, t, force + nodal_, power.dissipated)) {
+      dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    if (model_.spin->supplied()) power = power + spin_->power(q + nodal_, rate + nodal_, force + nodal_, t);
   }
   if (driven) power.supports = pull->power(force);
   model_.tallies().add(power, dydt);
@@ -487,7 +494,7 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     seen.mass_moment += m * mass->r;
   }
   if (spin_) {
-    const RestingSpin::Seen turning = spin_->observe(y.data() + nodal_, y.data() + coordinates_ + nodal_, points);
+    const Spin::Seen turning = spin_->observe(y.data() + nodal_, y.data() + coordinates_ + nodal_, points);
     seen.energy.kinetic += turning.kinetic;
     seen.energy.torsion += turning.torsion;
     seen.spin_momentum += turning.momentum;

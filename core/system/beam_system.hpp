@@ -16,7 +16,7 @@
 #include "core/system/constraints.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
-#include "core/system/resting_spin.hpp"
+#include "core/parts/spin.hpp"
 
 namespace vlbeam {
 
@@ -169,8 +169,8 @@ class BeamSystem final : public EventedOde {
   }
   int joint() const { return joint_; }
   /// How the section turns; null if it does not. Its angles stand behind the nodes.
-  RestingSpin* spin() { return spin_ ? &*spin_ : nullptr; }
-  const RestingSpin* spin() const { return spin_ ? &*spin_ : nullptr; }
+  Spin* spin() { return spin_ ? &*spin_ : nullptr; }
+  const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
   Eigen::Index angles() const { return nodal_; }
   /// The beam has two slopes at the joint.
   bool kinked() const { return has_joint() && model_.joint->kinked(); }
@@ -303,7 +303,7 @@ class BeamSystem final : public EventedOde {
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
-  std::optional<RestingSpin> spin_;
+  std::optional<Spin> spin_;
   RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;
   std::unique_ptr<ImplicitBeam<D>> implicit_;

@@ -32,7 +32,8 @@ template <int D>
 FlowingBeam<D>::FlowingBeam(const FlowingModel<D>& model)
     : model_(model), nodal_(Eigen::Index{node_size<D>} * nodes()) {
   check_model();
-  if (model_.weights.empty()) model_.weights.resize(static_cast<std::size_t>(elements()));
+  mesh_.weights = model_.weights;
+  mesh_.weights.resize(static_cast<std::size_t>(elements()));
   const auto& rule = gauss_legendre(model_.quadrature_points);
   for (int k = 0; k < elements(); ++k) tables_.emplace_back(rule, weights(k).w);
   elements_.resize(tables_.size());
@@ -40,13 +41,11 @@ FlowingBeam<D>::FlowingBeam(const FlowingModel<D>& model)
   model_.motion.at(0, nodes_);
   reference_length_ = (nodes_.back().value - nodes_.front().value) / elements();
   adopt_supports();
-  if (model_.spin) {
-    std::vector<int> driven;
-    for (const DrivenAngle& angle : model_.angles) driven.push_back(angle.node);
-    spin_.emplace(*model_.spin, model_.angle_field, model_.formulation, elements(), model_.quadrature_points, driven);
-  }
+  if (model_.spin) spin_.emplace(*model_.spin, nodes_, model_.formulation, model_.quadrature_points);
   residual_.resize(coordinates());
-  prescribed_.setZero(coordinates());
+  still_.setZero(nodal_);
+  scratch_.setZero(coordinates());
+  on_marks_.resize(nodes_.size());
   ramp_ = RampWork<D>(model_.gravity, model_.gravity_ramp);
 }
 
@@ -85,23 +84,22 @@ void FlowingBeam<D>::check_model() const {
     return taken;
   };
   check_nodes("/supports", model_.supports, true);
-  check_drives(model_.angles, elements());
-  std::vector<PointLoad<D>> at_nodes;
-  std::ranges::copy_if(model_.loads, std::back_inserter(at_nodes), [](const PointLoad<D>& load) { return !load.x; });
-  check_nodes("/loads", at_nodes, false);
-
-  if (!model_.spin && (!model_.angles.empty() || model_.line_torque)) {
-    throw InvalidInput("/spin", "a missing key", "angles or torques are given, which a section that spins takes");
-  }
-  for (const auto& load : model_.loads) {
-    if (!load.torque) continue;
-    if (!model_.spin)
-      throw InvalidInput("/spin", "a missing key", "a torque is given, which a section that spins takes");
-    if (!load.x && std::ranges::count(model_.angles, load.node, &DrivenAngle::node) > 0) {
+  const auto check_loads = [&](const auto& loads) {
+    auto at_nodes = loads;
+    std::erase_if(at_nodes, [](const auto& load) { return static_cast<bool>(load.x); });
+    check_nodes("/loads", at_nodes, false);
+  };
+  check_loads(model_.loads.points);
+  if (model_.spin) {
+    check_drives(model_.spin->drives, elements());
+    check_loads(model_.spin->torques.points);
+    for (const Torques::Point& load : model_.spin->torques.points) {
+      if (load.x || std::ranges::count(model_.spin->drives, load.node, &DrivenAngle::node) == 0) continue;
       throw InvalidInput("/loads", "a torque at node " + std::to_string(load.node),
                          "the angle there is prescribed already");
     }
   }
+
   if (model_.rotary.present()) {
     if (!(std::abs(model_.rotary.direction.norm() - 1) < 1e-9)) {
       throw InvalidInput("/beam/rotary_inertia", "without direction", "it needs a unit vector");
@@ -149,10 +147,9 @@ Eigen::Index FlowingBeam<D>::size() const {
 template <int D>
 std::vector<FieldRun> FlowingBeam<D>::fields() const {
   auto runs = nodal_fields(D, nodes());
-  if (!spin_) return runs;
-  const Eigen::Index per_node = spin_->per_node();
-  runs.push_back({Field::angle, angle(0), 1, per_node, nodes()});
-  if (per_node == 2) runs.push_back({Field::twist, angle(0) + 1, 1, per_node, nodes()});
+  if (spin_) {
+    for (const FieldRun& run : spin_->fields(nodal_)) runs.push_back(run);
+  }
   return runs;
 }
 
@@ -162,15 +159,10 @@ MovingCoordinates<double, D> FlowingBeam<D>::axis_of(const double* q, int k, dou
 }
 
 template <int D>
-SpinChain::Coordinates FlowingBeam<D>::spin_of(const double* q, int k, double Prescribed::*x) const {
-  return spin_->local(q + nodal_, nodes_, x, k);
-}
-
-template <int D>
 MovingLaw<D> FlowingBeam<D>::law(double t) const {
   MovingLaw<D> result{model_.section, model_.formulation, model_.transport,
                       model_.gravity * smooth_ramp(t, model_.gravity_ramp).value};
-  if (model_.line_force) result.gravity += model_.line_force(t) / model_.section.rhoA;
+  if (model_.loads.line_force) result.gravity += model_.loads.line_force(t) / model_.section.rhoA;
   return result;
 }
 
@@ -188,6 +180,7 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
   for (std::size_t k = 0; k < elements_.size(); ++k) {
     if (!(nodes_[k + 1].value - nodes_[k].value > 0)) return false;
   }
+  check_reach(t);
   MovingLaw<D> moving = law(t);
   for (int k = 0; k < elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -205,7 +198,7 @@ bool FlowingBeam<D>::evaluate(const double* q, const double* rate, double t) {
       for (std::size_t row = 0; row < 4; ++row) elements_[i].force[row] -= residual[row];
     }
   }
-  if (spin_) spin_->evaluate(q + nodal_, rate + nodal_, nodes_);
+  if (spin_) spin_->move(nodes_);
   return true;
 }
 
@@ -223,7 +216,6 @@ void FlowingBeam<D>::add_residual(const double* a, double* r) const {
     position<D>(r, k + 1) += axis[2];
     slope<D>(r, k + 1) += axis[3];
   }
-  if (spin_) spin_->add_residual(a + nodal_, nodes_, r + nodal_);
 }
 
 template <int D>
@@ -235,11 +227,6 @@ void FlowingBeam<D>::add_inflow(const double* q, const double* rate, double* f) 
     const double in = start ? -x_rate : x_rate;  // length that comes in a second
     position<D>(f, k) += (model_.section.rhoA * in) * (position<D>(rate, k) - x_rate * slope<D>(q, k));
     if (model_.rotary.present()) slope<D>(f, k) += in * rotary_momentum(q, rate, k);
-    if (!spin_) continue;
-    const int element = start ? 0 : k - 1;
-    const SpinChain::Point end =
-        spin_->at(spin_of(q, element, &Prescribed::value), spin_of(rate, element, &Prescribed::rate), start ? 0 : 1);
-    f[angle(k)] += spin_->section().rhoIp * in * end.spin;
   }
 }
 
@@ -255,65 +242,27 @@ Vec<double, D> FlowingBeam<D>::rotary_momentum(const double* q, const double* ra
 }
 
 template <int D>
-typename FlowingBeam<D>::Loaded FlowingBeam<D>::loaded(const PointLoad<D>& load, const double* q, const double* rate,
-                                                       double t) const {
-  int k = std::clamp(load.node, 0, elements() - 1);
-  double u = load.node == elements() ? 1 : 0;
-  if (load.x) {
-    const double x = load.x(t), slack = 1e-9 * reference_length_;
-    if (!(x >= nodes_.front().value - slack && x <= nodes_.back().value + slack)) {
+void FlowingBeam<D>::check_reach(double t) const {
+  const double slack = 1e-9 * reference_length_, first = nodes_.front().value, last = nodes_.back().value;
+  const auto check = [&](const auto& loads) {
+    for (const auto& load : loads) {
+      if (!load.x) continue;
+      const double x = load.x(t);
+      if (x >= first - slack && x <= last + slack) continue;
       throw ComputationFailed("a load at the material coordinate " + text(x) + " m is beyond the ends of the beam, " +
-                                  text(nodes_.front().value) + " and " + text(nodes_.back().value) + " m",
+                                  text(first) + " and " + text(last) + " m",
                               t);
     }
-    while (k + 1 < elements() && x > nodes_[static_cast<std::size_t>(k) + 1].value) ++k;
-    const auto i = static_cast<std::size_t>(k);
-    u = (x - nodes_[i].value) / (nodes_[i + 1].value - nodes_[i].value);
-  }
-  const MovingKinematics<double, D> axis(axis_of(q, k, &Prescribed::value), axis_of(rate, k, &Prescribed::rate),
-                                         model_.transport, weights(k));
-  Loaded result{k, axis.at(u, rational_shape(axis.weights(), u)), {}};
-  if (!load.torque) return result;
-  auto angle_at = [&](int element, double at) {
-    return spin_->at(spin_of(q, element, &Prescribed::value), spin_of(rate, element, &Prescribed::rate), at);
   };
-  result.angle = angle_at(k, u);
-  if (!load.x && load.node > 0 && load.node < elements()) {  // the twist may jump there: the mean of both sides
-    const SpinChain::Point before = angle_at(k - 1, 1);
-    result.angle.spin = (result.angle.spin + before.spin) / 2;
-    result.angle.by_a = (result.angle.by_a + before.by_b) / 2;
-  }
-  return result;
-}
-
-template <int D>
-void FlowingBeam<D>::add_loads(const double* q, const double* rate, double t, double* f) const {
-  for (const PointLoad<D>& load : model_.loads) {
-    const Loaded at = loaded(load, q, rate, t);
-    const Vector force = load.force_on(at.axis.r_x, t);
-    position<D>(f, at.element) += at.axis.s[0] * force;
-    slope<D>(f, at.element) += at.axis.s[1] * force;
-    position<D>(f, at.element + 1) += at.axis.s[2] * force;
-    slope<D>(f, at.element + 1) += at.axis.s[3] * force;
-    if (!load.torque) continue;
-    const double torque = load.torque(t);
-    const auto& s = at.angle.s;
-    spin_->scatter(at.element, {s[0] * torque, s[1] * torque, s[2] * torque, s[3] * torque}, f + nodal_);
-  }
-  if (!model_.line_torque) return;
-  const double torque = model_.line_torque(t);
-  for (int k = 0; k < elements(); ++k) {
-    // of the angles' shape functions, the twists' part is odd
-    const double l = nodes_[static_cast<std::size_t>(k) + 1].value - nodes_[static_cast<std::size_t>(k)].value;
-    spin_->scatter(k, {torque * l / 2, torque * l * l / 12, torque * l / 2, -torque * l * l / 12}, f + nodal_);
-  }
+  check(model_.loads.points);
+  if (spin_) check(spin_->model().torques.points);
 }
 
 template <int D>
 double FlowingBeam<D>::dissipation() const {
   double power = 0;
   for (const auto& element : elements_) power += element.dissipation;
-  return power + (spin_ ? spin_->dissipation() : 0);
+  return power;
 }
 
 template <int D>
@@ -337,9 +286,6 @@ bool FlowingBeam<D>::solve_mass(double* f) {
   if (!aligned_) turn(frame_.transpose());
   mass_.solve(f);
   if (!aligned_) turn(frame_);
-  if (!spin_) return true;
-  if (!spin_->solve(f + nodal_)) return false;
-  for (const DrivenAngle& driven : model_.angles) f[angle(driven.node)] = prescribed_[angle(driven.node)];
   return true;
 }
 
@@ -355,21 +301,18 @@ void FlowingBeam<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
     return;
   }
-  Eigen::Map<Eigen::VectorXd> force(a, n);
-  for (const DrivenAngle& driven : model_.angles) prescribed_[angle(driven.node)] = driven.theta(t).acceleration;
-  add_residual(prescribed_.data(), a);
+  Eigen::Map<Eigen::VectorXd> force(a, nodal_);
+  add_residual(still_.data(), a);
   force = -force;
-  add_loads(q, rate, t, a);
+  model_.loads.add_forces(view(q, rate), t, a);
   add_inflow(q, rate, a);
-  if (!solve_mass(a)) {
+  double dissipated = dissipation();
+  if (!solve_mass(a) || (spin_ && !spin_->accelerate(q + nodal_, rate + nodal_, t, a + nodal_, dissipated))) {
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  if (model_.ledger) {
-    book(q, rate, a, t, dydt.data() + 2 * n);
-  } else if (damped()) {
-    dydt[dydt.size() - 1] = dissipation();
-  }
+  if (damped() || model_.ledger) dydt[dydt.size() - 1] = dissipated;
+  if (model_.ledger) book(q, rate, a, t, dydt.data() + 2 * n);
 }
 
 template <int D>
@@ -377,6 +320,7 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
   const Eigen::Index n = coordinates();
   residual_.setZero();
   add_residual(a, residual_.data());
+  if (spin_) spin_->inner_residual(q + nodal_, rate + nodal_, a + nodal_, residual_.data() + nodal_);
   double power = residual_.dot(Eigen::Map<const Eigen::VectorXd>(rate, n));  // all that comes in
   double loads = 0, mesh = 0;
   auto drive = [&](int k, double force) {  // along the beam at node k
@@ -384,17 +328,16 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
     power += p;
     if (k > 0 && k < elements()) mesh += p;
   };
-  const Vector line = model_.line_force ? model_.line_force(t) : Vector::Zero();
-  const double line_torque = model_.line_torque ? model_.line_torque(t) : 0;
+  const Vector line = model_.loads.line_force ? model_.loads.line_force(t) : Vector::Zero();
   for (int k = 0; k < elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     auto [force_a, force_b] = guiding_forces(elements_[i], axis_of(a, k, &Prescribed::acceleration));
     if (spin_) {
-      const auto spin = guiding_forces(spin_->element(k), spin_of(a, k, &Prescribed::acceleration));
+      const auto spin = spin_->guiding_forces(k, a + nodal_);
       force_a += spin[0];
       force_b += spin[1];
     }
-    if (model_.line_force) {
+    if (model_.loads.line_force) {
       // moving_equations took the line force for a potential, of which the moving ends carry a part; it is none
       const MovingKinematics<double, D> kinematics(axis_of(q, k, &Prescribed::value),
                                                    axis_of(rate, k, &Prescribed::rate), model_.transport, weights(k));
@@ -408,18 +351,6 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
         power += work;
       }
     }
-    if (model_.line_torque) {
-      const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value);
-      const SpinChain::Coordinates rates = spin_of(rate, k, &Prescribed::rate);
-      for (const auto& [u, w] : spin_->rule()) {
-        const SpinChain::Point point = spin_->at(angles, rates, u);
-        const double torque = w * line_torque * (angles.x_b - angles.x_a);
-        loads += torque * point.spin;
-        force_a -= torque * point.by_a;
-        force_b -= torque * point.by_b;
-        power += torque * (point.by_a * rates.x_a + point.by_b * rates.x_b);
-      }
-    }
     if (model_.rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
       const auto e = element_nodes<D>(q, k), e_rate = element_nodes<D>(rate, k), e_a = element_nodes<D>(a, k);
       power += rotary_power(model_.rotary, nodes_[i], nodes_[i + 1], tables_[i], e, e_rate, e_a);
@@ -430,19 +361,13 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
     drive(k, force_a);
     drive(k + 1, force_b);
   }
-  for (const PointLoad<D>& load : model_.loads) {
-    // on the material point: what is along the beam goes into the motion of the nodes, not into the matter
-    const Loaded at = loaded(load, q, rate, t);
-    const Vector force = load.force_on(at.axis.r_x, t);
-    const double torque = load.torque ? load.torque(t) : 0;
-    loads += force.dot(at.axis.v) + torque * at.angle.spin;
-    const std::array<double, 2> along{force.dot(at.axis.y_a) + torque * at.angle.by_a,
-                                      force.dot(at.axis.y_b) + torque * at.angle.by_b};
-    for (int end = 0; end < 2; ++end) {
-      const int k = at.element + end;
-      if (k > 0 && k < elements())
-        mesh -= along[static_cast<std::size_t>(end)] * nodes_[static_cast<std::size_t>(k)].rate;
-    }
+  // of concentrated loads and torques, on material points: what is along the beam goes into the motion of the nodes
+  std::ranges::fill(on_marks_, 0);
+  loads += model_.loads.add_forces(view(q, rate), t, scratch_.data(), on_marks_.data());
+  if (spin_) loads += spin_->add_torques(q + nodal_, rate + nodal_, t, scratch_.data() + nodal_, on_marks_.data());
+  for (int k = 1; k < elements(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    mesh -= on_marks_[i] * nodes_[i].rate;
   }
 
   entry[mass_entry] = model_.section.rhoA * (nodes_.back().rate - nodes_.front().rate);
@@ -455,7 +380,6 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
   double turning = 0;
   for (int k = 0; spin_ && k < nodes(); ++k) turning += residual_[angle(k)];
   entry[impulse_entry + D] = turning;
-  entry[impulse_entry + D + 1] = dissipation();
 }
 
 template <int D>
@@ -467,15 +391,19 @@ FlowReactions<D> FlowingBeam<D>::reactions(const Eigen::VectorXd& y, double t) {
   // what M a lacks of the forces that are known
   const Eigen::Index n = coordinates();
   Eigen::VectorXd known = Eigen::VectorXd::Zero(n), force = known;
-  add_loads(y.data(), y.data() + n, t, known.data());
-  add_inflow(y.data(), y.data() + n, known.data());
-  add_residual(dydt.data() + n, force.data());
+  const double *q = y.data(), *rate = q + n, *a = dydt.data() + n;
+  model_.loads.add_forces(view(q, rate), t, known.data());
+  add_inflow(q, rate, known.data());
+  add_residual(a, force.data());
   force -= known;
   FlowReactions<D> result;
   for (const NodeSupport<D>& held : model_.supports) {
     result.supports.push_back(force.segment<node_size<D>>(Eigen::Index{node_size<D>} * held.node));
   }
-  for (const DrivenAngle& driven : model_.angles) result.torques.push_back(force[angle(driven.node)]);
+  if (spin_) {
+    spin_->residual(q + nodal_, rate + nodal_, a + nodal_, t, force.data() + nodal_);
+    result.torques = spin_->drive_torques(force.data() + nodal_);
+  }
   return result;
 }
 
@@ -555,7 +483,7 @@ void FlowingBeam<D>::check_motion(double until) const {
                        "material coordinates must increase from node to node until the end, t = " + text(until) + " s");
   }
   std::vector<Prescribed> nodes;
-  check_places<D>(model_.loads, until, 1e-9 * reference_length_, [&](double t) {
+  check_places<D>(model_.loads.points, until, 1e-9 * reference_length_, [&](double t) {
     model_.motion.at(t, nodes);
     return std::pair{nodes.front().value, nodes.back().value};
   });
@@ -595,16 +523,13 @@ Observation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t, int p
     } else {
       observer.add(element, nullptr, seen);
     }
-    if (!spin_) continue;
-    const SpinChain::Coordinates angles = spin_of(q, k, &Prescribed::value),
-                                 rates = spin_of(rate, k, &Prescribed::rate);
-    for (const auto& [u, w] : gauss_legendre(points)) {
-      const SpinChain::Point at = spin_->at(angles, rates, u);
-      const double length = w * (angles.x_b - angles.x_a);
-      seen.energy.kinetic += 0.5 * length * model_.spin->rhoIp * at.spin * at.spin;
-      seen.energy.torsion += 0.5 * length * model_.spin->GIp * at.twist * at.twist;
-      seen.spin_momentum += length * model_.spin->rhoIp * at.spin;
-    }
+  }
+  if (spin_) {
+    spin_->move(nodes_);
+    const Spin::Seen turning = spin_->observe(q + nodal_, rate + nodal_, points);
+    seen.energy.kinetic += turning.kinetic;
+    seen.energy.torsion += turning.torsion;
+    seen.spin_momentum += turning.momentum;
   }
   if (y.size() > 2 * coordinates()) seen.energy.dissipated = y[y.size() - 1];
   seen.energy.supplied = ramp_.until(t, {seen.mass_moment, seen.momentum});
@@ -629,13 +554,14 @@ Vec<double, D> FlowingBeam<D>::position_at(const Eigen::VectorXd& y, double t, d
 }
 
 template <int D>
-Vec<double, D> FlowingBeam<D>::position_of(const PointLoad<D>& load, const Eigen::VectorXd& y, double t) const {
-  return load.x ? position_at(y, t, load.x(t)) : Vector(position<D>(y.data(), load.node));
+std::vector<Vec<double, D>> FlowingBeam<D>::load_places(const Eigen::VectorXd& y, double t) const {
+  model_.motion.at(t, nodes_);
+  return model_.loads.places(view(y.data(), y.data() + coordinates()), t);
 }
 
 template <int D>
 Weights<double> FlowingBeam<D>::weights_at(std::size_t element, const std::vector<Prescribed>& nodes) const {
-  const WeightFunction& of = model_.weights[element];
+  const WeightFunction& of = mesh_.weights[element];
   return model_.transport == WeightTransport::transported ? of.on(nodes[element].value, nodes[element + 1].value)
                                                           : of.w;
 }

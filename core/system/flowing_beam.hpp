@@ -12,9 +12,9 @@
 #include "core/element/driven_tangent.hpp"
 #include "core/geometry/axis.hpp"
 #include "core/parts/loads.hpp"
+#include "core/parts/spin.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
-#include "core/system/resting_spin.hpp"
 
 namespace vlbeam {
 
@@ -29,9 +29,8 @@ struct NodeSupport {
 template <int D>
 struct FlowingModel {
   BeamSection section;
-  std::optional<SpinSection> spin;  ///< without it there is no angle at all
-  AngleField angle_field = AngleField::linear;
-  RotaryInertia<D> rotary = {};  ///< needs the variational formulation and frozen weights
+  std::optional<SpinModel> spin;  ///< without it there is no angle at all
+  RotaryInertia<D> rotary = {};   ///< needs the variational formulation and frozen weights
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;
@@ -40,10 +39,7 @@ struct FlowingModel {
   MeshMotion motion;
   std::vector<WeightFunction> weights = {};  ///< one an element; none for unit weights
   std::vector<NodeSupport<D>> supports = {};
-  std::vector<DrivenAngle> angles = {};
-  std::vector<PointLoad<D>> loads = {};
-  std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
-  std::function<double(double t)> line_torque = {};         ///< on the whole beam [N m/m]; needs spin
+  Loads<D> loads = {};
   /// What the nodes of the rest shape follow, by arc length; null for a straight, unstrained one.
   std::shared_ptr<const Axis<D>> rest = nullptr;
   bool ledger = false;  ///< the state holds what crossed the boundary; for methods of first-order equations
@@ -121,8 +117,9 @@ class FlowingBeam final : public EventedOde {
   int elements() const { return model_.motion.last(); }
   int nodes() const { return elements() + 1; }
   Eigen::Index coordinates() const { return nodal_ + (spin_ ? spin_->coordinates() : 0); }
+  const std::optional<Spin>& spin() const { return spin_; }
   /// Where the angle of a node stands among the coordinates.
-  Eigen::Index angle(int node) const { return nodal_ + Eigen::Index{spin_->per_node()} * node; }
+  Eigen::Index angle(int node) const { return nodal_ + spin_->angle(node); }
 
   /// Throws InvalidInput, with the time, where the prescribed nodes tangle in [0, until], or a load is beyond the ends.
   /// A run ends where they do at the latest, with ComputationFailed.
@@ -144,8 +141,8 @@ class FlowingBeam final : public EventedOde {
   std::vector<Prescribed> nodes_at(double t) const;
   /// Position of the material point x at time t, which must lie between the end nodes.
   Vector position_at(const Eigen::VectorXd& y, double t, double x) const;
-  /// Where a concentrated load is.
-  Vector position_of(const PointLoad<D>& load, const Eigen::VectorXd& y, double t) const;
+  /// Where the concentrated loads are.
+  std::vector<Vector> load_places(const Eigen::VectorXd& y, double t) const;
   /// Weights of an element between `nodes`.
   Weights<double> weights_at(std::size_t element, const std::vector<Prescribed>& nodes) const;
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
@@ -153,28 +150,23 @@ class FlowingBeam final : public EventedOde {
  private:
   friend class ImplicitFlow<D>;
 
-  /// Where a load is: its element, the motion of the axis there, of the angle if there is one.
-  struct Loaded {
-    int element;
-    PointMotion<double, D> axis;
-    SpinChain::Point angle;
-  };
-
   void check_model() const;
   void adopt_supports();
   /// The rest shape of element k between the nodes as they are, if it is not straight and unstrained.
   std::optional<RestElement<D>> rest_of(int k) const;
-  bool damped() const { return model_.section.damped() || (model_.spin && model_.spin->damping != 0); }
+  bool damped() const { return model_.section.damped() || (model_.spin && model_.spin->section.damping != 0); }
   MovingCoordinates<double, D> axis_of(const double* q, int k, double Prescribed::*x) const;
-  SpinChain::Coordinates spin_of(const double* q, int k, double Prescribed::*x) const;
+  ChainView<D> view(const double* q, const double* rate) const {
+    return {.mesh = mesh_, .transport = model_.transport, .q = q, .rate = rate, .marks = &nodes_};
+  }
   MovingLaw<D> law(double t) const;
-  const WeightFunction& weights(int k) const { return model_.weights[static_cast<std::size_t>(k)]; }
+  const WeightFunction& weights(int k) const { return mesh_.weights[static_cast<std::size_t>(k)]; }
   /// Fills `nodes_` and `elements_`; false where the elements tangle.
   bool evaluate(const double* q, const double* rate, double t);
-  /// Adds M a - Q of the elements, a the accelerations of the coordinates.
+  /// Adds M a - Q of the elements' axis, a the accelerations of the coordinates.
   void add_residual(const double* a, double* r) const;
-  void add_loads(const double* q, const double* rate, double t, double* f) const;
-  Loaded loaded(const PointLoad<D>& load, const double* q, const double* rate, double t) const;
+  /// Throws ComputationFailed where a load is beyond the ends of the beam.
+  void check_reach(double t) const;
   /// Adds the momentum that comes in with the matter at the end nodes.
   void add_inflow(const double* q, const double* rate, double* f) const;
   /// Momentum conjugate to the slope at an end, of rotary inertia [kg m/s].
@@ -184,7 +176,9 @@ class FlowingBeam final : public EventedOde {
   bool solve_mass(double* f);
   /// Rates of the ledger's entries.
   void book(const double* q, const double* rate, const double* a, double t, double* entry);
+
   FlowingModel<D> model_;
+  Mesh mesh_;
   Eigen::Index nodal_;
   double reference_length_;                      ///< [m], of an element at t = 0
   std::vector<std::array<Components, 2>> free_;  ///< of position and slope, in the frame
@@ -194,10 +188,11 @@ class FlowingBeam final : public EventedOde {
   mutable std::vector<Prescribed> nodes_;
   std::vector<MovingEquations<double, D>> elements_;
   std::vector<RotaryElement> rotary_;
-  std::optional<SpinChain> spin_;
+  mutable std::optional<Spin> spin_;
   ChainMass<D> mass_;
-  Eigen::VectorXd prescribed_;  // accelerations: zero but for driven angles
-  Eigen::VectorXd residual_;    // of the ledger
+  Eigen::VectorXd still_;               // no accelerations
+  Eigen::VectorXd residual_, scratch_;  // of the ledger
+  std::vector<double> on_marks_;
   RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0;
 };

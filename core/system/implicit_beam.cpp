@@ -96,7 +96,7 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   } else if (system_.model().joint) {
     runs.push_back({Field::mass, after_nodes(), D});
   }
-  if (const RestingSpin* spin = system_.spin()) {
+  if (const Spin* spin = system_.spin()) {
     for (const FieldRun& run : spin->fields(after_nodes())) runs.push_back(run);
   }
   Eigen::Index at = coordinates() - multipliers();
@@ -247,7 +247,7 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
   } else if (model.joint) {
     r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
   }
-  if (RestingSpin* spin = system_.spin()) {
+  if (Spin* spin = system_.spin()) {
     dissipation += spin->residual(q.data() + extra, v.data() + extra, a.data() + extra, t, r.data() + extra);
   }
   return dissipation;
@@ -260,7 +260,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   const Eigen::Index first = coordinates() - multipliers();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
-  if (const RestingSpin* spin = system_.spin()) spin->drive(a.data() + after_nodes(), t, r.data() + after_nodes());
+  if (const Spin* spin = system_.spin()) spin->drive(a.data() + after_nodes(), t, r.data() + after_nodes());
   const auto driven = system_.driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
@@ -339,11 +339,9 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     free_.setZero(q.size());
     power.loads = loads.add_forces(view(q, v), t, free_.data()) + system_.line_power(view(q, v), t);
   }
-  if (RestingSpin* spin = system_.spin()) {
+  if (Spin* spin = system_.spin(); spin != nullptr && spin->model().supplied()) {
     const Eigen::Index at = after_nodes();
-    free_.resize(q.size());
-    spin->residual(q.data() + at, v.data() + at, a.data() + at, t, free_.data() + at);
-    power = power + spin->power(q.data() + at, v.data() + at, free_.data() + at, t);
+    power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t);
   }
   if (!driven()) return power;
   system_.count_evaluation();
@@ -451,8 +449,9 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   } else {
     constrain_tangent();
   }
-  if (const RestingSpin* spin = system_.spin(); spin != nullptr && !spin->linearize(by_v, by_a, spin_tangent_)) {
-    return false;
+  if (const Spin* spin = system_.spin()) {
+    spin->assemble({1, by_v, by_a}, spin_tangent_);
+    if (!spin->factor(by_a, spin_tangent_)) return false;
   }
   return tangent_.factor();
 }
@@ -587,7 +586,7 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   free_residual(q, v, a, t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
-  if (const RestingSpin* spin = system_.spin()) forces.drives = spin->drive_torques(free_.data() + after_nodes());
+  if (const Spin* spin = system_.spin()) forces.drives = spin->drive_torques(free_.data() + after_nodes());
   if (!system_.mass_on_beam()) return forces;
   Vec<double, D> acceleration;
   if (const auto& rider = system_.rider()) {

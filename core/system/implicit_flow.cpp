@@ -24,18 +24,20 @@ double ImplicitFlow<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   r.setZero();
   beam_.add_residual(a.data(), r.data());
   force_.setZero(coordinates());
-  beam_.add_loads(q.data(), v.data(), t, force_.data());
+  beam_.model_.loads.add_forces(beam_.view(q.data(), v.data()), t, force_.data());
   beam_.add_inflow(q.data(), v.data(), force_.data());
   r -= force_;
   for (const auto& [node, support] : beam_.model_.supports) {
     auto part = r.segment<B>(Eigen::Index{B} * node);
     part = (kept(node) * part).eval();
   }
-  for (const DrivenAngle& driven : beam_.model_.angles) {
-    const Eigen::Index k = beam_.angle(driven.node);
-    r[k] = a[k] - driven.theta(t).acceleration;
+  double dissipation = beam_.dissipation();
+  if (auto& spin = beam_.spin_) {
+    const Eigen::Index at = beam_.angle(0);
+    dissipation += spin->residual(q.data() + at, v.data() + at, a.data() + at, t, r.data() + at);
+    spin->drive(a.data() + at, t, r.data() + at);
   }
-  return beam_.dissipation();
+  return dissipation;
 }
 
 template <int D>
@@ -53,8 +55,10 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   beam_.model_.motion.at(t, beam_.nodes_);
   axis_.reset(beam_.nodes());
   MovingLaw<D> law = beam_.law(t);
-  const auto& spin = beam_.spin_;
-  if (spin) angles_.assemble(*spin, beam_.nodes_, by);
+  if (auto& spin = beam_.spin_) {
+    spin->move(beam_.nodes_);
+    spin->assemble(by, angles_);
+  }
   for (int k = 0; k < beam_.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto rest = beam_.rest_of(k);
@@ -71,26 +75,15 @@ void ImplicitFlow<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     axis_.lower[i + 1] += axis.template bottomLeftCorner<B, B>();
     axis_.diagonal[i + 1] += axis.template bottomRightCorner<B, B>();
   }
-  add_loads(q.data(), v.data(), t, by);
+  const ChainView<D> beam = beam_.view(q.data(), v.data());
+  beam_.model_.loads.add_tangent(beam, t, [&](int k, const typename Loads<D>::ElementMatrix& matrix) {
+    const auto i = static_cast<std::size_t>(k);
+    axis_.diagonal[i] += by.q * matrix.template block<B, B>(0, 0);
+    axis_.upper[i] += by.q * matrix.template block<B, B>(0, B);
+    axis_.lower[i + 1] += by.q * matrix.template block<B, B>(B, 0);
+    axis_.diagonal[i + 1] += by.q * matrix.template block<B, B>(B, B);
+  });
   if (beam_.model_.formulation == Formulation::variational) add_inflow(by);
-}
-
-template <int D>
-void ImplicitFlow<D>::add_loads(const double* q, const double* rate, double t, const TangentWeights& by) {
-  for (const PointLoad<D>& load : beam_.model_.loads) {
-    if (!load.follower) continue;
-    const auto at = beam_.loaded(load, q, rate, t);
-    const Eigen::Matrix<double, D, D> turning = by.q * load.turning(at.axis.r_x, t);
-    const auto k = static_cast<std::size_t>(at.element);
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        Block& block =
-            i < 2 ? (j < 2 ? axis_.diagonal[k] : axis_.upper[k]) : (j < 2 ? axis_.lower[k + 1] : axis_.diagonal[k + 1]);
-        block.template block<D, D>(D * (i % 2), D * (j % 2)) -=
-            at.axis.s[static_cast<std::size_t>(i)] * at.axis.s_x[static_cast<std::size_t>(j)] * turning;
-      }
-    }
-  }
 }
 
 template <int D>
@@ -102,18 +95,6 @@ void ImplicitFlow<D>::add_inflow(const TangentWeights& by) {
     block.template topLeftCorner<D, D>().diagonal().array() -= beam_.model_.section.rhoA * in * by.v;
     block.template topRightCorner<D, D>().diagonal().array() += beam_.model_.section.rhoA * in * x_rate * by.q;
     if (beam_.model_.rotary.present()) add_rotary_inflow(k, in, by);
-    if (!beam_.spin_) continue;
-    // the spin of the matter at the end is the rate of its angle less x' times the twist there
-    const double inertia = beam_.spin_->section().rhoIp * in, twist = by.q * inertia * x_rate;
-    angles_.band.diagonal[i](0, 0) -= inertia * by.v;
-    if (beam_.spin_->per_node() == 2) {
-      angles_.band.diagonal[i](0, 1) += twist;
-      continue;
-    }
-    const std::size_t other = k == 0 ? 1 : i - 1;
-    const double share = twist / (beam_.nodes_[i].value - beam_.nodes_[other].value);  // negative at the start
-    angles_.band.diagonal[i](0, 0) += share;
-    (k == 0 ? angles_.band.upper[0] : angles_.band.lower[i])(0, 0) -= share;
   }
 }
 
@@ -163,7 +144,7 @@ bool ImplicitFlow<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   constrain();
   if (!axis_.factor()) return false;
   if (!beam_.spin_) return true;
-  return angles_.factor(*beam_.spin_, by_a);
+  return beam_.spin_->factor(by_a, angles_);
 }
 
 template <int D>
@@ -198,13 +179,12 @@ typename ImplicitFlow<D>::Tangent ImplicitFlow<D>::free_tangent(const Eigen::Vec
   }
   result.axis = reduced(axis_, B, basis.leftCols(columns));
   if (!beam_.spin_) return result;
-  std::vector<bool> driven(static_cast<std::size_t>(beam_.nodes()), false);
-  for (const DrivenAngle& angle : beam_.model_.angles) driven[static_cast<std::size_t>(angle.node)] = true;
+  const bool cubic = beam_.spin_->model().field == AngleField::hermite;
   basis.setZero(2 * beam_.nodes(), 2 * beam_.nodes());
   columns = 0;
   for (int k = 0; k < beam_.nodes(); ++k) {
-    if (!driven[static_cast<std::size_t>(k)]) basis(2 * k, columns++) = 1;
-    if (beam_.spin_->per_node() == 2) basis(2 * k + 1, columns++) = 1;
+    if (!beam_.spin_->driven(k)) basis(2 * k, columns++) = 1;
+    if (cubic) basis(2 * k + 1, columns++) = 1;
   }
   result.angles = reduced(angles_.band, 2, basis.leftCols(columns));
   return result;

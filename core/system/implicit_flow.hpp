@@ -45,7 +45,6 @@ class ImplicitFlow final : public SecondOrderSystem {
   /// Both matrices before supports and driven angles.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                 const TangentWeights& by);
-  void add_loads(const double* q, const double* rate, double t, const TangentWeights& by);
   /// Derivatives of the momentum that comes in with the matter at the ends.
   void add_inflow(const TangentWeights& by);
   void add_rotary_inflow(int k, double in, const TangentWeights& by);

@@ -50,12 +50,12 @@ FlowingModel<D> model_of(const Stem& stem, int elements, bool ledger) {
   const int guide = elements / 3;
   FlowingModel<D> model;
   model.section = stem.shaft.section();
-  model.spin = stem.shaft.spin();
+  model.spin.emplace().section = stem.shaft.spin();
   model.motion = MeshMotion({{0, steadily(0, -stem.feed)},
                              {guide, steadily(stem.guide, -stem.feed)},
                              {elements, steadily(stem.guide + stem.overhang, 0)}});
   model.supports = {{0, Support<D>::pin()}, {guide, Support<D>::slide(Vector::UnitZ())}};
-  model.angles = {{0, steadily(0, stem.spin)}};
+  model.spin->drives = {{0, steadily(0, stem.spin)}};
   auto turning = [=](double t) -> Vector {
     return stem.unbalance * Vector(std::cos(stem.spin * t), std::sin(stem.spin * t), 0);
   };
@@ -63,7 +63,8 @@ FlowingModel<D> model_of(const Stem& stem, int elements, bool ledger) {
     const double s = std::min(1.0, t / stem.ramp);
     return -stem.torque * s * s * (3 - 2 * s);
   };
-  model.loads = {{.node = elements, .force = turning, .torque = soil}};
+  model.loads.points = {{.node = elements, .force = turning}};
+  model.spin->torques.points = {{.node = elements, .torque = soil}};
   model.ledger = ledger;
   return model;
 }

@@ -36,12 +36,12 @@ FlowingBeam<D> model_of(const Span& span) {
   model.section = span.shaft.section();
   model.section.stiffness.EA *= span.stiffening;
   if (!span.bends) model.section.stiffness.EI = 0;
-  if (span.spins) model.spin = span.shaft.spin();
+  if (span.spins) model.spin.emplace().section = span.shaft.spin();
   const double stretch = stretch_under(span.tension, model.section.stiffness.EA);
   model.motion = MeshMotion({{0, steadily(0, -span.speed / stretch)},
                              {span.elements, steadily(span.length / stretch, -span.speed / stretch)}});
   model.supports = {{0, Support<D>::pin()}, {span.elements, Support<D>::pin()}};
-  if (span.spins) model.angles = {{0, steadily(0, 0)}, {span.elements, steadily(0, 0)}};
+  if (span.spins) model.spin->drives = {{0, steadily(0, 0)}, {span.elements, steadily(0, 0)}};
   return FlowingBeam<D>(model);
 }
 

@@ -65,7 +65,7 @@ class Shaft {
 
     FlowingModel<D> model;
     model.section = shaft.section();
-    model.spin = shaft.spin();
+    model.spin.emplace().section = shaft.spin();
     if (run.spin >= 0) {
       const double rhoIp = shaft.spin().rhoIp;
       model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = rhoIp * spin, .direction = Vector::UnitZ()};
@@ -73,12 +73,12 @@ class Shaft {
     model.motion = MeshMotion(
         {{0, steadily(0, 0)}, {middle, steadily(margin * length_, speed)}, {run.elements, steadily(length_, 0)}});
     model.supports = {{0, Support<D>::pin()}, {run.elements, Support<D>::slide(Vector::UnitZ())}};
-    model.angles = {{0, steadily(0, spin)}};
+    model.spin->drives = {{0, steadily(0, spin)}};
     auto turning = [=](double t) -> Vector {
       const double angle = omega * (t + margin * duration);
       return {force * std::cos(angle), force * std::sin(angle), 0};
     };
-    model.loads = {{.node = middle, .force = turning}};
+    model.loads.points = {{.node = middle, .force = turning}};
     FlowingBeam<D> beam(model);
     beam.check_motion((1 - 2 * margin) * duration);
 

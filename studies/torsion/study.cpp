@@ -24,14 +24,14 @@ using Vector = Vec<double, D>;
 std::vector<double> torsion(const CircularShaft& shaft, double length, int elements, bool both, double speed,
                             Formulation formulation, AngleField field = AngleField::linear) {
   FlowingModel<D> model;
-  model.angle_field = field;
   model.section = shaft.section();
-  model.spin = shaft.spin();
+  model.spin.emplace().section = shaft.spin();
+  model.spin->field = field;
   model.formulation = formulation;
   model.motion = MeshMotion({{0, steadily(0, -speed)}, {elements, steadily(length, -speed)}});
   model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
-  model.angles = {{0, steadily(0, 0)}};
-  if (both) model.angles.push_back({elements, steadily(0, 0)});
+  model.spin->drives = {{0, steadily(0, 0)}};
+  if (both) model.spin->drives.push_back({elements, steadily(0, 0)});
   FlowingBeam<D> beam(model);
   const Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitX(), 1, speed, 0);
   return frequencies(eigenvalues(linear_flows(beam, y).angles));

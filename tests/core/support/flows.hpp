@@ -37,12 +37,12 @@ Eigen::VectorXd moving_span_state(const FlowingBeam<D>& beam, double speed) {
 inline double flowing_rod(int elements, Formulation formulation, AngleField field = AngleField::linear) {
   FlowingModel<2> model;
   model.section = {.rhoA = 1, .stiffness = {1, 1}};
-  model.spin = SpinSection{.rhoIp = 1, .GIp = 1};
-  model.angle_field = field;
+  model.spin.emplace().section = {.rhoIp = 1, .GIp = 1};
+  model.spin->field = field;
   model.formulation = formulation;
   model.motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
   model.supports = {{0, Support<2>::pin()}, {elements, Support<2>::pin()}};
-  model.angles = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
+  model.spin->drives = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
   FlowingBeam<2> beam(model);
   const Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
   return frequencies(eigenvalues(linear_flows(beam, y).angles)).front();

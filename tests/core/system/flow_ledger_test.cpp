@@ -13,10 +13,10 @@ FlowingModel<D> everything(WeightTransport transport) {
   const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e6, .poisson_ratio = 0.4};
   FlowingModel<D> model;
   model.section = shaft.section();
-  model.spin = shaft.spin();
+  model.spin.emplace().section = shaft.spin();
   model.transport = transport;
-  if (transport == WeightTransport::frozen) model.rotary.rhoJ = 0.5 * model.spin->rhoIp;
-  if (D == 3 && transport == WeightTransport::frozen) model.rotary.gyroscopic = 6 * model.spin->rhoIp;
+  if (transport == WeightTransport::frozen) model.rotary.rhoJ = 0.5 * model.spin->section.rhoIp;
+  if (D == 3 && transport == WeightTransport::frozen) model.rotary.gyroscopic = 6 * model.spin->section.rhoIp;
   model.rotary.direction[0] = 1;
   model.gravity = Vec<double, D>::UnitY() * -4;
   auto wavering = [](double x, double rate, double size) -> TimeFunction {
@@ -29,19 +29,24 @@ FlowingModel<D> everything(WeightTransport transport) {
       MeshMotion({{0, wavering(0, -0.7, 0.02)}, {2, wavering(0.5, 0.1, -0.03)}, {5, wavering(1, 0.5, 0.05)}});
   model.weights.assign(5, {{1, 1.1, 0.95, 1.05}, -0.5, 1.5});
   model.supports = {{0, Support<D>::direction_clamp(Vec<double, D>::UnitX())}};
-  model.angles = {{0, steadily(0, 6)}};
-  model.loads = {
+  model.spin->drives = {{0, steadily(0, 6)}};
+  model.loads.points = {
       {.node = 2,
        .force =
-           [](double t) { return Vec<double, D>(Vec<double, D>::UnitX() * std::cos(9 * t) + Vec<double, D>::UnitY()); },
-       .torque = [](double t) { return 0.3 * std::sin(7 * t); }},
-      {.node = 5, .follower = [](double t) { return 0.4 * std::cos(11 * t); }, .torque = [](double) { return -0.1; }}};
-  model.loads.push_back({.x = [](double t) { return 0.3 + 1.4 * t; },  // over two nodes
-                         .force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * std::sin(8 * t)); },
-                         .follower = [](double) { return 0.5; },
-                         .torque = [](double t) { return 0.2 * std::cos(6 * t); }});
-  model.line_force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * 3 * std::cos(4 * t)); };
-  model.line_torque = [](double t) { return 0.2 * std::cos(3 * t); };
+           [](double t) {
+             return Vec<double, D>(Vec<double, D>::UnitX() * std::cos(9 * t) + Vec<double, D>::UnitY());
+           }},
+      {.node = 5, .follower = [](double t) { return 0.4 * std::cos(11 * t); }}};
+  model.loads.points.push_back(
+      {.x = [](double t) { return 0.3 + 1.4 * t; },  // over two nodes
+       .force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * std::sin(8 * t)); },
+       .follower = [](double) { return 0.5; }});
+  model.spin->torques.points = {
+      {.node = 2, .torque = [](double t) { return 0.3 * std::sin(7 * t); }},
+      {.node = 5, .torque = [](double) { return -0.1; }},
+      {.x = [](double t) { return 0.3 + 1.4 * t; }, .torque = [](double t) { return 0.2 * std::cos(6 * t); }}};
+  model.loads.line_force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * 3 * std::cos(4 * t)); };
+  model.spin->torques.line = [](double t) { return 0.2 * std::cos(3 * t); };
   model.ledger = true;
   return model;
 }
@@ -83,10 +88,10 @@ TYPED_TEST(FlowLedgerTest, ClosesWithInflowOutflowAndEveryLoad) {
   for (const auto transport : {WeightTransport::frozen, WeightTransport::transported}) {
     for (const bool damped : {false, true}) {
       FlowingModel<D> model = everything<D>(transport);
-      model.angle_field = damped ? AngleField::hermite : AngleField::linear;
+      model.spin->field = damped ? AngleField::hermite : AngleField::linear;
       if (damped) {
         model.section.damping = D == 2 ? 0.01 : 0;
-        model.spin->damping = 0.01;
+        model.spin->section.damping = 0.01;
       }
       const Gap gap = gap_of(model);
       EXPECT_LE(gap.energy, 1e-9);

@@ -74,7 +74,7 @@ TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
   // stiffness, mass and spin of order one, so that no force hides behind another
   FlowingModel<D> model = resting<D>(5);
   model.section = {.rhoA = 1.3, .stiffness = {2.1, 0.7}};
-  model.spin = SpinSection{.rhoIp = 1.3, .GIp = 0.9};
+  model.spin.emplace().section = {.rhoIp = 1.3, .GIp = 0.9};
   model.motion =
       MeshMotion({{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(2, wave(0.3, 2.1))}, {5, shifted(5, wave(0.4, 0.7))}});
   FlowingBeam<D> beam(model);
@@ -94,8 +94,8 @@ TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
 TYPED_TEST(FlowingBeamTest, DrivenAnglesFollowTheirFunctions) {
   constexpr int D = TypeParam::value;
   FlowingModel<D> model = resting<D>(4);
-  model.spin = shaft.spin();
-  model.angles = {{0, [](double t) { return Prescribed{t * t, 2 * t, 2}; }}};
+  model.spin.emplace().section = shaft.spin();
+  model.spin->drives = {{0, [](double t) { return Prescribed{t * t, 2 * t, 2}; }}};
   FlowingBeam<D> beam(model);
   Eigen::VectorXd y = random_state(beam, this->random_), dydt(y.size());
   beam.rhs(y, dydt, 0);
@@ -106,23 +106,23 @@ TYPED_TEST(FlowingBeamTest, StaticTorqueIsExactWithOneElement) {
   constexpr int D = TypeParam::value;
   const double length = 1.7, torque = 0.3;
   FlowingModel<D> model = resting<D>(1, length);
-  model.spin = shaft.spin();
+  model.spin.emplace().section = shaft.spin();
   model.supports = {{0, Support<D>::clamp()}};
-  model.angles = {{0, steadily(0, 0)}};
-  model.loads = {{.node = 1, .torque = [=](double) { return torque; }}};
+  model.spin->drives = {{0, steadily(0, 0)}};
+  model.spin->torques.points = {{.node = 1, .torque = [=](double) { return torque; }}};
   FlowingBeam<D> beam(model);
   Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
-  y[beam.angle(1)] = torque * length / model.spin->GIp;
+  y[beam.angle(1)] = torque * length / model.spin->section.GIp;
   Eigen::VectorXd dydt(y.size());
   beam.rhs(y, dydt, 0);
-  EXPECT_LE(dydt.norm(), 1e-9 * torque / (model.spin->rhoIp * length));
+  EXPECT_LE(dydt.norm(), 1e-9 * torque / (model.spin->section.rhoIp * length));
 }
 
 TEST(FlowingBeam, WithoutSpinThereIsNoAngle) {
   const FlowingBeam<3> plain(resting<3>(4));
   EXPECT_EQ(plain.coordinates(), 6 * 5);
   FlowingModel<3> model = resting<3>(4);
-  model.spin = shaft.spin();
+  model.spin.emplace().section = shaft.spin();
   EXPECT_EQ(FlowingBeam<3>(model).coordinates(), 7 * 5);
 }
 
@@ -131,7 +131,7 @@ TEST(FlowingBeam, SpinLeavesTheAxisAlone) {
   FlowingModel<3> model = resting<3>(4);
   model.motion = MeshMotion({{0, steadily(0, -2)}, {4, steadily(1, -1)}});
   FlowingBeam<3> plain(model);
-  model.spin = shaft.spin();
+  model.spin.emplace().section = shaft.spin();
   FlowingBeam<3> spinning(model);
   const Eigen::VectorXd y = random_state(spinning, random);
   const Eigen::Index n = plain.coordinates(), m = spinning.coordinates();
@@ -169,7 +169,7 @@ TEST(FlowingBeam, StopsWhereItsNodesTangle) {
 template <class Change>
 std::string field_of(const Change& change) {
   FlowingModel<3> model = resting<3>(4);
-  model.spin = shaft.spin();
+  model.spin.emplace().section = shaft.spin();
   change(model);
   try {
     const FlowingBeam<3> beam(model);
@@ -193,19 +193,14 @@ TEST(FlowingBeam, RefusesWhatMakesNoSense) {
               m.supports = {{0, Support<3>::slide({1, 0, 0})}, {4, Support<3>::slide({0, 1, 0})}};
             }),
             "/supports");
-  EXPECT_EQ(field_of([&](auto& m) { m.loads = {{.node = 5, .follower = unit}}; }), "/loads");
-  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/spin/drives");
-  EXPECT_EQ(field_of([](auto& m) { m.angles = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/spin/drives");
+  EXPECT_EQ(field_of([&](auto& m) { m.loads.points = {{.node = 5, .follower = unit}}; }), "/loads");
+  EXPECT_EQ(field_of([](auto& m) { m.spin->drives = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "/spin/drives");
+  EXPECT_EQ(field_of([](auto& m) { m.spin->drives = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "/spin/drives");
   EXPECT_EQ(field_of([&](auto& m) {
-              m.angles = {{4, steadily(0, 1)}};
-              m.loads = {{.node = 4, .torque = unit}};
+              m.spin->drives = {{4, steadily(0, 1)}};
+              m.spin->torques.points = {{.node = 4, .torque = unit}};
             }),
             "/loads");
-  EXPECT_EQ(field_of([&](auto& m) {
-              m.spin.reset();
-              m.loads = {{.node = 4, .torque = unit}};
-            }),
-            "/spin");
 }
 
 TEST(CircularShaft, RefusesWhatIsNoShaft) {

@@ -18,10 +18,10 @@ FlowingModel<D> whirling() {
   FlowingModel<D> model;
   model.section = shaft.section();
   model.section.damping = D == 2 ? 0.01 : 0;
-  model.spin = shaft.spin();
-  model.rotary = {.rhoJ = model.spin->rhoIp / 2, .direction = along.normalized()};
-  if (D == 3) model.rotary.gyroscopic = model.spin->rhoIp * 30;
-  model.spin->damping = 0.01;
+  model.spin.emplace().section = shaft.spin();
+  model.rotary = {.rhoJ = model.spin->section.rhoIp / 2, .direction = along.normalized()};
+  if (D == 3) model.rotary.gyroscopic = model.spin->section.rhoIp * 30;
+  model.spin->section.damping = 0.01;
   model.gravity = Vec<double, D>::UnitY() * -9.81;
   model.motion = MeshMotion({{0, steadily(0, -0.5)},
                              {2,
@@ -30,9 +30,10 @@ FlowingModel<D> whirling() {
                               }},
                              {4, steadily(1, 0.4)}});
   model.supports = {{0, Support<D>::direction_clamp(along)}, {2, Support<D>::pin()}, {3, Support<D>::slide(along)}};
-  model.angles = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
-  model.loads = {{.node = 4, .follower = [](double) { return 0.7; }, .torque = [](double) { return 0.1; }}};
-  model.loads.push_back({.x = [](double t) { return 0.8 - t; }, .follower = [](double) { return -0.4; }});
+  model.spin->drives = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
+  model.loads.points = {{.node = 4, .follower = [](double) { return 0.7; }}};
+  model.spin->torques.points = {{.node = 4, .torque = [](double) { return 0.1; }}};
+  model.loads.points.push_back({.x = [](double t) { return 0.8 - t; }, .follower = [](double) { return -0.4; }});
   return model;
 }
 
@@ -54,7 +55,7 @@ TYPED_TEST(ImplicitFlowTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm
     FlowingModel<D> model = whirling<D>();
     model.formulation = formulation;
     if (formulation == Formulation::virtual_work) model.rotary = {};
-    model.angle_field = field;
+    model.spin->field = field;
     FlowingBeam<D> beam(model);
     ImplicitFlow<D> flow(beam);
     const Eigen::Index n = beam.coordinates();
@@ -74,7 +75,7 @@ TYPED_TEST(ImplicitFlowTest, TangentIsTheDerivativeOfTheResidual) {
     FlowingModel<D> model = whirling<D>();
     model.formulation = formulation;
     if (formulation == Formulation::virtual_work) model.rotary = {};
-    model.angle_field = field;
+    model.spin->field = field;
     FlowingBeam<D> beam(model);
     ImplicitFlow<D> flow(beam);
     const Eigen::Index n = beam.coordinates();

@@ -69,7 +69,7 @@ TEST(SteadyFlow, RotaryInertiaSplitsTheWhirlOfASpinningShaft) {
   for (const int elements : {4, 8, 16}) {
     FlowingModel<3> model;
     model.section = shaft.section();
-    model.spin = section;
+    model.spin.emplace().section = section;
     model.rotary = {section.rhoIp / 2, section.rhoIp * spin, Eigen::Vector3d::UnitX()};
     model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
     model.supports = {{0, Support<3>::pin()}, {elements, Support<3>::slide(Eigen::Vector3d::UnitX())}};

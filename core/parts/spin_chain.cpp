@@ -1,4 +1,4 @@
-#include "core/system/spin_chain.hpp"
+#include "core/parts/spin_chain.hpp"
 
 #include "core/element/twist_law.hpp"
 

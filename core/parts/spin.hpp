@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "core/dynamics/fields.hpp"
+#include "core/dynamics/tallies.hpp"
+#include "core/parts/spin_chain.hpp"
+
+namespace vlbeam {
+
+/// The section's angle at a node as a function of time [rad].
+struct DrivenAngle {
+  int node;
+  TimeFunction theta;
+};
+
+/// Throws InvalidInput where angles are driven at nodes that do not exist, twice at one, or at two places apart.
+void check_drives(const std::vector<DrivenAngle>& drives, int last_node);
+
+/// Torques about the axis, as functions of time.
+struct Torques {
+  struct Point {
+    int node = -1;                                ///< it acts where this node is,
+    std::function<double(double t)> x = {};       ///< or at this material coordinate [m]
+    std::function<double(double t)> torque = {};  ///< [N m]
+  };
+  std::vector<Point> points = {};
+  std::function<double(double t)> line = {};  ///< on the whole beam [N m/m]
+
+  bool present() const { return !points.empty() || line; }
+};
+
+/// How a section turns about the axis of a beam.
+struct SpinModel {
+  SpinSection section;
+  AngleField field = AngleField::linear;
+  double rate = 0;  ///< of the whole beam at t = 0 [rad/s]
+  std::vector<DrivenAngle> drives = {};
+  Torques torques = {};
+
+  /// Whether energy comes in.
+  bool supplied() const { return torques.present() || !drives.empty(); }
+};
+
+/// The section's angle along a beam. It couples to the rest of the motion through the material coordinates of the nodes
+/// alone: where these rest or are prescribed, its equations are linear.
+class Spin {
+ public:
+  /// `marks` are the material coordinates of the nodes.
+  Spin(const SpinModel& model, std::vector<Prescribed> marks, Formulation formulation, int quadrature_points);
+
+  const SpinModel& model() const { return model_; }
+  Eigen::Index coordinates() const { return chain_.coordinates(); }
+  /// Where the angle of a node stands among them.
+  Eigen::Index angle(int node) const { return Eigen::Index{chain_.per_node()} * node; }
+  /// What they are, the first of them at `first`.
+  std::vector<FieldRun> fields(Eigen::Index first) const;
+  /// Angles and their rates at t = 0.
+  void start(double* q, double* rate) const;
+  /// Where the nodes are now, if they move.
+  void move(const std::vector<Prescribed>& marks) { marks_ = marks; }
+
+  /// Writes the accelerations; false where the mass matrix is singular. Adds the power lost to damping [W].
+  bool accelerate(const double* q, const double* rate, double t, double* a, double& dissipated);
+  /// Writes M a - Q before driven angles; returns the power lost to damping [W].
+  double residual(const double* q, const double* rate, const double* a, double t, double* r);
+  /// The same of the elements alone, without torques and what flows in with the matter.
+  double inner_residual(const double* q, const double* rate, const double* a, double* r);
+  /// Puts the equations of driven angles in place of theirs.
+  void drive(const double* a, double t, double* r) const;
+  /// Powers of drives and torques at the accelerations `a`.
+  Tally power(const double* q, const double* rate, const double* a, double t);
+  /// Torque of each drive on the beam [N m], from what residual() wrote.
+  std::vector<double> drive_torques(const double* residual) const;
+  /// Adds the torques; returns their power [W]. What they do along the beam [N] is added to `on_marks`, one entry a
+  /// node, unless that is null.
+  double add_torques(const double* q, const double* rate, double t, double* f, double* on_marks = nullptr) const;
+  /// Forces along the beam [N] that move the ends of element k as their marks move, after a residual.
+  std::array<double, 2> guiding_forces(int k, const double* a) const;
+  /// The tangent of residual(), before driven angles.
+  void assemble(const TangentWeights& by, SpinTangent& tangent) const;
+  /// Factors it; false where it is singular.
+  bool factor(double by_a, SpinTangent& tangent) const { return tangent.factor(chain_, by_a); }
+  bool driven(int node) const { return chain_.driven(node); }
+
+  struct Seen {
+    double kinetic = 0, torsion = 0, momentum = 0;  ///< [J], [J], [N m s]
+  };
+  Seen observe(const double* q, const double* rate, int points) const;
+
+ private:
+  /// An end of the beam that moves along it: its node, the element there, and the length that comes in a second.
+  struct Inlet {
+    int node, element;
+    double rate, in;
+  };
+  std::array<Inlet, 2> inlets() const;
+  /// Adds the momentum that comes in with the matter at the ends.
+  void add_inflow(const double* q, const double* rate, double* f) const;
+
+  SpinModel model_;
+  std::vector<Prescribed> marks_;
+  Formulation formulation_;
+  SpinChain chain_;
+  Eigen::VectorXd prescribed_, forces_, residual_;
+};
+
+}  // namespace vlbeam
