@@ -1,7 +1,7 @@
 # Coulomb friction between mass and beam.
 width = 1300; height = 500
 load folder . "/style.gp"
-set multiplot layout 1,3 title "Friction between mass and beam, μ = " . coefficient . ", ALE-ANCF, N = " . finest margins 0.06,0.985,0.27,0.85 spacing 0.07,0
+set multiplot layout 1,3 title "Friction between mass and beam, μ = " . coefficient . ", ALE-ANCF, N = " . finest margins 0.07,0.985,0.14,0.82 spacing 0.085,0
 histories = csv("friction")
 set xlabel "t (s)"
 set xrange [0:*]
@@ -16,7 +16,8 @@ plot for [m in modes] histories using "t":m."_dissipated" with lines linewidth m
        linecolor rgb mode_colour(m) title mode_name(m)
 set title "(c) stretch before and behind the mass"
 set ylabel "|r_x|"
-set key at graph 0.5,-0.2 center top horizontal maxcols 2 samplen 2
+set offsets 0, 0, graph 0.25, 0  # room for the key
+set key top center vertical maxrows 2 width -8 samplen 1.2
 plot histories using "t":"tangent_before" with lines linewidth 2 linecolor rgb "#08519c" title "tangent, before", \
      "" using "t":"tangent_behind" with lines linewidth 2 linecolor rgb "#6baed6" title "tangent, behind", \
      "" using "t":"free_before" with lines linewidth 2 linecolor rgb "#a63603" title "free, before", \
