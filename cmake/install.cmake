@@ -13,6 +13,23 @@ if(VLBEAM_BUILD_STUDIES)
   install(TARGETS vlbeam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+if(VLBEAM_BUILD_STUDIES)
+  # Man pages of the program and of each of its commands, from what --help says.
+  find_program(HELP2MAN help2man)
+  if(HELP2MAN)
+    set(pages ${PROJECT_BINARY_DIR}/man)
+    add_custom_command(
+      OUTPUT ${pages}/vlbeam.1
+      COMMAND ${PROJECT_SOURCE_DIR}/cmake/man_pages.sh ${HELP2MAN} $<TARGET_FILE:vlbeam> ${pages}
+      DEPENDS vlbeam ${PROJECT_SOURCE_DIR}/cmake/man_pages.sh
+      VERBATIM)
+    add_custom_target(vlbeam_man ALL DEPENDS ${pages}/vlbeam.1)
+    install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  endif()
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/completion.bash
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vlbeam)
+endif()
+
 set(packages ${CMAKE_INSTALL_LIBDIR}/cmake/vlbeam)
 install(EXPORT vlbeamTargets NAMESPACE vlbeam:: DESTINATION ${packages})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vlbeamConfig.cmake.in ${PROJECT_BINARY_DIR}/vlbeamConfig.cmake

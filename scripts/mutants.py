@@ -156,7 +156,8 @@ def table(mutants, results):
         result = results.get(mutant["name"])
         if result is None:
             continue
-        lines.append(f'| {mutant["mistake"]} | `{mutant["file"]}` | {result["by"]} | {result.get("profile", "")} |\n')
+        mistake = mutant["mistake"].replace("|", "\\|")
+        lines.append(f'| {mistake} | `{mutant["file"]}` | {result["by"]} | {result.get("profile", "")} |\n')
     caught = sum(results[m["name"]]["caught"] for m in mutants if m["name"] in results)
     (root / "tests" / "mutants" / "README.md").write_text(
         head + "".join(lines) + f"\n{caught} of {len(lines)} are noticed.\n")

@@ -4,6 +4,7 @@
 #   scripts/packages.sh build    what `make` needs
 #   scripts/packages.sh python   that, and what `make python` needs
 #   scripts/packages.sh package  that, and what `make package` needs
+#   scripts/packages.sh api      that, and what `make api` needs
 #   scripts/packages.sh ci       that, and what .ci/run needs
 set -euo pipefail
 
@@ -13,10 +14,13 @@ if [[ ${1:-build} == python || ${1:-build} == ci ]]; then
   packages+=(pybind11-dev python3-dev python3-numpy)
 fi
 if [[ ${1:-build} == package ]]; then
-  packages+=(dpkg-dev file)
+  packages+=(dpkg-dev file help2man)
+fi
+if [[ ${1:-build} == api || ${1:-build} == ci ]]; then
+  packages+=(doxygen)
 fi
 if [[ ${1:-build} == ci ]]; then
-  packages+=(dpkg-dev pkg-config python3-pytest python3-matplotlib)
+  packages+=(dpkg-dev pkg-config help2man python3-pytest python3-matplotlib)
   packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
 fi
 

@@ -20,6 +20,7 @@ struct NewtonCounters {
   std::vector<double> multipliers;  ///< of the last step, as the system scales them
 };
 
+/// What a run took.
 struct SolverCounters {
   std::size_t steps = 0;
   std::size_t rejected = 0;

@@ -50,6 +50,7 @@ class Pack {
 
 }  // namespace vlbeam
 
+/// @cond
 template <>
 struct Eigen::NumTraits<vlbeam::Pack> : Eigen::GenericNumTraits<vlbeam::Pack> {
   using Real = vlbeam::Pack;
@@ -65,3 +66,4 @@ struct Eigen::NumTraits<vlbeam::Pack> : Eigen::GenericNumTraits<vlbeam::Pack> {
     MulCost = 1
   };
 };
+/// @endcond

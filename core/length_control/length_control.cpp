@@ -1,5 +1,10 @@
 #include "core/length_control/length_control.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
 #include "core/geometry/arc.hpp"
 #include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_motion.hpp"
@@ -53,6 +58,30 @@ Eigen::Matrix<double, D, D> rotation_from_rest(const ChainState<D>& chain, int k
   return best_rotation<D>(points(chain.rest_nodes(k)), points(chain.coordinates(k).e));
 }
 
+/// What a rule of one's own makes of element k with the nodal coordinates `q`, which has lost node `deleted` of the
+/// chain `before`.
+template <int D>
+MergedWeights by_rule(const MergeRule& rule, const MovingCoordinates<double, D>& q, const ChainState<D>& before,
+                      int deleted) {
+  auto point = [](const Vec<double, D>& v) {
+    LostNode::Point p{};
+    std::copy(v.begin(), v.end(), p.begin());
+    return p;
+  };
+  const std::array<double, 3> k =
+      rule({q.x_a, q.x_b, point(q.e.r_a), point(q.e.s_a), point(q.e.r_b), point(q.e.s_b),
+            before.mesh.x[static_cast<std::size_t>(deleted)], point(position<D>(before.q.data(), deleted)),
+            point(slope<D>(before.q.data(), deleted))});
+  for (const double weight : k) {
+    if (weight > 0 && std::isfinite(weight)) continue;
+    std::ostringstream what;
+    what << "the merge rule of the program gave the weights " << k[0] << ", " << k[1] << ", " << k[2]
+         << " (over the last): they must be positive";
+    throw std::domain_error(what.str());
+  }
+  return {k};
+}
+
 /// Gives element k of `chain` the shape of one that has lost node `deleted` of the chain `before`.
 template <int D>
 MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted,
@@ -66,6 +95,7 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
   }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
+  if (control.merge == MergePolicy::own) merged = by_rule<D>(control.rule, q, before, deleted);
   if (control.merge == MergePolicy::point_fit && control.rational) {
     const double l = q.x_b - q.x_a;
     const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;

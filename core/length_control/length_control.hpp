@@ -16,6 +16,7 @@ struct LengthControl {
   double upper = 1.5;          ///< an element longer than upper (1 + hysteresis) L_std is cut
   double hysteresis = 1e-3;
   MergePolicy merge = MergePolicy::point_fit;
+  MergeRule rule = {};   ///< with the policy `own`
   bool rational = true;  ///< merged elements may have weights other than 1
   VelocityTransfer velocities = VelocityTransfer::nodal;
   /// The last element, shorter than this share of L_std, loses its moving node; 0: never.

@@ -22,8 +22,6 @@ constexpr double default_end_merge = 0.5;  // of L_std
 
 bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && scene.beam.curve.type != CurveType::line; }
 
-bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
-
 template <int D>
 Vec<double, D> vector_of(const Point& point) {
   return Eigen::Map<const Vec<double, D>>(point.data());
@@ -258,9 +256,15 @@ BeamModel<D> build_model(const Scene& scene) {
   }
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
-  model.length_control = {control.enabled,    standard_length(scene), control.upper,
-                          control.hysteresis, merge_policy(scene),    !is_polynomial(scene.beam.element),
-                          control.velocities, end_merge(scene)};
+  model.length_control = {control.enabled,
+                          standard_length(scene),
+                          control.upper,
+                          control.hysteresis,
+                          merge_policy(scene),
+                          control.merge_rule,
+                          !is_polynomial(scene.beam.element),
+                          control.velocities,
+                          end_merge(scene)};
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
   auto [loads, torques] = build_loads<D>(scene);
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;

@@ -28,6 +28,9 @@ AxisForm axis_form(const Scene& scene);
 /// with the weights of the arc.
 MergePolicy merge_policy(const Scene& scene);
 
+/// Whether an element's weights are 1, and stay so.
+inline bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
+
 /// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
 /// the beam is curved at rest.
 WeightTransport weight_transport(const Scene& scene);

@@ -73,7 +73,7 @@ constexpr auto names(AtSupport) {
 constexpr auto names(MergePolicy) {
   using enum MergePolicy;
   return std::to_array<Named<MergePolicy>>(
-      {{point_fit, "point-fit"}, {unit, "unit"}, {rest_arc, "rest-arc"}, {least_change, "least-change"}});
+      {{point_fit, "point-fit"}, {unit, "unit"}, {rest_arc, "rest-arc"}, {least_change, "least-change"}, {own, "own"}});
 }
 constexpr auto names(VelocityTransfer) {
   using enum VelocityTransfer;

@@ -607,8 +607,9 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .unit = "",
                  .description =
                      "shape of a merged element: weights by the paper's fit, unit weights, weights of the arc that its "
-                     "rest shape turns by, or weights and slopes by the least change at constant strain energy; if not "
-                     "given, rest-arc with an as-built arc or NURBS curve, point-fit otherwise",
+                     "rest shape turns by, or weights and slopes by the least change at constant strain energy, or "
+                     "(own) weights by a rule of the program that links the library; if not given, rest-arc with an "
+                     "as-built arc or NURBS curve, point-fit otherwise",
                  .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
           scene.length_control.merge);
   visitor(Option{.pointer = "/length_control/velocities",
@@ -730,6 +731,12 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .description = "times, ascending, at which the whole shape is kept",
                  .range = Range::non_negative()},
           scene.output.configurations);
+  visitor(Option{.pointer = "/output/points",
+                 .unit = "-",
+                 .description = "intervals an element: the report then has, for each shape that is kept, points along "
+                                "the axis with velocity, strain, curvature and tension; 0 for none",
+                 .range = {.low = 0, .high = 1000}},
+          scene.output.points);
 }
 
 }  // namespace vlbeam

@@ -118,6 +118,7 @@ struct Event {
   Configuration after;
 };
 
+/// How a run ended.
 enum class RunStatus {
   completed,
   separated,  ///< the mass left the beam and the run went on to its end
@@ -147,6 +148,7 @@ struct RunTiming {
   double length_control = 0;
 };
 
+/// All that a run gives; what is not there for a scene is empty.
 struct RunResult {
   RunStatus status = RunStatus::completed;
   std::string failure;      ///< what happened, with status `failed`

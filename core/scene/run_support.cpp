@@ -102,6 +102,10 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
     } catch (const ComputationFailed&) {
       // looking at it is what failed
     }
+  } catch (const std::domain_error& refused) {  // what a rule of the program's own gave
+    result.status = RunStatus::failed;
+    result.failure = refused.what();
+    result.failure_time = t;
   } catch (const std::bad_alloc&) {
     result.status = RunStatus::failed;
     result.failure = "out of memory after " + std::to_string(result.samples.size()) + " samples and " +

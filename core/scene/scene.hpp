@@ -26,23 +26,29 @@ enum class SceneSetting {
   ding_ouyang_2022,  ///< what the paper does, as far as it says so
 };
 
+/// Rational or polynomial cubic elements, with a node that may move (ALE) or without.
 enum class ElementKind { ale_rancf, ale_ancf, rancf, ancf };
+/// What strains are measured from: the initial shape, or, as in the paper, a straight beam.
 enum class RestShape { as_built, paper };
+/// How elements follow a curved initial axis.
 enum class AxisForm {
   even,   ///< elements run along the initial axis at its arc length, to a high order
   exact,  ///< elements are the axis exactly, at an uneven speed
 };
+/// What holds an end of the beam.
 enum class SupportType {
   clamp,
   pin,
   slide,  ///< position free along the initial tangent of the axis only
   free,
 };
+/// What of the slope a clamp holds.
 enum class ClampType {
   direction,  ///< position fixed, slope free along the initial tangent
   full,       ///< position and slope vector fixed
 };
 
+/// Kinds of initial axes.
 enum class CurveType { line, arc, nurbs };
 
 /// The initial axis of the beam; its length is the beam's length.
@@ -58,6 +64,7 @@ struct CurveSpec {
   std::vector<Point> control_points = {};        ///< nurbs [m]
 };
 
+/// The cross-section: a solid circle of the beam's material, or stiffnesses and masses per length.
 struct Section {
   enum class Type { circle, stiffness } type = Type::circle;
   double radius = 0.01;  ///< circle [m]
@@ -68,6 +75,7 @@ struct Section {
   double rhoIp = 0;      ///< stiffness, moment of inertia per length about the axis [kg m], used with spin
 };
 
+/// Properties of the material.
 struct Material {
   double density = 7200;                ///< [kg/m^3], used with a circle
   double youngs_modulus = 2e7;          ///< [Pa], used with a circle
@@ -86,12 +94,14 @@ struct TimeSpec {
   double ramp = 0;           ///< [s]
 };
 
+/// Rotary inertia of bending.
 enum class BendingInertia {
   none,
   rayleigh,    ///< of sections that turn with the axis
   gyroscopic,  ///< and that spin: valid for small slopes against the initial axis and an even spin
 };
 
+/// The beam: its initial axis, section and material, and how it is divided into elements.
 struct BeamSpec {
   CurveSpec curve;
   Section section;
@@ -112,12 +122,14 @@ struct SupportMotionSpec {
   TimeSpec displacement;  ///< [m]
 };
 
+/// The support of one end.
 struct SupportSpec {
   SupportType type = SupportType::free;
   ClampType clamp = ClampType::direction;  ///< used with a clamp
   std::optional<SupportMotionSpec> motion = {};
 };
 
+/// The mass that slides on the beam.
 struct SlidingMassSpec {
   double mass = 0.8;      ///< [kg]
   double position = 0.1;  ///< material coordinate at t = 0 [m]
@@ -157,17 +169,20 @@ struct FlowSpec {
   bool steady = false;             ///< start from the steady flow under the loads at t = 0
 };
 
+/// What a load is.
 enum class LoadType {
   force,     ///< in a direction of its own, which may turn about the initial axis
   follower,  ///< along the tangent of the axis
   torque,    ///< about the axis
 };
+/// Where a load acts.
 enum class LoadPlace {
   node,
   point,  ///< a material point, which may travel
   beam,   ///< all of it, per unstretched length
 };
 
+/// A load on the beam.
 struct LoadSpec {
   LoadType type = LoadType::force;
   LoadPlace at = LoadPlace::node;
@@ -178,11 +193,13 @@ struct LoadSpec {
   TimeSpec turn;             ///< force: angle by which the direction has turned about the initial axis [rad]
 };
 
+/// How the lengths of the elements beside the sliding mass are controlled.
 struct LengthControlSpec {
   bool enabled = true;
   double upper = 1.5;                     ///< trigger length over L_std
   double hysteresis = 1e-3;               ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
   std::optional<MergePolicy> merge = {};  ///< see merge_policy()
+  MergeRule merge_rule = {};              ///< of the policy `own`; no scene file can hold it
   VelocityTransfer velocities = VelocityTransfer::projected;
   std::optional<double> end_merge;  ///< over L_std: a shorter last element loses its moving node; see end_merge()
 };
@@ -196,6 +213,7 @@ struct AbsoluteTolerances {
   std::optional<double> spin;   ///< of its rate [rad/s]; if not given that of the rates of slopes
 };
 
+/// The time integrator; the comments say which methods use what.
 struct IntegratorSpec {
   IntegratorType type = IntegratorType::dopri5;
   double rtol = 1e-9;  ///< error-controlled methods
@@ -209,9 +227,11 @@ struct IntegratorSpec {
   bool locate_events = true;
 };
 
+/// What is recorded.
 struct OutputSpec {
   double interval = 0.005;             ///< [s]
   std::vector<double> configurations;  ///< times [s] at which the whole shape is kept
+  int points = 0;  ///< intervals an element at whose ends the report has the axis of each such shape; 0: none
 };
 
 /// One beam, its supports and loads, and at most one mass that slides on it; or a shaft that spins or flows through its

@@ -259,6 +259,19 @@ void check_length_control(const Scene& scene) {
     refuse("/length_control/end_merge", number_text(*control.end_merge),
            "without length control it must be 0: take \"enabled\": true, or leave it out");
   }
+  const bool own = control.merge == MergePolicy::own;
+  if (own && !control.merge_rule) {
+    refuse("/length_control/merge", "\"own\"",
+           "a scene file cannot hold a rule: a program that links the library gives it one, as merge_rule");
+  }
+  if (own && is_polynomial(scene.beam.element)) {
+    refuse("/length_control/merge", "\"own\"",
+           "weights are those of \"ale-rancf\": " + quoted(to_string(scene.beam.element)) + " has none");
+  }
+  if (control.merge_rule && !own) {
+    refuse("/length_control/merge", control.merge ? quoted(to_string(*control.merge)) : "left out",
+           "with a merge rule it must be \"own\"");
+  }
   if (scene.sliding_mass && scene.sliding_mass->at_support != AtSupport::stop && end_merge(scene) == 0) {
     refuse(control.enabled ? "/length_control/end_merge" : "/length_control/enabled", control.enabled ? "0" : "false",
            "\"at_support\": " + quoted(to_string(scene.sliding_mass->at_support)) +

@@ -27,6 +27,7 @@ Setting setting_of(const Scene& scene);
 /// a node would fall between two others, or the scene cannot be modelled so.
 Scene with_setting(const Scene& scene, const Setting& setting);
 
+/// What is asked of a scene, and what it may cost.
 struct ConvergeOptions {
   std::string quantity;
   double error = 0;               ///< wanted, in the quantity's unit, or of its magnitude
@@ -38,6 +39,7 @@ struct ConvergeOptions {
   double budget = 15;             ///< all runs together, in runs of the finest setting
 };
 
+/// What a level refines.
 enum class Refined { mesh, time, quadrature };
 
 /// One run of the scene, and what became of the quantity.
@@ -52,6 +54,7 @@ struct ConvergeLevel {
   double seconds = 0;
 };
 
+/// How far the quantity can be trusted.
 struct Convergence {
   std::string quantity, unit;
   double t = 0;

@@ -6,9 +6,10 @@
 
 namespace vlbeam {
 
+/// How much of a text is shown.
 enum class Lines { one, several };
 
-/// A text from outside as a terminal may show it: control characters become \u001b and the like, and do nothing. Line
+/// A text from outside as a terminal may show it: control characters become escapes of JSON, and do nothing. Line
 /// breaks stay where the text may have several lines.
 std::string printable(std::string_view text, Lines lines = Lines::one);
 

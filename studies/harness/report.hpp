@@ -53,8 +53,8 @@ struct StudyReport {
 /// Text of a table's CSV file.
 std::string table_csv(const Table& table);
 
-/// Where the files of a study go: OUT/NAME.json, OUT/NAME_<table>.csv, OUT/figures/NAME_<figure>.svg, and
-/// OUT/NAME.timing.json, OUT/NAME_<table>.timing.csv, OUT/figures/NAME_<figure>.timing.svg for what wall times enter.
+/// Where the files of a study go: OUT/NAME.json, OUT/NAME_TABLE.csv, OUT/figures/NAME_FIGURE.svg, and
+/// OUT/NAME.timing.json, OUT/NAME_TABLE.timing.csv, OUT/figures/NAME_FIGURE.timing.svg for what wall times enter.
 struct ReportFiles {
   std::filesystem::path out;
   std::string study;

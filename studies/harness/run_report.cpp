@@ -14,6 +14,7 @@
 #include "core/scene/energy_ledger.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/shape.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -145,7 +146,24 @@ Json components(const Point& point, int dimension) {
   return Json(std::vector<double>(point.begin(), point.begin() + dimension));
 }
 
-Json configuration(const Configuration& shape, int d) {
+/// Points along the axis, column by column.
+Json axis(const std::vector<ShapePoint>& points, int d) {
+  Json json;
+  for (const char* column : {"element", "x", "r", "v", "strain", "curvature", "tension"}) json[column] = Json::array();
+  for (const ShapePoint& point : points) {
+    json["element"].push_back(point.element);
+    json["x"].push_back(point.x);
+    json["r"].push_back(components(point.r, d));
+    json["v"].push_back(components(point.v, d));
+    json["strain"].push_back(point.strain);
+    json["curvature"].push_back(point.curvature);
+    json["tension"].push_back(point.tension);
+  }
+  return json;
+}
+
+Json configuration(const Configuration& shape, const Scene& scene) {
+  const int d = scene.dimension;
   const auto points = [d](const std::vector<Point>& list) {
     Json array = Json::array();
     for (const Point& point : list) array.push_back(components(point, d));
@@ -164,6 +182,7 @@ Json configuration(const Configuration& shape, int d) {
                     {"r_x", components(shape.kink->r_x, d)},
                     {"r_x_rate", components(shape.kink->r_x_rate, d)}};
   }
+  if (scene.output.points > 0) json["axis"] = axis(points_along(scene, shape, scene.output.points), d);
   return json;
 }
 
@@ -284,7 +303,6 @@ std::string ledger_text(const EnergyLedger& ledger) {
 }  // namespace
 
 void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink) {
-  const int d = scene.dimension;
   Writer out(sink);
   bool first = true;
   const auto key = [&](const char* name) {
@@ -313,7 +331,7 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
   value("scene", scene_to_json(scene));
   key("samples");
   write_samples(sample_quantities(scene), result.samples, out);
-  list("configurations", result.configurations, [d](const Configuration& c) { return configuration(c, d); });
+  list("configurations", result.configurations, [&scene](const Configuration& c) { return configuration(c, scene); });
   list("events", result.events, event);
   value("energy_ledger", ledger_json(energy_ledger(result)));
   value("solver", solver(result));

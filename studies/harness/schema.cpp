@@ -384,25 +384,33 @@ Json run_schema() {
                             {"r_x_rate", described(point, "its rate", "1/s")}});
   const Json rest =
       record({{"r", described(array_of(point), "positions", "m")}, {"r_x", described(array_of(point), "slopes", "-")}});
-  const Json configuration =
-      record({{"t", described(number, "time", "s")},
-              {"x", described(array_of(number), "material coordinates of the nodes", "m")},
-              {"r", described(array_of(point), "positions of the nodes", "m")},
-              {"r_x", described(array_of(point), "slopes at the nodes; at a kink that before it", "-")},
-              {"weights", described(array_of(array_of(number)), "the four rational weights of each element", "-")},
-              {"angles", described(array_of(number), "of the section about the axis, at the nodes; with spin", "rad")},
-              {"x_rate", described(array_of(number), "rates of the material coordinates", "m/s")},
-              {"v", described(array_of(point),
-                              "velocities of the material points at the nodes; a node itself moves with "
-                              "v + r_x x_rate",
-                              "m/s")},
-              {"r_x_rate", described(array_of(point), "rates of the slopes at the nodes", "1/s")},
-              {"spins", described(array_of(number), "rates of the angles; with spin", "rad/s")},
-              {"rest", described(rest,
-                                 "nodes of the rest shape of these elements, from which strains are measured; "
-                                 "where it is not a straight beam")},
-              {"kink", described(kink, "where the beam may be kinked, at the sliding mass")}},
-             {"kink", "rest", "angles", "spins"});
+  const Json axis = record({{"element", described(array_of(number), "number of the element, from 0", "-")},
+                            {"x", described(array_of(number), "material coordinate", "m")},
+                            {"r", described(array_of(point), "position", "m")},
+                            {"v", described(array_of(point), "velocity of the material point", "m/s")},
+                            {"strain", described(array_of(number), "axial strain, from the rest shape", "-")},
+                            {"curvature", described(array_of(number), "magnitude of the curvature", "1/m")},
+                            {"tension", described(array_of(number), "axial force, damping included", "N")}});
+  const Json configuration = record(
+      {{"t", described(number, "time", "s")},
+       {"x", described(array_of(number), "material coordinates of the nodes", "m")},
+       {"r", described(array_of(point), "positions of the nodes", "m")},
+       {"r_x", described(array_of(point), "slopes at the nodes; at a kink that before it", "-")},
+       {"weights", described(array_of(array_of(number)), "the four rational weights of each element", "-")},
+       {"angles", described(array_of(number), "of the section about the axis, at the nodes; with spin", "rad")},
+       {"x_rate", described(array_of(number), "rates of the material coordinates", "m/s")},
+       {"v", described(array_of(point),
+                       "velocities of the material points at the nodes; a node itself moves with "
+                       "v + r_x x_rate",
+                       "m/s")},
+       {"r_x_rate", described(array_of(point), "rates of the slopes at the nodes", "1/s")},
+       {"spins", described(array_of(number), "rates of the angles; with spin", "rad/s")},
+       {"rest", described(rest,
+                          "nodes of the rest shape of these elements, from which strains are measured; "
+                          "where it is not a straight beam")},
+       {"kink", described(kink, "where the beam may be kinked, at the sliding mass")},
+       {"axis", described(axis, "points along the axis, those at nodes once for each element; with output.points")}},
+      {"kink", "rest", "angles", "spins", "axis"});
   const Json jumps = record(
       {{"kinetic", described(number_or_null, "of kinetic energy", "J")},
        {"axial", described(number_or_null, "of the strain energy of stretching", "J")},

@@ -13,6 +13,7 @@
 
 namespace vlbeam {
 
+/// Which of a study's two sweeps is run.
 enum class Profile { ci, full };
 constexpr auto names(Profile) { return std::to_array<Named<Profile>>({{Profile::ci, "ci"}, {Profile::full, "full"}}); }
 
@@ -20,8 +21,8 @@ constexpr auto names(Profile) { return std::to_array<Named<Profile>>({{Profile::
 struct StudyContext {
   std::string study;
   Profile profile = Profile::full;
-  std::filesystem::path folder;  ///< the study's sources: study.cpp, study.<profile>.json, gates.json, *.gp
-  Json config;                   ///< study.<profile>.json: the sweep as data
+  std::filesystem::path folder;  ///< the study's sources: study.cpp, study.PROFILE.json, gates.json, *.gp
+  Json config;                   ///< study.PROFILE.json: the sweep as data
   int jobs = 1;
 
   /// Runs independent cases on the study's threads; see harness/sweep.hpp. Results do not depend on the threads.

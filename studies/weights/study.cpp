@@ -54,6 +54,7 @@ std::vector<Case> read_cases(const Json& config) {
   for (const int n : policy.at("elements").get<std::vector<int>>()) {
     for (const auto& merge : names(MergePolicy{})) {
       if (merge.value == MergePolicy::rest_arc) continue;  // unit weights, on a beam that is straight at rest
+      if (merge.value == MergePolicy::own) continue;       // no rule to try
       for (const auto velocities : {VelocityTransfer::nodal, VelocityTransfer::conservative}) {
         for (const auto element : {ElementKind::ale_rancf, ElementKind::ale_ancf}) {
           if (element == ElementKind::ale_ancf && merge.value == MergePolicy::point_fit) continue;  // its unit weights

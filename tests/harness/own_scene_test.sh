@@ -21,6 +21,16 @@ check "its own scene" 1 "$(grep -c '"Flexible pendulum"' out.txt)"
 check "a run" 0 "$(exit_of "$vlbeam" run scene.json --report r.json --shape shape.csv --points 4 -q)"
 check "points along the axis" $((6 * 8 * 5 + 1)) "$(wc -l < shape.csv)"
 check "their units" 1 "$(head -1 shape.csv | grep -c 'tension \[N\]')"
+sed 's/"configurations":/"points": 4, "configurations":/' scene.json > points.json
+"$vlbeam" run points.json --report points.out -q
+check "the report has the same points" 1 "$(python3 - points.out shape.csv << 'PYTHON'
+import csv, json, sys
+report, table = json.load(open(sys.argv[1])), list(csv.DictReader(open(sys.argv[2])))
+mine = [(shape["t"], a["element"][i], a["x"][i], *a["r"][i], *a["v"][i], a["strain"][i], a["curvature"][i], a["tension"][i])
+        for shape in report["configurations"] for a in [shape["axis"]] for i in range(len(a["x"]))]
+print(int(mine == [tuple(map(float, row.values())) for row in table]))
+PYTHON
+)"
 check "the shape is not the report" 2 "$(exit_of "$vlbeam" run scene.json --report x.json --shape x.json)"
 sed 's/, "configurations": \[[^]]*\]//' scene.json > without.json
 check "no shapes to write" 2 "$(exit_of "$vlbeam" run without.json --shape none.csv)"

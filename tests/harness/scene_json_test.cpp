@@ -258,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"/beam/rest_shape", "\"as_built\""}, BadScene{"/beam/strain_law", "\"seed\""},
                     BadScene{"/formulation", "\"virtual work\""}, BadScene{"/weights", "\"moving\""},
                     BadScene{"/integrator/type", "\"rk4\"", "/integrator/type", "\"bulirsch-stoer\""},
-                    BadScene{"/length_control/merge", "\"none\""},
+                    BadScene{"/length_control/merge", "\"none\""}, BadScene{"/length_control/merge", "\"own\""},
                     BadScene{"/sliding_mass/slopes", "\"kinked\"", "/sliding_mass/slopes", "\"equal-stretch\""},
                     BadScene{"/supports/0/at", "\"middle\"", "/supports/0/at", "\"start\", \"end\""},
                     BadScene{"/supports/0/type", "\"weld\""}, BadScene{"/supports/0/clamp", "\"half\""}));

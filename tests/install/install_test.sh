@@ -20,6 +20,24 @@ mv "$root" "$scratch/elsewhere" && root=$scratch/elsewhere
 cmp "$scratch/scene.json" "$sources/scenes/pendulum.json"
 "$root/bin/vlbeam" gate --help > /dev/null
 
+# Man pages of all commands, where help2man was there to write them, and completion that knows them.
+commands=$("$root/bin/vlbeam" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p')
+[[ $(wc -w <<< "$commands") -ge 12 ]] || says "the commands in --help"
+if command -v help2man > /dev/null; then
+  for command in $commands; do
+    grep -q "^vlbeam-$command " "$root/share/man/man1/vlbeam-$command.1" || says "the man page of $command"
+  done
+  grep -q 'Exit codes' "$root/share/man/man1/vlbeam.1" || says "the man page"
+fi
+completed() {
+  PATH=$root/bin:$PATH bash -c 'source "$1"; shift
+    COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _vlbeam; echo "${COMPREPLY[*]}"' - \
+    "$root/share/bash-completion/completions/vlbeam" "$@"
+}
+[[ $(completed vlbeam conv) == converge ]] || says "completion of a command"
+[[ $(completed vlbeam converge --q) == --quantity ]] || says "completion of an option"
+[[ $(completed vlbeam scene pend) == pendulum ]] || says "completion of a scene"
+
 # A project of its own.
 cp -r "$root/share/vlbeam/examples" "$scratch/examples"
 "$cmake" -S "$scratch/examples" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$root" -DCMAKE_CXX_COMPILER="$cxx" \
@@ -36,6 +54,8 @@ build/run_scene scene.json 2> err.txt || code=$?
 build/own_study > own_study.txt 2>&1 || { cat own_study.txt; says "own_study"; }
 [[ -s own_study_report/own_study.json && -s own_study_report/own_study_meshes.csv ]] || says "the report of own_study"
 build/own_element_law > law.txt || { cat law.txt; says "own_element_law"; }
+"$root/bin/vlbeam" scene falling_beam > falling.json
+[[ $(build/own_merge_rule falling.json | grep -c ' J$') -eq 3 ]] || says "own_merge_rule"
 
 # Another version is refused.
 mkdir other && cat > other/CMakeLists.txt <<'CMAKE'
