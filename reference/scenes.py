@@ -121,6 +121,9 @@ answer("rotating_load", "load0_x", rotating_load(), 1e-10, "independent",
 answer("moving_string", "load0_y", moving_string(), 1e-13, "exact",
        "steady linear deflection about the stretched state")
 
+answer("shallow_arch", "load0_y", read("equilibria.json")["arch"]["height"], 1e-8, "independent",
+       "shooting (reference/equilibria.py)", 1)
+
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (
         ("suspended_beam", "joint_position", 0.1551768503, 5.7e-7, 0.2),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -96,6 +97,22 @@ class BorderedBlockTridiagonal {
       nodal -= extra[j] * Eigen::Map<const Eigen::VectorXd>(columns_.data() + stride * static_cast<std::size_t>(j),
                                                             static_cast<Eigen::Index>(stride));
     }
+  }
+
+  /// Of the last factored matrix, which is symmetric and has no border: how many of its eigenvalues are negative, by
+  /// Sylvester's law those of its pivots. One below `zero` of its block's diagonal counts as none.
+  int negative_pivots(double zero) const {
+    int count = 0;
+    for (std::size_t k = 0; k < inverse_.size(); ++k) {
+      Vector size;  // slopes, the second half of a node's unknowns, have another unit than places
+      size.head(B / 2).setConstant(std::sqrt(diagonal[k].diagonal().head(B / 2).cwiseAbs().maxCoeff()));
+      size.tail(B - B / 2).setConstant(std::sqrt(diagonal[k].diagonal().tail(B - B / 2).cwiseAbs().maxCoeff()));
+      const Block scaled = size.asDiagonal() * inverse_[k] * size.asDiagonal();
+      const Block even = (scaled + scaled.transpose()) / 2;
+      const Eigen::SelfAdjointEigenSolver<Block> solver(even, Eigen::EigenvaluesOnly);
+      for (const double value : solver.eigenvalues()) count += value < 0 && value > -1 / zero ? 1 : 0;
+    }
+    return count;
   }
 
   /// Writes the matrix, not yet factored, into the leading part of a dense one of zeros.

@@ -58,30 +58,35 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const QuadratureRule& rule, const double* rest)
+              const QuadratureRule& rule, const double* rest, const std::vector<PointMass>& masses)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
       support_(support),
       section_(section),
       curved_at_rest_(rest != nullptr) {
-  build_packs(mesh, rule, rest);
-  factor(mesh, rule);
+  build_packs(mesh, rule, rest, masses);
+  factor(mesh, rule, masses);
 }
 
 template <int D>
-void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest) {
+void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest,
+                          const std::vector<PointMass>& masses) {
   const int low = std::min(outer_, open_), high = std::max(outer_, open_);
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
   auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
   std::shared_ptr<const Tables> uniform;  // equal lengths and unit weights share one table
   double uniform_length = 0;
+  const auto bears_mass = [&](int k) {
+    return std::any_of(masses.begin(), masses.end(),
+                       [&](const PointMass& point) { return mesh.element_at(point.x) == k; });
+  };
   for (int first = low; first < high; first += Pack::width) {
     const int count = std::min(Pack::width, high - first);
     bool is_uniform = count == Pack::width && rest == nullptr;
     for (int k = first; k < first + count; ++k) {
       is_uniform = is_uniform && mesh.weights[static_cast<std::size_t>(k)].w == unit_weights &&
-                   std::abs(length(k) - length(first)) <= rounding;
+                   std::abs(length(k) - length(first)) <= rounding && !bears_mass(k);
     }
     if (is_uniform && uniform && std::abs(length(first) - uniform_length) <= rounding) {
       packs_.push_back({first, count, uniform});
@@ -99,6 +104,7 @@ void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const do
       for (auto& row : mass) {
         for (auto& entry : row) entry *= section_.rhoA;
       }
+      add_point_masses(masses, mesh, k, mass);
     }
     tables->basis = pack_basis(lanes);
     if (rest != nullptr) tables->rest = pack_rest(rest_lanes);
@@ -111,7 +117,7 @@ void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const do
 }
 
 template <int D>
-void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule) {
+void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule, const std::vector<PointMass>& masses) {
   const int low = std::min(outer_, open_), count = std::abs(open_ - outer_);
   load_.assign(static_cast<std::size_t>(count) + 1, {0, 0});
   NodeBlock<D> block;
@@ -122,6 +128,7 @@ void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule) {
     for (auto& row : inertia.mass) {
       for (auto& entry : row) entry *= section_.rhoA;
     }
+    add_point_masses(masses, mesh, static_cast<int>(e), inertia.mass);
     const std::size_t node = e - static_cast<std::size_t>(low);
     load_[node][0] += section_.rhoA * inertia.load[0];
     load_[node][1] += section_.rhoA * inertia.load[1];

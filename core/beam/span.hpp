@@ -6,6 +6,7 @@
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_block.hpp"
 #include "core/beam/node_map.hpp"
+#include "core/beam/point_mass.hpp"
 #include "core/beam/support.hpp"
 #include "core/element/fixed_element.hpp"
 #include "core/element/pack.hpp"
@@ -27,10 +28,10 @@ class Span {
   using Components = typename Support<D>::Components;
 
   /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` holds the nodes of the
-  /// rest shape, null for a straight, unstrained one. Throws std::invalid_argument for a mass matrix that is not
-  /// positive definite (too few quadrature points).
+  /// rest shape, null for a straight, unstrained one; `masses` sit on the whole beam. Throws std::invalid_argument for
+  /// a mass matrix that is not positive definite (too few quadrature points).
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-       const QuadratureRule& rule, const double* rest);
+       const QuadratureRule& rule, const double* rest, const std::vector<PointMass>& masses = {});
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -83,8 +84,9 @@ class Span {
   void tangents(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                 NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
-  void build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest);
-  void factor(const Mesh& mesh, const QuadratureRule& rule);
+  void build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest,
+                   const std::vector<PointMass>& masses);
+  void factor(const Mesh& mesh, const QuadratureRule& rule, const std::vector<PointMass>& masses);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;

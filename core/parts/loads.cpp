@@ -14,13 +14,6 @@ std::string text(double value) {
   return stream.str();
 }
 
-/// The material point x of element k.
-template <int D>
-PointMotion<double, D> point_at(const MovingKinematics<double, D>& element, double x) {
-  const double u = (x - element.coordinates().x_a) / element.length();
-  return element.at(u, rational_shape(element.weights(), u));
-}
-
 }  // namespace
 
 template <int D>
@@ -44,16 +37,16 @@ double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force, d
   for (const PointLoad<D>& load : points) {
     const double x = load.place(beam, t);
     const int k = beam.element_at(x);
-    const PointMotion<double, D> at = point_at(beam.kinematics(k), x);
-    const Vec<double, D> f = load.force_on(at.r_x, t);
-    for (int i = 0; i < 4; ++i) {
-      Eigen::Map<Vec<double, D>>(force + beam.vector(k, i)) += at.s[static_cast<std::size_t>(i)] * f;
+    const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), x);
+    PointForce<double, D> f{load.force_on(at.r_x, t), Vec<double, D>::Zero()};
+    if constexpr (D == 2) {
+      if (load.moment) f.on_slope = turning_force<double>(load.moment(t), at.r_x);
     }
-    if (beam.at_joint(k)) force[beam.mark] += f.dot(k == beam.joint ? at.y_a : at.y_b);
-    power += f.dot(at.v);
+    add_point_force(beam, k, at, f, force);
+    power += f.on_r.dot(at.v) + f.on_slope.dot(at.v_x);
     if (on_marks == nullptr) continue;
-    on_marks[k] += f.dot(at.y_a);
-    on_marks[k + 1] += f.dot(at.y_b);
+    on_marks[k] += f.on_r.dot(at.y_a) + f.on_slope.dot(at.y_a_x);
+    on_marks[k + 1] += f.on_r.dot(at.y_b) + f.on_slope.dot(at.y_b_x);
   }
   return power;
 }
@@ -61,9 +54,9 @@ double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force, d
 template <int D>
 typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k,
                                                    double t) const {
-  constexpr int X = element_size - 1;
+  constexpr int X = point_coordinates<D> - 1;
   const double x = load.place(beam, t);
-  const PointMotion<double, D> at = point_at(beam.kinematics(k), x);
+  const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), x);
   const Eigen::Matrix<double, D, D> turning = load.turning(at.r_x, t);
   ElementMatrix matrix = ElementMatrix::Zero();
   for (int i = 0; i < 4; ++i) {
@@ -86,10 +79,10 @@ typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, con
   MovingCoordinates<double, D> alone{
       {Vec<double, D>::Zero(), Vec<double, D>::Zero(), Vec<double, D>::Zero(), Vec<double, D>::Zero()}, 0, 0};
   (a_moves ? alone.x_a : alone.x_b) = 1;
-  const auto units = point_at(MovingKinematics<double, 4>(unit, still, beam.transport, beam.weights(k)), x);
+  const auto units = point_at<double, 4>(MovingKinematics<double, 4>(unit, still, beam.transport, beam.weights(k)), x);
   const Row s_mark = a_moves ? units.y_a : units.y_b;
   const Vec<double, D> second =
-      point_at(MovingKinematics<double, D>(q, alone, beam.transport, beam.weights(k)), x).remainder;
+      point_at<double, D>(MovingKinematics<double, D>(q, alone, beam.transport, beam.weights(k)), x).remainder;
   for (int i = 0; i < 4; ++i) {
     const auto ii = static_cast<std::size_t>(i);
     matrix.template block<D, 1>(D * i, X) = -(s_mark[i] * force + at.s[ii] * (turning * y_x));
@@ -100,11 +93,27 @@ typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, con
 }
 
 template <int D>
+typename Loads<D>::ElementMatrix Loads<D>::moment_tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k,
+                                                          double t) {
+  if constexpr (D == 2) {
+    return point_tangent<D>(beam, k, load.place(beam, t), beam.rate, 0, 0,
+                            [&](const auto& at, const auto& /*acceleration*/) {
+                              using Real = typename std::decay_t<decltype(at.r_x)>::Scalar;
+                              PointForce<Real, D> force;
+                              force.on_slope = turning_force<Real>(load.moment(t), at.r_x);
+                              return force;
+                            });
+  } else {
+    return ElementMatrix::Zero();
+  }
+}
+
+template <int D>
 std::vector<Vec<double, D>> Loads<D>::places(const ChainView<D>& beam, double t) const {
   std::vector<Vec<double, D>> result;
   for (const PointLoad<D>& load : points) {
     const double x = load.place(beam, t);
-    result.push_back(point_at(beam.kinematics(beam.element_at(x)), x).r);
+    result.push_back(point_at<double, D>(beam.kinematics(beam.element_at(x)), x).r);
   }
   return result;
 }

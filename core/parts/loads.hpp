@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/beam/chain_view.hpp"
 #include "core/element/moving_points.hpp"
+#include "core/parts/material_point.hpp"
 
 namespace vlbeam {
 
@@ -16,6 +16,7 @@ struct PointLoad {
   std::function<double(double t)> x = {};              ///< or has this material coordinate [m], which may travel
   std::function<Vec<double, D>(double t)> force = {};  ///< [N], of a direction of its own
   std::function<double(double t)> follower = {};       ///< [N], along the tangent of the axis
+  std::function<double(double t)> moment = {};         ///< [N m], turns the slope, in the plane
 
   /// Its material coordinate on a beam [m].
   double place(const ChainView<D>& beam, double t) const { return x ? x(t) : beam.mark_of(node); }
@@ -40,13 +41,20 @@ template <int D>
 void check_places(const std::vector<PointLoad<D>>& loads, double until, double slack,
                   const std::function<std::pair<double, double>(double t)>& ends);
 
+/// Conjugate to the slope r_x, what a moment M does: M times the derivative of the slope's angle.
+template <class Real>
+Vec<Real, 2> turning_force(double moment, const Vec<Real, 2>& r_x) {
+  const Real share = Real(moment) / r_x.squaredNorm();
+  return {-share * r_x[1], share * r_x[0]};
+}
+
 /// Forces on material points of a beam, and along all of it. A force F on the material point x is N^T F of the
-/// element that holds it, N = [S, y_A, y_B]; along the beam it acts on the mark of a joint, if that is an end of it.
-/// What is distributed evenly acts as gravity does, of the beam alone: see BeamSystem::beam_gravity.
+/// element that holds it, N = [S, y_A, y_B]; along the beam it acts on the mark of a joint, if that is an end of it. A
+/// moment is the same of the slope, with N_x. What is distributed evenly acts as gravity does, of the beam alone: see
+/// BeamSystem::beam_gravity.
 template <int D>
 struct Loads {
-  static constexpr int element_size = 4 * D + 1;  ///< nodal coordinates of an element, and the mark
-  using ElementMatrix = Eigen::Matrix<double, element_size, element_size>;
+  using ElementMatrix = PointMatrix<D>;
 
   std::vector<PointLoad<D>> points = {};
   std::function<Vec<double, D>(double t)> line_force = {};  ///< on the whole beam [N/m]
@@ -62,6 +70,7 @@ struct Loads {
     for (const PointLoad<D>& load : points) {
       const int k = beam.element_at(load.place(beam, t));
       if (load.follower || beam.at_joint(k)) add(k, tangent(load, beam, k, t));
+      if (load.moment) add(k, moment_tangent(load, beam, k, t));
     }
   }
   /// Where the concentrated ones are [m].
@@ -69,6 +78,7 @@ struct Loads {
 
  private:
   ElementMatrix tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k, double t) const;
+  static ElementMatrix moment_tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k, double t);
 };
 
 /// Rate of the integral of r dx over an element [m^2/s], by the points of its table: as they move along the beam, or,

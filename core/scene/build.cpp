@@ -229,6 +229,51 @@ AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene) {
   return atol;
 }
 
+std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<double>& breaks) {
+  std::vector<PointMass> masses;
+  if (scene.point_masses.empty()) return masses;
+  const std::vector<double> nodes = place_nodes(scene, breaks).x;
+  for (const PointMassSpec& spec : scene.point_masses) {
+    masses.push_back({nodes[static_cast<std::size_t>(spec.node)], spec.mass});
+  }
+  return masses;
+}
+
+/// Adds the velocities of the scene's rigid motion to those of a chain's nodes, without what supports hold.
+template <int D>
+void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& chain) {
+  if (!scene.initial_velocity) return;
+  const int last = chain.mesh.last();
+  for (int k = 0; k <= last; ++k) {
+    const Vec<double, D> s = slope<D>(chain.q.data(), k);
+    position<D>(chain.rate.data(), k) += initial_velocity<D>(scene, position<D>(chain.q.data(), k));
+    slope<D>(chain.rate.data(), k) +=
+        initial_velocity<D>(scene, s) - initial_velocity<D>(scene, Vec<double, D>::Zero());
+  }
+  for (const int k : {0, last}) {
+    const Support<D> support =
+        build_support<D>(k == 0 ? scene.start : scene.end, axis.tangent(k == 0 ? 0 : axis.length()));
+    const auto keep = [&](auto part, const typename Support<D>::Components& free) {
+      part = support.out_of_frame((support.into_frame(part).array() * free).matrix());
+    };
+    keep(position<D>(chain.rate.data(), k), support.free_position);
+    keep(slope<D>(chain.rate.data(), k), support.free_slope);
+  }
+}
+
+template <int D>
+Vec<double, D> initial_velocity(const Scene& scene, const Vec<double, D>& r) {
+  const InitialVelocitySpec& motion = *scene.initial_velocity;
+  const Vec<double, D> arm = r - vector_of<D>(motion.about);
+  Vec<double, D> turned;
+  if constexpr (D == 2) {
+    turned << -arm[1], arm[0];
+  } else {
+    turned = vector_of<D>(motion.axis).normalized().cross(arm);
+  }
+  return vector_of<D>(motion.translation) + motion.rotation * turned;
+}
+
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
@@ -237,13 +282,13 @@ BeamModel<D> build_model(const Scene& scene) {
   model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
   model.gravity = vector_of<D>(scene.gravity);
-  model.gravity_ramp = scene.gravity_ramp;
+  if (scene.analysis == Analysis::dynamics) model.gravity_ramp = scene.gravity_ramp;
   const Axis<D> axis = build_axis<D>(scene);
   model.start = build_support<D>(scene.start, axis.tangent(0));
   model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
-  const auto motion_of = [](const SupportSpec& spec) -> SupportMotion<D> {
+  const auto motion_of = [&scene](const SupportSpec& spec) -> SupportMotion<D> {
     if (!spec.motion) return {};
-    return {vector_of<D>(spec.motion->direction).normalized(), time_function(spec.motion->displacement)};
+    return {vector_of<D>(spec.motion->direction).normalized(), acting(spec.motion->displacement, scene.analysis)};
   };
   model.start_motion = motion_of(scene.start);
   model.end_motion = motion_of(scene.end);
@@ -254,6 +299,8 @@ BeamModel<D> build_model(const Scene& scene) {
     model.separation_distance = separation_distance(scene);
     model.at_support = {scene.sliding_mass->at_support, scene.sliding_mass->restitution};
   }
+  model.masses.points = build_point_masses(scene, axis.breaks());
+  model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
   model.length_control = {control.enabled,
@@ -312,12 +359,13 @@ ChainState<D> build_chain(const Scene& scene) {
     if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
   }
   if (has_rest_shape(scene)) chain.rest = chain.q;
+  add_rigid_motion(scene, axis, chain);
   if (!scene.sliding_mass) return chain;
   // the beam is at rest, so the moving node travels along it
   chain.joint_rate = scene.sliding_mass->velocity;
   const int j = chain.joint;
   auto r_x = slope<D>(chain.q.data(), j);
-  position<D>(chain.rate.data(), j) = chain.joint_rate * r_x;
+  position<D>(chain.rate.data(), j) += chain.joint_rate * r_x;
   Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
   if (has_rest_shape(scene)) {
     before = behind = chain.joint_rate * axis.derivatives(x[static_cast<std::size_t>(j)])[2];
@@ -325,6 +373,9 @@ ChainState<D> build_chain(const Scene& scene) {
     before = chain.joint_rate * second_derivative(chain, j - 1, 1);
     behind = chain.joint_rate * second_derivative(chain, j, 0);
   }
+  const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
+  before += turning;
+  behind += turning;
   const bool kinked = scene.sliding_mass->slopes != JointSlopes::continuous;
   if (kinked) chain.kink = {r_x, behind};
   slope<D>(chain.rate.data(), j) = kinked ? before : Vec<double, D>((before + behind) / 2);
@@ -333,6 +384,8 @@ ChainState<D> build_chain(const Scene& scene) {
 
 template Support<2> build_support(const SupportSpec&, const Vec<double, 2>&);
 template Support<3> build_support(const SupportSpec&, const Vec<double, 3>&);
+template Vec<double, 2> initial_velocity(const Scene&, const Vec<double, 2>&);
+template Vec<double, 3> initial_velocity(const Scene&, const Vec<double, 3>&);
 template Axis<2> build_axis(const Scene&);
 template Axis<3> build_axis(const Scene&);
 template BeamModel<2> build_model(const Scene&);

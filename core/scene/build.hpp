@@ -21,6 +21,10 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks);
 BeamSection build_section(const BeamSpec& beam);
 SpinSection build_spin(const BeamSpec& beam);
 
+/// Of the point r in the rigid motion that the scene starts with [m/s].
+template <int D>
+Vec<double, D> initial_velocity(const Scene& scene, const Vec<double, D>& r);
+
 /// What holds a node at which the axis has the given tangent.
 template <int D>
 Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent);

@@ -11,16 +11,17 @@ namespace {
 
 /// A force may turn about `axis`, a unit vector.
 template <int D>
-PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis) {
-  const TimeFunction magnitude = time_function(spec.magnitude), x = time_function(spec.x);
+PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis, Analysis analysis) {
+  const TimeFunction magnitude = acting(spec.magnitude, analysis), x = beside_loads(spec.x, analysis);
   PointLoad<D> load;
   if (spec.at == LoadPlace::node) load.node = spec.node;
   if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
   auto size = [magnitude](double t) { return magnitude(t).value; };
   if (spec.type == LoadType::follower) load.follower = size;
+  if (spec.type == LoadType::moment) load.moment = size;
   if (spec.type == LoadType::force) {
     const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
-    const TimeFunction turn = time_function(spec.turn);
+    const TimeFunction turn = beside_loads(spec.turn, analysis);
     load.force = [=](double t) -> Vec<double, D> {
       const double angle = turn(t).value, c = std::cos(angle), s = std::sin(angle);
       if constexpr (D == 2) {
@@ -66,7 +67,7 @@ BeamLoads<D> build_loads(const Scene& scene) {
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
   for (const LoadSpec& spec : scene.loads) {
     const double x = std::clamp(initial_place(spec, nodes), 0.0, axis.length());
-    PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized());
+    PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized(), scene.analysis);
     if (spec.type == LoadType::torque) {
       const std::function<double(double t)> torque = [size = time_function(spec.magnitude)](double t) {
         return size(t).value;

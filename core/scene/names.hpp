@@ -52,7 +52,14 @@ constexpr auto names(AngleField) {
 }
 constexpr auto names(LoadType) {
   using enum LoadType;
-  return std::to_array<Named<LoadType>>({{force, "force"}, {follower, "follower"}, {torque, "torque"}});
+  return std::to_array<Named<LoadType>>(
+      {{force, "force"}, {follower, "follower"}, {moment, "moment"}, {torque, "torque"}});
+}
+constexpr auto names(Analysis) {
+  return std::to_array<Named<Analysis>>({{Analysis::dynamics, "dynamics"}, {Analysis::statics, "statics"}});
+}
+constexpr auto names(LoadControl) {
+  return std::to_array<Named<LoadControl>>({{LoadControl::load, "load"}, {LoadControl::arc_length, "arc-length"}});
 }
 constexpr auto names(LoadPlace) {
   using enum LoadPlace;

@@ -144,6 +144,11 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   SceneSchema schema = SceneSchema::v1;
   visitor(Option{.pointer = "/schema", .unit = "", .description = "what this file is, and its version"}, schema);
   visitor(Option{.pointer = "/title", .unit = "", .description = "what the scene shows"}, scene.title);
+  constexpr std::string_view analysis = "/analysis";
+  visitor(Option{.pointer = analysis, .unit = "", .description = "a motion, or equilibria under loads that grow"},
+          scene.analysis);
+  const bool in_time = scene.analysis == Analysis::dynamics;
+  const Condition dynamics = only_if(analysis, scene.analysis, Analysis::dynamics);
   visitor(Option{.pointer = "/setting",
                  .unit = "",
                  .description = "what keys left out stand for: by default what measurements speak for, or what the "
@@ -552,7 +557,8 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                       direction = at + "/direction";
     visitor(Option{.pointer = type,
                    .unit = "",
-                   .description = "force in a direction of its own, force along the tangent, or torque about the axis"},
+                   .description = "force in a direction of its own, force along the tangent, moment that turns the "
+                                  "tangent (in the plane), or torque about the axis"},
             load.type);
     visitor(Option{.pointer = place, .unit = "", .description = "a node, a material point, or the whole beam"},
             load.at);
@@ -574,6 +580,45 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                    .required = true},
             load.direction);
     time_function(at + "/turn", "rad", has_direction, load.turn);
+  }
+
+  visitor.list(Option{.pointer = "/point_masses", .unit = "", .description = "lumped masses on material points"},
+               scene.point_masses);
+  for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
+    const std::string at = "/point_masses/" + std::to_string(i), node = at + "/node", mass = at + "/mass";
+    visitor(Option{.pointer = node,
+                   .unit = "-",
+                   .description = "number of the node, from 0, that marks the material point at t = 0",
+                   .range = Range::non_negative(),
+                   .required = true},
+            scene.point_masses[i].node);
+    visitor(Option{.pointer = mass, .unit = "kg", .description = "mass", .range = Range::positive(), .required = true},
+            scene.point_masses[i].mass);
+  }
+  if (visitor.present(Option{.pointer = "/initial_velocity",
+                             .unit = "",
+                             .description = "of a rigid motion at t = 0, without what supports hold of slopes"},
+                      scene.initial_velocity)) {
+    auto& velocity = *scene.initial_velocity;
+    visitor(Option{.pointer = "/initial_velocity/translation",
+                   .unit = "m/s",
+                   .description = "velocity of the point that it turns about",
+                   .components = scene.dimension},
+            velocity.translation);
+    visitor(Option{.pointer = "/initial_velocity/rotation",
+                   .unit = "rad/s",
+                   .description = "how fast it turns, in the plane from the first axis towards the second"},
+            velocity.rotation);
+    visitor(Option{.pointer = "/initial_velocity/axis",
+                   .unit = "-",
+                   .description = "of the rotation, in space; it need not have unit length",
+                   .components = 3},
+            velocity.axis);
+    visitor(Option{.pointer = "/initial_velocity/about",
+                   .unit = "m",
+                   .description = "the point that it turns about",
+                   .components = scene.dimension},
+            velocity.about);
   }
 
   visitor(Option{.pointer = "/formulation",
@@ -634,23 +679,64 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                             "multipliers (generalized-alpha and ida only)"},
       scene.constraints);
 
-  const std::string_view integrator_type = "/integrator/type";
-  visitor(Option{.pointer = integrator_type,
-                 .unit = "",
-                 .description = "time integrator; ida, cvode and arkode need a build with SUNDIALS"},
-          scene.integrator.type);
-  visitor(Option{.pointer = "/integrator/rtol",
+  const Condition statics = only_if(analysis, scene.analysis, Analysis::statics);
+  section("/statics", "how equilibria are found");
+  visitor(
+      Option{.pointer = "/statics/steps",
+             .unit = "-",
+             .description = "equal steps in which loads, gravity and displacements of supports grow to what they are "
+                            "after all ramps; with arc-length the first step has that size",
+             .range = Range::closed(1, 1e5),
+             .when = statics},
+      scene.statics.steps);
+  visitor(
+      Option{.pointer = "/statics/control",
+             .unit = "",
+             .description = "whether the load factor grows evenly, or steps go along the path of equilibria, on which "
+                            "it may also fall, until it is 1",
+             .source = "Riks 1979 is arc-length",
+             .when = statics},
+      scene.statics.control);
+  visitor(
+      Option{.pointer = "/statics/tolerance",
+             .unit = "-",
+             .description = "where Newton's iteration ends: its last correction, of positions over the beam's length "
+                            "and of slopes; rounding ends it, too",
+             .range = {.low = 1e-15, .high = 1e-4},
+             .when = statics},
+      scene.statics.tolerance);
+  visitor(Option{.pointer = "/statics/frequencies",
                  .unit = "-",
-                 .description = "relative tolerance of a step, of the methods that choose their step",
-                 .range = Range::closed(1e-14, 1)},
-          scene.integrator.rtol);
-  if (visitor.number_or(
-          Option{.pointer = "/integrator/atol",
-                 .unit = "m, m/s, rad, rad/s, -, 1/s",
-                 .description = "absolute tolerance of a step, of the methods that choose their step: a number for all "
-                                "of the state in its own units, or an object with one for each kind",
-                 .range = Range::positive()},
-          scene.integrator.atol, scene.integrator.atol_by_kind)) {
+                 .description = "how many of the lowest natural frequencies about the last equilibrium are reported",
+                 .range = Range::closed(0, 1000),
+                 .when = statics},
+          scene.statics.frequencies);
+
+  const std::string_view integrator_type = "/integrator/type";
+  const auto timed = [&](Option option, auto& member) {  // there is no time in statics
+    if (!in_time) option.when = dynamics;
+    visitor(option, member);
+  };
+  timed(Option{.pointer = integrator_type,
+               .unit = "",
+               .description = "time integrator; ida, cvode and arkode need a build with SUNDIALS"},
+        scene.integrator.type);
+  timed(Option{.pointer = "/integrator/rtol",
+               .unit = "-",
+               .description = "relative tolerance of a step, of the methods that choose their step",
+               .range = Range::closed(1e-14, 1)},
+        scene.integrator.rtol);
+  if (!in_time) {
+    timed(Option{.pointer = "/integrator/atol", .unit = "m", .description = "absolute tolerance of a step"},
+          scene.integrator.atol);
+  } else if (visitor.number_or(
+                 Option{.pointer = "/integrator/atol",
+                        .unit = "m, m/s, rad, rad/s, -, 1/s",
+                        .description =
+                            "absolute tolerance of a step, of the methods that choose their step: a number for all "
+                            "of the state in its own units, or an object with one for each kind",
+                        .range = Range::positive()},
+                 scene.integrator.atol, scene.integrator.atol_by_kind)) {
     auto& atol = *scene.integrator.atol_by_kind;
     visitor(
         Option{.pointer = "/integrator/atol/length",
@@ -677,60 +763,60 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                    .range = Range::positive()},
             atol.spin);
   }
-  visitor(Option{.pointer = "/integrator/step",
-                 .unit = "s",
-                 .description = "length of a step, of the methods that do not choose it; at most the duration",
-                 .range = Range::positive(),
-                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::adams_bashforth_moulton,
-                                 IntegratorType::generalized_alpha, IntegratorType::energy_momentum)},
-          scene.integrator.step);
-  visitor(Option{.pointer = "/integrator/rho_inf",
-                 .unit = "-",
-                 .description = "spectral radius at infinity: 1 keeps energy, 0 damps high frequencies most",
-                 .source = "Arnold & Bruels 2007",
-                 .range = {.low = 0, .high = 1},
-                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
-          scene.integrator.rho_inf);
-  visitor(Option{.pointer = "/integrator/newton",
-                 .unit = "",
-                 .description = "a new tangent at every iteration (full) or when one converges too slowly (modified)",
-                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
-          scene.integrator.newton);
-  visitor(
-      Option{.pointer = "/integrator/newton_tolerance",
-             .unit = "-",
-             .description = "where Newton's iteration ends: its estimated error over the step's own increment, field "
-                            "by field; rounding ends it, too",
-             .range = {.low = 1e-15, .high = 1e-2},
-             .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
-      scene.integrator.newton_tolerance);
-  visitor(Option{.pointer = "/integrator/adaptive",
-                 .unit = "",
-                 .description = "the step follows rtol and atol of the positions, up to the length given",
-                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
-          scene.integrator.adaptive);
-  visitor(Option{.pointer = "/integrator/locate_events",
-                 .unit = "",
-                 .description = "whether events happen when they are due, or at the end of the step in which they are, "
-                                "which leaves every method of first order"},
-          scene.integrator.locate_events);
+  timed(Option{.pointer = "/integrator/step",
+               .unit = "s",
+               .description = "length of a step, of the methods that do not choose it; at most the duration",
+               .range = Range::positive(),
+               .when = only_if(integrator_type, scene.integrator.type, IntegratorType::adams_bashforth_moulton,
+                               IntegratorType::generalized_alpha, IntegratorType::energy_momentum)},
+        scene.integrator.step);
+  timed(Option{.pointer = "/integrator/rho_inf",
+               .unit = "-",
+               .description = "spectral radius at infinity: 1 keeps energy, 0 damps high frequencies most",
+               .source = "Arnold & Bruels 2007",
+               .range = {.low = 0, .high = 1},
+               .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+        scene.integrator.rho_inf);
+  timed(Option{.pointer = "/integrator/newton",
+               .unit = "",
+               .description = "a new tangent at every iteration (full) or when one converges too slowly (modified)",
+               .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+        scene.integrator.newton);
+  timed(Option{.pointer = "/integrator/newton_tolerance",
+               .unit = "-",
+               .description = "where Newton's iteration ends: its estimated error over the step's own increment, field "
+                              "by field; rounding ends it, too",
+               .range = {.low = 1e-15, .high = 1e-2},
+               .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+        scene.integrator.newton_tolerance);
+  timed(Option{.pointer = "/integrator/adaptive",
+               .unit = "",
+               .description = "the step follows rtol and atol of the positions, up to the length given",
+               .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+        scene.integrator.adaptive);
+  timed(Option{.pointer = "/integrator/locate_events",
+               .unit = "",
+               .description = "whether events happen when they are due, or at the end of the step in which they are, "
+                              "which leaves every method of first order"},
+        scene.integrator.locate_events);
 
-  visitor(Option{.pointer = "/duration",
-                 .unit = "s",
-                 .description = "simulated time",
-                 .range = Range::positive(),
-                 .required = true},
-          scene.duration);
-  visitor(Option{.pointer = "/output/interval",
-                 .unit = "s",
-                 .description = "time between samples",
-                 .range = Range::positive()},
-          scene.output.interval);
-  visitor(Option{.pointer = "/output/configurations",
-                 .unit = "s",
-                 .description = "times, ascending, at which the whole shape is kept",
-                 .range = Range::non_negative()},
-          scene.output.configurations);
+  timed(Option{.pointer = "/duration",
+               .unit = "s",
+               .description = "simulated time",
+               .range = Range::positive(),
+               .when = dynamics,
+               .required = true},
+        scene.duration);
+  timed(Option{.pointer = "/output/interval",
+               .unit = "s",
+               .description = "time between samples",
+               .range = Range::positive()},
+        scene.output.interval);
+  timed(Option{.pointer = "/output/configurations",
+               .unit = "s",
+               .description = "times, ascending, at which the whole shape is kept",
+               .range = Range::non_negative()},
+        scene.output.configurations);
   visitor(Option{.pointer = "/output/points",
                  .unit = "-",
                  .description = "intervals an element: the report then has, for each shape that is kept, points along "

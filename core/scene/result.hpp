@@ -53,9 +53,15 @@ struct StrainSample {
   double curvature = 0;                  ///< largest magnitude [1/m]
 };
 
+/// Of an equilibrium.
+struct StaticSample {
+  double load_factor = 0;   ///< what loads, gravity and displacements of supports are scaled by
+  int negative_pivots = 0;  ///< of the tangent: directions in which the potential energy falls; 0 is stable
+};
+
 /// The observed quantities at one instant.
 struct Sample {
-  double t = 0;
+  double t = 0;                          ///< in statics the number of the equilibrium, from 0
   std::optional<double> joint_position;  ///< material coordinate x_i [m]; empty once the mass has left, or without one
   std::optional<Point> mass_position;    ///< [m]; empty without a sliding mass
   Point end{};                           ///< position of the beam's last node [m]
@@ -70,6 +76,7 @@ struct Sample {
   StrainSample strains;
   std::optional<JointSample> joint;  ///< as `joint_position`
   std::shared_ptr<const FlowSample> flow;
+  std::optional<StaticSample> equilibrium;
 };
 
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
@@ -156,9 +163,10 @@ struct RunResult {
   std::vector<Sample> samples;
   std::vector<Configuration> configurations;
   std::vector<Event> events;
-  double max_kinetic = 0;       ///< largest kinetic energy of the samples [J]
-  double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - supplied - jumps|, the model's own points [J]
-  ConstraintResidual slopes;    ///< largest of the samples: how far a kinked joint's slopes are from what ties them
+  double max_kinetic = 0;           ///< largest kinetic energy of the samples [J]
+  double max_energy_drift = 0;      ///< over the samples: max |E - E_0 - supplied - jumps|, the model's own points [J]
+  ConstraintResidual slopes;        ///< largest of the samples: how far a kinked joint's slopes are from what ties them
+  std::vector<double> frequencies;  ///< about the last equilibrium [Hz]; see natural_frequencies()
   SolverCounters solver;
   std::vector<Warning> warnings;
   RunTiming timing;

@@ -26,6 +26,10 @@ inline StrainSample strain_sample(const StrainExtremes& extremes) {
           extremes.curvature};
 }
 
+/// The whole shape of a beam at time t.
+template <int D>
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport);
+
 /// Where a run stops to look: at the samples, and at the configurations, both in increasing order.
 struct Stops {
   std::vector<double> samples, configurations;
@@ -45,6 +49,10 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
 /// that fails is its last good state.
 void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial, Stops& stops,
                 const IntegrationOptions& options, RunResult& result);
+
+/// Follows the equilibria of a scene.
+template <int D>
+RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress);
 
 /// Runs a scene whose beam is a FlowingBeam.
 template <int D>

@@ -169,10 +169,25 @@ struct FlowSpec {
   bool steady = false;             ///< start from the steady flow under the loads at t = 0
 };
 
+/// A lumped mass on the material point that a node marks at t = 0.
+struct PointMassSpec {
+  int node = 0;
+  double mass = 1;  ///< [kg]
+};
+
+/// Of a rigid motion, as far as supports allow it.
+struct InitialVelocitySpec {
+  Point translation{};  ///< [m/s]
+  double rotation = 0;  ///< [rad/s], in the plane from the first axis towards the second
+  Point axis{0, 0, 1};  ///< of the rotation in space; need not have unit length
+  Point about{};        ///< a point on that axis [m]
+};
+
 /// What a load is.
 enum class LoadType {
   force,     ///< in a direction of its own, which may turn about the initial axis
   follower,  ///< along the tangent of the axis
+  moment,    ///< turns the tangent, in the plane
   torque,    ///< about the axis
 };
 /// Where a load acts.
@@ -234,6 +249,25 @@ struct OutputSpec {
   int points = 0;  ///< intervals an element at whose ends the report has the axis of each such shape; 0: none
 };
 
+/// What is computed of a scene.
+enum class Analysis {
+  dynamics,
+  statics,  ///< equilibria under loads that grow
+};
+
+/// What makes the loads of an equilibrium grow.
+enum class LoadControl {
+  load,
+  arc_length,  ///< steps along the path of equilibria, on which the load factor may also fall
+};
+
+struct StaticsSpec {
+  int steps = 10;
+  LoadControl control = LoadControl::load;
+  double tolerance = 1e-12;  ///< largest last correction: of positions over the beam's length, and of slopes
+  int frequencies = 0;       ///< how many, about the last equilibrium
+};
+
 /// One beam, its supports and loads, and at most one mass that slides on it; or a shaft that spins or flows through its
 /// supports. SI units.
 struct Scene {
@@ -249,6 +283,10 @@ struct Scene {
   std::optional<SpinSpec> spin;
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};
+  std::vector<PointMassSpec> point_masses = {};
+  std::optional<InitialVelocitySpec> initial_velocity;
+  Analysis analysis = Analysis::dynamics;
+  StaticsSpec statics;
   Formulation formulation = Formulation::variational;
   std::optional<WeightTransport> weights = {};  ///< see weight_transport()
   LengthControlSpec length_control;

@@ -12,7 +12,6 @@
 #include "core/scene/validate.hpp"
 
 namespace vlbeam {
-namespace {
 
 template <int D>
 Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
@@ -43,6 +42,11 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
   if (chain.kink) shape.kink->r_x_rate = point_of<D>(chain.kink->rate);
   return shape;
 }
+
+template Configuration configuration_of(const ChainState<2>&, double, WeightTransport);
+template Configuration configuration_of(const ChainState<3>&, double, WeightTransport);
+
+namespace {
 
 /// Runs one scene of a known dimension and fills in its result.
 template <int D>
@@ -178,6 +182,7 @@ class Run {
 
 template <int D>
 RunResult simulate_in(const Scene& scene, const ProgressCallback& progress) {
+  if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
   return flows(scene) ? simulate_flow<D>(scene, progress) : Run<D>(scene, progress)();
 }
 
@@ -186,6 +191,7 @@ RunResult simulate_in(const Scene& scene, const ProgressCallback& progress) {
 RunResult simulate(const Scene& scene, const ProgressCallback& progress) {
   validate(scene);
   RunResult result = scene.dimension == 2 ? simulate_in<2>(scene, progress) : simulate_in<3>(scene, progress);
+  if (scene.analysis == Analysis::statics) return result;
   result.warnings = energy_warnings(scene, result);
   if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);
   return result;

@@ -23,4 +23,15 @@ inline TimeFunction time_function(const TimeSpec& spec) {
   };
 }
 
+/// What a scene's load, or a displacement of its support, is as time goes on; in statics, where time is the load
+/// factor, what is there after all ramps, times that.
+inline TimeFunction acting(const TimeSpec& spec, Analysis analysis) {
+  return analysis == Analysis::statics ? steadily(0, spec.value) : time_function(spec);
+}
+
+/// What of it does not grow with the load factor: directions and places.
+inline TimeFunction beside_loads(const TimeSpec& spec, Analysis analysis) {
+  return analysis == Analysis::statics ? steadily(spec.value, 0) : time_function(spec);
+}
+
 }  // namespace vlbeam

@@ -86,6 +86,12 @@ void check_plane(const Scene& scene) {
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     in_plane("/loads/" + std::to_string(i) + "/direction", scene.loads[i].direction);
   }
+  if (!scene.initial_velocity) return;
+  in_plane("/initial_velocity/translation", scene.initial_velocity->translation);
+  in_plane("/initial_velocity/about", scene.initial_velocity->about);
+  if (scene.initial_velocity->axis != InitialVelocitySpec{}.axis) {
+    refuse("/initial_velocity/axis", "this key", "a planar scene turns in its plane: leave it out");
+  }
 }
 
 /// Of weights of one curve: `field` is where they stand.
@@ -315,6 +321,10 @@ void check_energy_momentum(const Scene& scene) {
     refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
            "it keeps an energy that loads change: take any other integrator");
   }
+  if (!scene.point_masses.empty()) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it knows no /point_masses: take any other integrator");
+  }
   if (!scene.sliding_mass) return;
   if (scene.formulation != Formulation::variational) {
     refuse("/formulation", quoted(to_string(scene.formulation)),
@@ -394,6 +404,13 @@ void check_loads(const Scene& scene) {
     if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
       refuse(at + "/at", quoted(to_string(load.at)), "a follower is at a \"node\" or a \"point\"");
     }
+    if (load.type == LoadType::moment) {
+      if (scene.dimension == 3) refuse(at + "/type", "\"moment\"", "it turns the tangent in a planar scene only");
+      if (load.at == LoadPlace::beam) {
+        refuse(at + "/at", quoted(to_string(load.at)), "a moment is at a \"node\" or a \"point\"");
+      }
+      if (flows(scene)) refuse(at + "/type", "\"moment\"", "it goes together with neither /flow nor rotary inertia");
+    }
     if (load.type == LoadType::force && load.direction == Point{}) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
@@ -424,6 +441,92 @@ void check_resting_parts(const Scene& scene) {
     if (std::ranges::any_of(model.spin->drives, at_drive)) {
       refuse("/loads", "a torque at node " + std::to_string(load.node), "the angle there is prescribed already");
     }
+  }
+}
+
+void check_point_masses(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
+    if (scene.point_masses[i].node <= scene.beam.elements) continue;
+    refuse("/point_masses/" + std::to_string(i) + "/node", std::to_string(scene.point_masses[i].node),
+           "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
+  }
+  if (scene.point_masses.empty()) return;
+  if (flows(scene)) refuse("/point_masses", "this key", "it goes together with neither /flow nor rotary inertia");
+  if (scene.sliding_mass && scene.sliding_mass->slopes != JointSlopes::continuous) {
+    refuse("/sliding_mass/slopes", quoted(to_string(scene.sliding_mass->slopes)),
+           "with /point_masses they must be \"continuous\": a kink that passes over a mass is an impact");
+  }
+}
+
+template <int D>
+void check_initial_velocity(const Scene& scene) {
+  if (!scene.initial_velocity) return;
+  const InitialVelocitySpec& motion = *scene.initial_velocity;
+  if (flows(scene)) {
+    refuse("/initial_velocity", "this key", "it goes together with neither /flow nor rotary inertia");
+  }
+  if (motion.axis == Point{}) refuse("/initial_velocity/axis", "a vector of zeros", "it must have a direction");
+  const Axis<D> axis = build_axis<D>(scene);
+  const auto check = [&](const std::string& at, const SupportSpec& spec, double x) {
+    const Support<D> support = build_support<D>(spec, axis.tangent(x));
+    const Vec<double, D> velocity = initial_velocity<D>(scene, axis.derivatives(x)[0]);
+    const double held = (support.into_frame(velocity).array() * (1 - support.free_position)).matrix().norm();
+    const double size =
+        Eigen::Map<const Eigen::Vector3d>(motion.translation.data()).norm() + std::abs(motion.rotation) * axis.length();
+    if (held <= 1e-9 * size) return;
+    refuse("/initial_velocity", "a velocity of " + number_text(held) + " m/s against " + at,
+           "a " + quoted(to_string(spec.type)) + " stands still at t = 0: let the beam turn about it");
+  };
+  check("/supports/at=start", scene.start, 0);
+  check("/supports/at=end", scene.end, axis.length());
+}
+
+void check_statics(const Scene& scene) {
+  if (scene.analysis != Analysis::statics) return;
+  const auto none = [&](bool there, const char* key, const char* why) {
+    if (there) refuse(key, "this key", std::string("statics knows none: ") + why);
+  };
+  none(scene.sliding_mass.has_value(), "/sliding_mass", "put a mass that stays where it is into /point_masses");
+  none(scene.spin.has_value(), "/spin", "leave it out");
+  none(scene.flow.has_value(), "/flow", "leave it out, or start a motion from its \"steady\" flow");
+  none(scene.initial_velocity.has_value(), "/initial_velocity", "leave it out");
+  if (scene.beam.rotary_inertia != BendingInertia::none) {
+    refuse("/beam/rotary_inertia", quoted(to_string(scene.beam.rotary_inertia)), "in statics it must be \"none\"");
+  }
+  if (scene.constraints != Constraints::eliminated) {
+    refuse("/constraints", quoted(to_string(scene.constraints)), "in statics it must be \"eliminated\"");
+  }
+  const auto constant = [&](const std::string& at, const TimeSpec& f) {
+    const auto zero = [&](const char* key, double value) {
+      if (value != 0)
+        refuse(at + "/" + key, number_text(value), "in statics there is a value only, with or without a ramp");
+    };
+    zero("rate", f.rate);
+    zero("acceleration", f.acceleration);
+    zero("amplitude", f.amplitude);
+  };
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const std::string at = "/loads/" + std::to_string(i);
+    constant(at + "/magnitude", scene.loads[i].magnitude);
+    constant(at + "/x", scene.loads[i].x);
+    constant(at + "/turn", scene.loads[i].turn);
+  }
+  if (scene.start.motion) constant("/supports/at=start/motion", scene.start.motion->displacement);
+  if (scene.end.motion) constant("/supports/at=end/motion", scene.end.motion->displacement);
+  const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
+  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded) {
+    refuse("/supports", "nothing that holds the beam", "under loads or gravity it has no equilibrium: hold an end");
+  }
+  if (scene.statics.control == LoadControl::arc_length) {
+    if (!loaded) refuse("/statics/control", "\"arc-length\"", "it needs gravity or /loads to scale: take \"load\"");
+    if (scene.start.motion || scene.end.motion) {
+      refuse("/statics/control", "\"arc-length\"", "supports are moved with \"load\"");
+    }
+  }
+  constexpr int most = 500;  // the matrices are dense
+  if (scene.statics.frequencies > 0 && scene.beam.elements > most) {
+    refuse("/statics/frequencies", std::to_string(scene.statics.frequencies),
+           "they are there for at most " + std::to_string(most) + " elements");
   }
 }
 
@@ -466,6 +569,9 @@ void validate(const Scene& scene) {
   check_support_motion(scene);
   check_output(scene);
   check_loads(scene);
+  check_point_masses(scene);
+  scene.dimension == 2 ? check_initial_velocity<2>(scene) : check_initial_velocity<3>(scene);
+  check_statics(scene);
   if (flows(scene) || scene.spin) validate_flow(scene);
   if (!flows(scene)) scene.dimension == 2 ? check_resting_parts<2>(scene) : check_resting_parts<3>(scene);
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/length_control/chain_motion.hpp"
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
@@ -49,8 +50,8 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   const int middle = mesh_.elements() / 2;
   const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
-  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest);
-  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest);
+  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest, model_.masses.points);
+  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest, model_.masses.points);
   if (model_.driven()) {
     for (const std::size_t end : {0, 1}) {
       const std::size_t k = end == 0 ? 0 : static_cast<std::size_t>(mesh_.elements()) - 1;
@@ -206,12 +207,18 @@ typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double
     left.rest = &rest->left;
     right.rest = &rest->right;
   }
-  return {moving_equations<double, D, MovingEnds::b>({element_of(q, joint_ - 1), mesh_.x[j - 1], x},
-                                                     {element_of(rate, joint_ - 1), 0, x_rate}, mesh_.weights[j - 1],
-                                                     left_table_, left),
-          moving_equations<double, D, MovingEnds::a>({element_of(q, joint_), x, mesh_.x[j + 1]},
-                                                     {element_of(rate, joint_), x_rate, 0}, mesh_.weights[j],
-                                                     right_table_, right)};
+  JointElements at_joint{moving_equations<double, D, MovingEnds::b>({element_of(q, joint_ - 1), mesh_.x[j - 1], x},
+                                                                    {element_of(rate, joint_ - 1), 0, x_rate},
+                                                                    mesh_.weights[j - 1], left_table_, left),
+                         moving_equations<double, D, MovingEnds::a>({element_of(q, joint_), x, mesh_.x[j + 1]},
+                                                                    {element_of(rate, joint_), x_rate, 0},
+                                                                    mesh_.weights[j], right_table_, right)};
+  if (model_.masses.present()) {
+    const ChainView<D> beam = view(q, rate);
+    model_.masses.add_to(beam, joint_ - 1, gravity(t), at_joint.left);
+    model_.masses.add_to(beam, joint_, gravity(t), at_joint.right);
+  }
+  return at_joint;
 }
 
 template <int D>
@@ -321,6 +328,7 @@ class BeamSystem<D>::Pull {
       for (auto& row : result.mass) {
         for (double& entry : row) entry *= system_->model_.section.rhoA;
       }
+      add_point_masses(system_->model_.masses.points, system_->mesh_, result.element, result.mass);
     }
     return result;
   }
@@ -349,6 +357,7 @@ double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
   left_->add_forces(q, rate, on_beam, a.data());
   right_->add_forces(q, rate, on_beam, a.data());
   model_.loads.add_forces(view(q, rate), t, a.data());
+  model_.masses.add_weight(view(q, rate), gravity(t), a.data());
   solve_apart(t, a.data());
   const auto solved = solve_rider(rider_motion(q, rate), gravity(t), a.data());
   return solved ? solved->contact : 0;
@@ -374,6 +383,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     const ChainView<D> beam = view(q, rate);
     power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
   }
+  if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
   std::optional<Pull> pull;  // of moving supports
 
   if (has_joint()) {
@@ -448,6 +458,12 @@ OuterForces<D> BeamSystem<D>::forces(const Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
+OuterForces<D> BeamSystem<D>::forces_at_rest(const Eigen::VectorXd& y, double t) {
+  second_order();
+  return implicit_->forces_at_rest(y, t);
+}
+
+template <int D>
 void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                                      Observation<D>& seen) const {
   const Observer<D> observer(model_.section, gravity(t), points);
@@ -462,6 +478,12 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
     } else {
       observer.add(element, nullptr, seen);
     }
+  }
+  for (const PointMass& point : model_.masses.points) {
+    const int k = chain.mesh.element_at(point.x);
+    if (k < first || k >= last) continue;
+    const auto at = motion_at(chain, k, point.x, model_.transport);
+    seen.add_mass(point.mass, at.r, at.v, gravity(t));
   }
 }
 
@@ -486,12 +508,7 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
   if (strains) seen.extremes.emplace();
   observe_elements(chain(y), 0, mesh_.elements(), t, points, seen);
   if (const auto mass = mass_motion(y)) {
-    const double m = model_.joint->mass;
-    seen.energy.kinetic += 0.5 * m * mass->v.squaredNorm();
-    seen.energy.gravity -= m * gravity(t).dot(mass->r);
-    seen.momentum += m * mass->v;
-    seen.angular_momentum += m * moment_about_origin<D>(mass->r, mass->v);
-    seen.mass_moment += m * mass->r;
+    seen.add_mass(model_.joint->mass, mass->r, mass->v, gravity(t));
   }
   if (spin_) {
     const Spin::Seen turning = spin_->observe(y.data() + nodal_, y.data() + coordinates_ + nodal_, points);

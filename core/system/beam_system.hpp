@@ -13,6 +13,7 @@
 #include "core/length_control/event_type.hpp"
 #include "core/length_control/length_control.hpp"
 #include "core/parts/loads.hpp"
+#include "core/parts/point_masses.hpp"
 #include "core/system/constraints.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
@@ -29,11 +30,13 @@ struct BeamModel {
   int quadrature_points = 5;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
   double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
+  bool time_is_load_factor = false;                 ///< gravity is t times what it says, as loads may be: statics
   Support<D> start, end;
   SupportMotion<D> start_motion, end_motion;
   bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
   Loads<D> loads;
   std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no sliding mass
+  PointMasses<D> masses;
   std::optional<SlidingJoint> joint;
   double separation_distance = 0;  ///< [m]
   Impact at_support;               ///< where the mass may not leave
@@ -117,7 +120,9 @@ class BeamSystem final : public EventedOde {
 
   const BeamModel<D>& model() const { return model_; }
   /// Gravity at time t [m/s^2].
-  Vector gravity(double t) const { return model_.gravity * smooth_ramp(t, model_.gravity_ramp).value; }
+  Vector gravity(double t) const {
+    return model_.gravity * (model_.time_is_load_factor ? t : smooth_ramp(t, model_.gravity_ramp).value);
+  }
   /// What acts on the beam's mass as gravity does: that, and the load along the beam [m/s^2].
   Vector beam_gravity(double t) const {
     Vector sum = gravity(t);
@@ -139,6 +144,8 @@ class BeamSystem final : public EventedOde {
   std::unique_ptr<SecondOrderSystem> new_second_order() override;
   /// By the accelerations that belong to the state.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
+  /// Without accelerations, at a state at rest.
+  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
   /// Evaluations of the equations, as accelerations or as a residual.
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
   void count_evaluation() { ++rhs_evaluations_; }

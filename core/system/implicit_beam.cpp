@@ -202,7 +202,10 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
   double dissipation = system_.left().add_forces(q.data(), v.data(), on_beam, r.data()) +
                        system_.right().add_forces(q.data() + shift, v.data() + shift, on_beam, r.data() + shift);
   model.loads.add_forces(view(q, v), t, r.data());
+  const bool bears_masses = model.masses.present();
+  if (bears_masses) model.masses.add_weight(view(q, v), gravity, r.data());
   r = -r;
+  if (bears_masses) model.masses.add_residual(view(q, v), a.data(), gravity, r.data());
   system_.left().add_inertia(a.data(), r.data());
   system_.right().add_inertia(a.data() + shift, r.data() + shift);
   const Eigen::Index extra = after_nodes();
@@ -430,13 +433,15 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
   }
   const ChainView<D> beam = view(q, v);
-  model.loads.add_tangent(beam, t, [&](int k, const typename Loads<D>::ElementMatrix& matrix) {
+  const auto add_point = [&](int k, const PointMatrix<D>& matrix) {
     if (beam.at_joint(k)) {
       add_element(tangent_.border.front(), beam.first_node(k), matrix);
     } else {
       add_blocks(beam.first_node(k), matrix);
     }
-  });
+  };
+  model.loads.add_tangent(beam, t, add_point);
+  model.masses.add_tangent(beam, a.data(), system_.gravity(t), by_v, by_a, add_point);
 }
 
 template <int D>
@@ -575,6 +580,17 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   tangent_.solve(r.data());
   if (system_.spin() != nullptr) spin_tangent_.solve(r.data() + after_nodes());
+}
+
+template <int D>
+OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double t) {
+  Eigen::VectorXd q, v;
+  expand(y, q, v);
+  free_.resize(q.size());
+  free_residual(q, v, Eigen::VectorXd::Zero(q.size()), t, free_);
+  OuterForces<D> forces;
+  forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
+  return forces;
 }
 
 template <int D>

@@ -43,6 +43,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                  double by_a) override;
   void solve(Eigen::VectorXd& r) const override;
+  /// Of what linearize() factored, where forces have a potential, without a sliding mass: the number of directions in
+  /// which the energy falls. `zero` is what counts as no fall, over what a coordinate alone does.
+  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero); }
   void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                double by_a, Eigen::MatrixXd& dense) override;
   Eigen::Index curved_constraints() const override { return slope_conditions_.count(); }
@@ -55,6 +58,8 @@ class ImplicitBeam final : public SecondOrderSystem {
 
   /// By the accelerations that belong to a state y at time t.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
+  /// Without accelerations, of a beam without a sliding mass.
+  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
 
  private:
   static constexpr int B = node_size<D>;

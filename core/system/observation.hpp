@@ -27,6 +27,15 @@ struct Observation {
   double load_work = 0;                                      ///< done by loads since the start, where counted [J]
   double drive_work = 0;                                     ///< by what drives angles [J]
   std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
+
+  /// A lumped mass at r that moves with v.
+  void add_mass(double m, const Vec<double, D>& r, const Vec<double, D>& v, const Vec<double, D>& gravity) {
+    energy.kinetic += 0.5 * m * v.squaredNorm();
+    energy.gravity -= m * gravity.dot(r);
+    momentum += m * v;
+    angular_momentum += m * moment_about_origin<D>(r, v);
+    mass_moment += m * r;
+  }
 };
 
 /// Sums energies, momenta and length of a beam's axis, element by element, by a rule of one's own.

@@ -80,21 +80,29 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
+  const auto add = [&](int to, const PointMotion<double, D>& is, const Vector& excess) {
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Index at = to == joint_ && i == 1 ? behind_ : Eigen::Index{node_size<D>} * to + Eigen::Index{D} * i;
+      momentum.segment<D>(at) += is.s[static_cast<std::size_t>(i)] * excess;
+    }
+    if (to + 1 == joint_) momentum[nodal_] += is.y_b.dot(excess);
+    if (to == joint_) momentum[nodal_] += is.y_a.dot(excess);
+  };
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     const double a = pieces[piece], length = pieces[piece + 1] - a;
     const int from = before.mesh.element_at(a + length / 2), to = after.mesh.element_at(a + length / 2);
     for (const auto& [u, weight] : rule) {
       const double x = a + u * length;
       const auto was = motion_at(before, from, x, model_.transport), is = motion_at(after, to, x, model_.transport);
-      const Vector excess = (was.v - is.v) * (weight * length * model_.section.rhoA);
-      for (int i = 0; i < 4; ++i) {
-        const Eigen::Index at =
-            to == joint_ && i == 1 ? behind_ : Eigen::Index{node_size<D>} * to + Eigen::Index{D} * i;
-        momentum.segment<D>(at) += is.s[static_cast<std::size_t>(i)] * excess;
-      }
-      if (to + 1 == joint_) momentum[nodal_] += is.y_b.dot(excess);
-      if (to == joint_) momentum[nodal_] += is.y_a.dot(excess);
+      add(to, is, (was.v - is.v) * (weight * length * model_.section.rhoA));
     }
+  }
+  for (const PointMass& point : model_.masses.points) {
+    if (point.x < start || point.x > end) continue;
+    const int to = after.mesh.element_at(point.x);
+    const auto is = motion_at(after, to, point.x, model_.transport);
+    const Vector was = motion_at(before, before.mesh.element_at(point.x), point.x, model_.transport).v;
+    add(to, is, point.mass * (was - is.v));
   }
   return momentum;
 }

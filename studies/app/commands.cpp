@@ -85,7 +85,8 @@ int run_command(const RunArguments& arguments) {
   RunOutputs outputs(arguments.scene, {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}},
                      arguments.force);
   const Scene scene = read_scene(arguments.scene);
-  if ((!arguments.shape.empty() || !arguments.vtk.empty()) && scene.output.configurations.empty()) {
+  const bool in_time = scene.analysis == Analysis::dynamics;
+  if ((!arguments.shape.empty() || !arguments.vtk.empty()) && in_time && scene.output.configurations.empty()) {
     throw InvalidInput(arguments.shape.empty() ? "--vtk" : "--shape", "a scene that keeps no shapes",
                        "list the times of some in /output/configurations");
   }
@@ -95,7 +96,11 @@ int run_command(const RunArguments& arguments) {
   {
     Progress progress(printable(scene.title.empty() ? arguments.scene : scene.title));
     result = simulate(scene, [&](double t) {
-      progress.update(t / scene.duration, "t = " + std::to_string(t) + " s");
+      if (in_time) {
+        progress.update(t / scene.duration, "t = " + std::to_string(t) + " s");
+      } else {
+        progress.update(t, "load factor " + std::to_string(t));
+      }
       return !interrupted();
     });
   }

@@ -51,6 +51,11 @@ class Converger {
  public:
   Converger(const Scene& scene, const ConvergeOptions& options)
       : options_(options), scene_(scene), quantity_(find_quantity(scene, options.quantity)) {
+    if (scene.analysis == Analysis::statics) {
+      throw InvalidInput("/analysis", "\"statics\"",
+                         "converge refines motions: refine the mesh of an equilibrium with vlbeam sweep, over "
+                         "/beam/elements");
+    }
     if (!(options.error > 0) || !std::isfinite(options.error)) {
       throw InvalidInput("--error", number_text(options.error), "it must be a number > 0");
     }

@@ -169,6 +169,9 @@ bool comparable(const Diagram& diagram) {
   return high - low > 0.05 * (right - left) || high - low < 1e-9 * (right - left);
 }
 
+/// What the `t` of samples and shapes is.
+const char* time_label(const RunFile& run) { return run.scene.analysis == Analysis::statics ? "equilibrium" : "t (s)"; }
+
 /// Where the sliding mass is at the times of the shapes that are times of samples, too; NaN at others.
 Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, std::size_t across, std::size_t up) {
   constexpr std::array names{"mass_position.x", "mass_position.y", "mass_position.z"};
@@ -195,7 +198,7 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
                   .series = {},
                   .equal_scales = true,
                   .ordered_colours = true,
-                  .key_title = "t (s)"};
+                  .key_title = time_label(run)};
   for (const Configuration& shape : shapes) {
     Series series;
     std::array<char, 32> time{};
@@ -219,7 +222,7 @@ Diagram along_diagram(const RunFile& run, double ShapePoint::*member, const std:
                   .y_label = label,
                   .series = {},
                   .ordered_colours = true,
-                  .key_title = "t (s)"};
+                  .key_title = time_label(run)};
   for (const Configuration& shape : shapes_of(run)) {
     Series series;
     std::array<char, 32> time{};
@@ -235,7 +238,7 @@ Diagram along_diagram(const RunFile& run, double ShapePoint::*member, const std:
 }
 
 Diagram history_diagram(const RunFile& run, const std::vector<std::string>& names, const std::string& label) {
-  Diagram diagram{.title = title_of(run), .x_label = "t (s)", .y_label = label, .series = {}};
+  Diagram diagram{.title = title_of(run), .x_label = time_label(run), .y_label = label, .series = {}};
   std::string unit;
   for (const std::string& name : names) {
     const Quantity quantity = find_quantity(run.scene, name);

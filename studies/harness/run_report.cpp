@@ -254,6 +254,7 @@ std::string beam_text(const Scene& scene) {
   if (scene.sliding_mass) text += "; " + short_number(scene.sliding_mass->mass) + " kg slides on it";
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";
+  if (!scene.point_masses.empty()) text += "; " + std::to_string(scene.point_masses.size()) + " point masses";
   if (!scene.loads.empty()) text += "; bears " + std::to_string(scene.loads.size()) + " loads";
   return text;
 }
@@ -334,6 +335,7 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
   list("configurations", result.configurations, [&scene](const Configuration& c) { return configuration(c, scene); });
   list("events", result.events, event);
   value("energy_ledger", ledger_json(energy_ledger(result)));
+  if (!result.frequencies.empty()) value("frequencies", result.frequencies);
   value("solver", solver(result));
   for (const auto& item : more.items()) value(item.key().c_str(), item.value());
   out << "\n}\n";
@@ -373,7 +375,38 @@ void write_samples_csv(const Scene& scene, const RunResult& result, const TextSi
   out.flush();
 }
 
+std::string equilibrium_text(const Sample& sample) {
+  const int falls = sample.equilibrium->negative_pivots;
+  return "load factor " + short_number(sample.equilibrium->load_factor, 8) +
+         (falls == 0 ? ", stable" : ", not stable: the energy falls in " + std::to_string(falls) + " directions");
+}
+
+std::string static_summary(const Scene& scene, const RunResult& result) {
+  std::ostringstream text;
+  const auto line = [&text](const char* name, const std::string& value) {
+    text << "  " << name << std::string(16 - std::string_view(name).size(), ' ') << value << '\n';
+  };
+  text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
+  line("status",
+       std::string(to_string(result.status)) +
+           (result.status == RunStatus::failed ? " at load factor " + short_number(result.failure_time) : ""));
+  line("beam", beam_text(scene));
+  line("equilibria", std::to_string(result.samples.size()) + ", control by " +
+                         std::string(to_string(scene.statics.control)) + ", " +
+                         std::to_string(result.solver.newton.iterations) + " iterations");
+  if (!result.samples.empty()) {
+    const Sample& last = result.samples.back();
+    line("last", equilibrium_text(last));
+    line("end of beam", point_text(last.end, scene.dimension));
+    line("energy", short_number(last.energy.total(), 8) + " J");
+  }
+  for (const double frequency : result.frequencies) line("frequency", short_number(frequency, 8) + " Hz");
+  line("wall time", short_number(result.timing.motion, 3) + " s");
+  return text.str();
+}
+
 std::string run_summary(const Scene& scene, const RunResult& result) {
+  if (scene.analysis == Analysis::statics) return static_summary(scene, result);
   std::ostringstream text;
   text.precision(8);
   const auto line = [&text](const char* name, const std::string& value) {

@@ -210,7 +210,15 @@ void add_flow(Quantities& q, const Scene& scene) {
 
 std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
   Quantities q(scene.dimension);
-  q.number("t", "t", "s", "time", [](const Sample& s) { return s.t; });
+  q.number("t", "t", "s", "time; in statics the number of the equilibrium, from 0",
+           [](const Sample& s) { return s.t; });
+  if (scene.analysis == Analysis::statics) {
+    q.number("load_factor", "load_factor", "-", "what loads, gravity and displacements of supports are scaled by",
+             [](const Sample& s) { return s.equilibrium->load_factor; });
+    q.number("negative_pivots", "negative_pivots", "-",
+             "directions in which the potential energy falls; 0 is a stable equilibrium",
+             [](const Sample& s) { return static_cast<double>(s.equilibrium->negative_pivots); });
+  }
   q.number("joint_position", "joint_position", "m",
            "material coordinate x_i of the sliding mass; null once it has left the beam, or without one",
            [](const Sample& s) { return s.joint_position; });

@@ -339,12 +339,16 @@ Scene scene_with_every_part() {
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();
+  scene.point_masses.emplace_back();
+  scene.initial_velocity.emplace();
   scene.integrator.atol_by_kind.emplace();
   return scene;
 }
 
 Scene scene_from_json(const Json& json) {
-  const bool automatic = json.is_object() && (!json.contains("integrator") || json.at("integrator") == "auto");
+  const bool in_time = !json.is_object() || !json.contains("analysis") || json.at("analysis") != "statics";
+  const bool automatic =
+      in_time && json.is_object() && (!json.contains("integrator") || json.at("integrator") == "auto");
   Json file = json;
   if (automatic) file.erase("integrator");
   const Reader reader(file);

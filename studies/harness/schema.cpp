@@ -333,7 +333,13 @@ Json samples_schema() {
     });
   };
   Json root = record(Json::object());
-  for (const SampleQuantity& quantity : sample_quantities(scene_with_every_quantity())) {
+  Scene at_rest;
+  at_rest.analysis = Analysis::statics;
+  std::vector<SampleQuantity> all = sample_quantities(scene_with_every_quantity());
+  for (SampleQuantity& quantity : sample_quantities(at_rest)) {
+    if (std::ranges::find(all, quantity.path, &SampleQuantity::path) == all.end()) all.push_back(std::move(quantity));
+  }
+  for (const SampleQuantity& quantity : all) {
     Json* object = &root;
     std::string path;
     const auto parts = segments("/" + quantity.path);
@@ -486,10 +492,14 @@ Json run_schema() {
            {"energy_ledger", described(ledger,
                                        "where energy came from and went, from the first sample to the last, by "
                                        "a 25-point rule: change = supplied + at_events + at_contacts + unexplained")},
+           {"frequencies", described(array_of(number),
+                                     "the lowest natural ones about the last equilibrium, where asked for; of a "
+                                     "direction in which it is not stable minus the rate of growth over 2 pi",
+                                     "Hz")},
            {"solver", described(solver, "what the integrator did")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
-          {"failure"}));
+          {"failure", "frequencies"}));
 }
 
 Json study_schema() {

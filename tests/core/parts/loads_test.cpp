@@ -20,7 +20,7 @@ const std::vector<ChainShape> shapes{
     {.elements = 4, .rational = true, .rider = 3},
     {.elements = 4, .rider = 0, .held = true}};
 
-/// A loaded chain in motion, held at its ends.
+/// A loaded chain in motion, with masses on it, held at its ends.
 template <int D>
 struct Loaded {
   explicit Loaded(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated)
@@ -31,6 +31,7 @@ struct Loaded {
     model.constraints = constraints;
     model.quadrature_points = 7;
     model.loads = loads_on<D>(shape.elements * shape.element_length, random);
+    if (shape.slopes == JointSlopes::continuous) model.masses = masses_on<D>(shape.elements * shape.element_length);
     system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
     y = system->initial_state();
   }

@@ -52,7 +52,8 @@ const std::vector<Feature>& features() {
        }},
       {"curved axis, as built",
        [](Scene& s) {
-         s.beam.curve = {.type = CurveType::arc, .center = {0, 0, 0}, .radius = 1, .from_degrees = 0, .to_degrees = 60};
+         s.beam.curve = {
+             .type = CurveType::arc, .center = {-1, 0, 0}, .radius = 1, .from_degrees = 0, .to_degrees = 60};
        }},
       {"uneven weights",
        [](Scene& s) {
@@ -68,6 +69,15 @@ const std::vector<Feature>& features() {
                      .magnitude = {.value = 3, .ramp = 0.01},
                      .turn = {}},
                     {.at = LoadPlace::beam, .x = {}, .magnitude = {.amplitude = 4, .frequency = 20}, .turn = {}}};
+       }},
+      {"point masses",
+       [](Scene& s) {
+         s.point_masses = {{1, 0.4}, {2, 0.3}, {4, 0.2}};
+       }},
+      {"initial velocity",
+       [](Scene& s) {
+         s.start.type = SupportType::pin;
+         s.initial_velocity = {.rotation = 3, .axis = {0.2, -0.3, 1}};
        }},
       {"moving support",
        [](Scene& s) {

@@ -34,10 +34,21 @@ Loads<D> loads_on(double length, Random& random) {
                             },
                             .follower = swinging(3)});
   }
+  if (D == 2) {
+    for (const double place : {0.1, 0.42, 0.57}) {
+      loads.points.push_back({.x = [x = place * length](double) { return x; }, .moment = swinging(2)});
+    }
+  }
   loads.line_force = [size = swinging(5), along = random.vector<D>()](double t) -> Vec<double, D> {
     return size(t) * along;
   };
   return loads;
+}
+
+/// Some on every part of a beam of this length.
+template <int D>
+PointMasses<D> masses_on(double length) {
+  return {{{0.1 * length, 0.3}, {0.35 * length, 0.2}, {0.52 * length, 0.4}, {0.8 * length, 0.1}, {length, 0.2}}};
 }
 
 /// Angular momentum about the origin by the model's own points; in the plane its last component only.

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/beam/point_mass.hpp"
+#include "core/parts/material_point.hpp"
+
+namespace vlbeam {
+
+/// Masses on material points: each adds m r'.r'/2 + m g.r to the Lagrangian, and so m N^T (r'' - g) to the equations of
+/// motion, r'' = N q'' + r_v. On elements of fixed length the inertia is part of their constant mass matrix, see
+/// add_point_masses(); what is left there is the weight.
+template <int D>
+struct PointMasses {
+  using Vector = Vec<double, D>;
+
+  std::vector<PointMass> points = {};
+
+  bool present() const { return !points.empty(); }
+
+  /// Adds the weight of those on elements of fixed length to an array like q.
+  void add_weight(const ChainView<D>& beam, const Vector& gravity, double* force) const;
+  /// Adds those on element k, which is at the joint, to its equations of motion.
+  void add_to(const ChainView<D>& beam, int k, const Vector& gravity, MovingEquations<double, D>& equations) const;
+  /// Adds m N^T (r'' - g) of those at the joint to an array like q.
+  void add_residual(const ChainView<D>& beam, const double* a, const Vector& gravity, double* residual) const;
+  /// Calls `add(element, matrix)` with the tangent of that.
+  template <class Add>
+  void add_tangent(const ChainView<D>& beam, const double* a, const Vector& gravity, double by_v, double by_a,
+                   const Add& add) const {
+    for (const PointMass& point : points) {
+      const int k = beam.element_at(point.x);
+      if (beam.at_joint(k)) add(k, tangent(point, beam, k, a, gravity, by_v, by_a));
+    }
+  }
+
+ private:
+  static PointMatrix<D> tangent(const PointMass& point, const ChainView<D>& beam, int k, const double* a,
+                                const Vector& gravity, double by_v, double by_a);
+};
+
+}  // namespace vlbeam

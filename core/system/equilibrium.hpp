@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/dynamics/solver_counters.hpp"
+#include "core/system/beam_system.hpp"
+
+namespace vlbeam {
+
+// Equilibria of a beam without a sliding mass whose loads and displacements of supports grow evenly with a load factor,
+// which is the model's time: r(q, f) = -Q(q, f) = 0, with r linear in f at given q.
+
+struct EquilibriumOptions {
+  int steps = 10;           ///< of the load factor, from 0 to 1
+  bool arc_length = false;  /// steps along the path instead, the first of that size
+  double tolerance = 1e-12;
+};
+
+/// A point on the path of equilibria.
+struct Equilibrium {
+  double factor = 0;
+  Eigen::VectorXd y;        ///< a state at rest
+  int negative_pivots = 0;  ///< of the tangent: directions in which the potential energy falls
+
+  bool stable() const { return negative_pivots == 0; }
+};
+
+/// Follows the path from the initial state and calls `on_point` for every point of it, false from it ends the path. The
+/// initial state comes first where it is an equilibrium. Newton's iteration with the exact tangent; steps it does not
+/// solve are halved. A start that holds no load (a slack cable) is first relaxed: steps (K + mu M) dq = -r, mu falling,
+/// go down the potential energy to a stable equilibrium. Throws ComputationFailed, at the factor reached, where there
+/// is none, naming the direction in which the beam moves freely.
+template <int D>
+void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
+                      const std::function<bool(const Equilibrium&)>& on_point, SolverCounters& counters);
+
+/// The lowest natural frequencies about an equilibrium [Hz], in increasing order; of a direction in which the energy
+/// falls minus the rate of growth over 2 pi. Dense: O(n^3).
+template <int D>
+std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium& at, int count);
+
+}  // namespace vlbeam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/system/beam_system.hpp"
+
+namespace vlbeam {
+
+/// Columns, orthonormal: the directions in which supports let the coordinates move.
+template <int D>
+Eigen::MatrixXd free_directions(const BeamSystem<D>& system) {
+  const Eigen::Index n = system.coordinates();
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Identity(n, n);
+  Eigen::ArrayXd free = Eigen::ArrayXd::Ones(n);
+  const auto hold = [&](Eigen::Index node, const Support<D>& support) {
+    for (const Eigen::Index at : {node, node + D}) {
+      directions.template block<D, D>(at, at) = support.frame;
+      free.template segment<D>(at) = at == node ? support.free_position : support.free_slope;
+    }
+  };
+  hold(0, system.model().start);
+  hold(Eigen::Index{node_size<D>} * system.mesh().last(), system.model().end);
+  Eigen::Index kept = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (free[k] > 0) directions.col(kept++) = directions.col(k);
+  }
+  return directions.leftCols(kept);
+}
+
+}  // namespace vlbeam

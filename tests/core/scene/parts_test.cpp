@@ -1,0 +1,207 @@
+// What a scene puts on its beam: point masses, moments, an initial velocity; and what it refuses of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/error.hpp"
+#include "core/scene/simulate.hpp"
+#include "core/scene/validate.hpp"
+
+namespace vlbeam {
+namespace {
+
+Scene beam(ElementKind element) {
+  Scene scene;
+  scene.beam.elements = 8;
+  scene.beam.element = element;
+  scene.start.type = SupportType::clamp;
+  scene.integrator.type = IntegratorType::fehlberg78;
+  scene.integrator.rtol = scene.integrator.atol = 1e-12;
+  scene.duration = 0.3;
+  scene.output.interval = 0.05;
+  return scene;
+}
+
+RunResult run(const Scene& scene) {
+  RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
+  return result;
+}
+
+double largest_energy(const RunResult& result) {
+  double largest = 0;
+  for (const Sample& s : result.samples) largest = std::max(largest, s.energy.kinetic + std::abs(s.energy.gravity));
+  return largest;
+}
+
+/// Nodes come and go and the sliding mass passes over two of them: they stay on their material points, and energy is
+/// kept. A passage is a jump of the acceleration that no integrator is told of.
+TEST(PointMasses, SurviveLengthControl) {
+  for (const auto element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
+    Scene scene = beam(element);
+    scene.duration = 0.42;
+    scene.sliding_mass.emplace().position = 0.1;
+    scene.point_masses = {{2, 0.1}, {3, 0.2}, {8, 0.1}};
+    const RunResult result = run(scene);
+    EXPECT_GE(result.events.size(), 2U);
+    EXPECT_GT(*result.samples.back().joint_position, 0.3);
+    EXPECT_LE(result.max_energy_drift, 1e-6 * largest_energy(result));
+    Scene ahead = scene;
+    ahead.point_masses = {{6, 0.2}, {8, 0.1}};
+    const RunResult unpassed = run(ahead);
+    EXPECT_GE(unpassed.events.size(), 2U);
+    EXPECT_LE(unpassed.max_energy_drift, 1e-11 * largest_energy(unpassed));
+    Scene implicit = scene;
+    implicit.integrator = {};
+    implicit.integrator.type = IntegratorType::generalized_alpha;
+    implicit.integrator.step = 1e-4;
+    for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
+      implicit.constraints = constraints;
+      const RunResult other = run(implicit);
+      EXPECT_NEAR(*other.samples.back().joint_position, *result.samples.back().joint_position, 2e-4);
+    }
+  }
+}
+
+/// The momentum of all there is falls as its weight says.
+TEST(PointMasses, HaveMomentumAndWeight) {
+  Scene scene = beam(ElementKind::ale_ancf);
+  scene.start.type = SupportType::free;
+  scene.point_masses = {{0, 0.3}, {5, 0.5}};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 6000, .EI = 0.2, .rhoA = 2};
+  const RunResult result = run(scene);
+  for (const Sample& s : result.samples) {
+    EXPECT_NEAR(s.momentum[1], -9.81 * 2.8 * s.t, 1e-10);
+    EXPECT_NEAR(s.energy.total(), result.samples.front().energy.total(), 1e-9);
+  }
+}
+
+/// What a moment does is booked; the state counts it.
+TEST(Moments, DoTheWorkThatIsBooked) {
+  Scene scene = beam(ElementKind::ale_ancf);
+  scene.loads = {{.type = LoadType::moment, .node = 8, .x = {}, .magnitude = {.value = 0.4, .ramp = 0.1}, .turn = {}},
+                 {.type = LoadType::moment, .node = 3, .x = {}, .magnitude = {.rate = -2}, .turn = {}}};
+  scene.sliding_mass.emplace().position = 0.2;
+  const RunResult result = run(scene);
+  EXPECT_GT(std::abs(result.samples.back().flow->ledger->loads), 1e-2);
+  EXPECT_LE(result.max_energy_drift, 1e-9 * largest_energy(result));
+}
+
+/// A free beam keeps both momenta of the motion that it starts with.
+TEST(InitialVelocity, IsThatOfARigidMotion) {
+  Scene scene = beam(ElementKind::ale_ancf);
+  scene.gravity = {};
+  scene.start.type = SupportType::free;
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 6000, .EI = 0.2, .rhoA = 2};
+  scene.initial_velocity = {.translation = {0.3, -0.2, 0}, .rotation = 4, .about = {0.5, 0, 0}};
+  const RunResult result = run(scene);
+  for (const Sample& s : result.samples) {
+    EXPECT_NEAR(s.momentum[0], 2 * 0.3, 1e-10);
+    EXPECT_NEAR(s.momentum[1], -2 * 0.2, 1e-10);
+    EXPECT_NEAR(s.angular_momentum[2], 2 * 4 / 12.0 - 0.5 * 2 * 0.2, 1e-10);
+  }
+  EXPECT_NEAR(result.samples.front().energy.kinetic, 0.5 * (2 * 0.13 + 2.0 / 12 * 16), 1e-12);
+}
+
+/// A pinned beam turns about its pin; the mass that slides on it goes along with the beam.
+TEST(InitialVelocity, GoesWithASlidingMass) {
+  Scene scene = beam(ElementKind::ale_rancf);
+  scene.gravity = {};
+  scene.start.type = SupportType::pin;
+  SlidingMassSpec& mass = scene.sliding_mass.emplace();
+  mass.position = 0.5;
+  mass.velocity = 0.2;
+  scene.initial_velocity = {.rotation = 1.5};
+  const Sample first = run(scene).samples.front();
+  EXPECT_NEAR(first.joint->velocity, 0.2, 1e-15);
+  const double own = 7200 * 3.14159265358979 * 1e-4 / 3 * 2.25 / 2;
+  EXPECT_NEAR(first.energy.kinetic, own + 0.4 * (0.2 * 0.2 + 0.75 * 0.75), 1e-10);
+}
+
+struct Refusal {
+  const char* field;
+  std::function<void(Scene&)> change;
+};
+
+TEST(Parts, AreRefusedByName) {
+  const auto statics = [](Scene& s) { s.analysis = Analysis::statics; };
+  const std::vector<Refusal> all{
+      {"/point_masses/0/node",
+       [](Scene& s) {
+         s.point_masses = {{9, 1}};
+       }},
+      {"/point_masses/0/mass",
+       [](Scene& s) {
+         s.point_masses = {{1, 0}};
+       }},
+      {"/integrator/type",
+       [](Scene& s) {
+         s.point_masses = {{1, 1}};
+         s.integrator.type = IntegratorType::energy_momentum;
+       }},
+      {"/sliding_mass/slopes",
+       [](Scene& s) {
+         s.point_masses = {{1, 1}};
+         s.sliding_mass.emplace().slopes = JointSlopes::free;
+       }},
+      {"/initial_velocity",
+       [](Scene& s) {
+         s.initial_velocity = {.translation = {0, 1, 0}};
+       }},
+      {"/initial_velocity",
+       [](Scene& s) {
+         s.initial_velocity = {.rotation = 1, .about = {0.1, 0, 0}};
+       }},
+      {"/initial_velocity/axis",
+       [](Scene& s) {
+         s.initial_velocity = {.axis = {1, 0, 0}};
+       }},
+      {"/loads/0/at",
+       [](Scene& s) {
+         s.loads = {{.type = LoadType::moment, .at = LoadPlace::beam, .x = {}, .magnitude = {.value = 1}, .turn = {}}};
+       }},
+      {"/loads/0/type",
+       [](Scene& s) {
+         s.dimension = 3;
+         s.loads = {{.type = LoadType::moment, .x = {}, .magnitude = {.value = 1}, .turn = {}}};
+       }},
+      {"/sliding_mass",
+       [&](Scene& s) {
+         statics(s);
+         s.sliding_mass.emplace();
+       }},
+      {"/supports",
+       [&](Scene& s) {
+         statics(s);
+         s.start.type = SupportType::free;
+       }},
+      {"/loads/0/magnitude/rate",
+       [&](Scene& s) {
+         statics(s);
+         s.loads = {{.x = {}, .magnitude = {.rate = 1}, .turn = {}}};
+       }},
+      {"/statics/control",
+       [&](Scene& s) {
+         statics(s);
+         s.gravity = {};
+         s.statics.control = LoadControl::arc_length;
+       }},
+      {"/statics/steps", [&](Scene& s) {
+         statics(s);
+         s.statics.steps = 0;
+       }}};
+  for (const Refusal& refusal : all) {
+    Scene scene = beam(ElementKind::ale_ancf);
+    refusal.change(scene);
+    try {
+      validate(scene);
+      ADD_FAILURE() << refusal.field << " is not refused";
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(error.field, refusal.field) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam

@@ -1,0 +1,216 @@
+#include "core/system/equilibrium.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/scene/simulate.hpp"
+
+namespace vlbeam {
+namespace {
+
+Scene straight(int elements, double EA, double EI) {
+  Scene scene;
+  scene.analysis = Analysis::statics;
+  scene.gravity = {};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.elements = elements;
+  scene.start.type = SupportType::clamp;
+  return scene;
+}
+
+RunResult solved(const Scene& scene) {
+  RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
+  return result;
+}
+
+double distance(const Point& a, double x, double y) { return std::hypot(a[0] - x, a[1] - y); }
+
+/// A cable of length 1.5 from (0, 0) to (1, 0) hangs under a weight of 1 N/m from the arc through both.
+Scene cable(int elements, double EA) {
+  Scene scene = straight(elements, EA, 0);
+  scene.gravity = {0, -1, 0};
+  const double half = 1.4957815682221;  // sin(h)/h = 2/3
+  const double radius = 0.75 / half, degrees = half * 180 / std::numbers::pi;
+  scene.beam.curve = {.type = CurveType::arc,
+                      .center = {0.5, radius * std::cos(half), 0},
+                      .radius = radius,
+                      .from_degrees = -90 - degrees,
+                      .to_degrees = -90 + degrees};
+  scene.start.type = scene.end.type = SupportType::pin;
+  scene.statics.steps = 4;
+  return scene;
+}
+
+/// M = 2 pi EI/L on EA 4e4, EI 100/3: with this strain law a circle of more than one turn, in closed form.
+TEST(Statics, EndMomentRollsABeamUp) {
+  std::vector<double> errors;
+  for (const int n : {16, 32}) {
+    Scene scene = straight(n, 4e4, 100.0 / 3);
+    scene.loads = {{.type = LoadType::moment,
+                    .node = n,
+                    .x = {},
+                    .magnitude = {.value = 2 * std::numbers::pi * 100 / 3},
+                    .turn = {}}};
+    const RunResult result = solved(scene);
+    EXPECT_EQ(result.samples.size(), 11U);
+    EXPECT_EQ(result.samples.back().equilibrium->negative_pivots, 0);
+    errors.push_back(distance(result.samples.back().end, 0.06193394864661416, 0.01298778587883767));
+    // what holds the beam is the moment turned round
+    EXPECT_NEAR(result.samples.back().reactions[0].position[1], 0, 1e-6);
+  }
+  EXPECT_LT(errors[1], 5e-6);
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 3.8);
+}
+
+/// A dead load of P L^2/EI = 4 at the tip, by an independent solution of this strain law.
+TEST(Statics, ElasticaOfThisLaw) {
+  Scene scene = straight(32, 0, 0);
+  scene.beam.section = {.radius = 0.01};
+  scene.loads = {{.node = 32, .x = {}, .magnitude = {.value = 0.2 * std::numbers::pi}, .turn = {}}};
+  EXPECT_LT(distance(solved(scene).samples.back().end, 0.671038728694, 0.670119114398), 2e-7);
+}
+
+/// Irvine's closed form, which needs the linear law, from a cable that holds nothing at first.
+TEST(Statics, ElasticCatenary) {
+  Scene scene = cable(64, 10);
+  scene.beam.strain_law = StrainLaw::engineering;
+  const RunResult result = solved(scene);
+  EXPECT_NEAR(result.configurations.back().r[32][1], -0.54887345701418, 1e-7);
+  EXPECT_NEAR(std::abs(result.samples.back().reactions[0].position[0]), 0.27971378560362, 1e-8);
+  EXPECT_EQ(result.samples.back().equilibrium->negative_pivots, 0);
+}
+
+/// Beyond Euler's load a straight column is an equilibrium, but not a stable one.
+TEST(Statics, CountsDirectionsOfInstability) {
+  const double euler = std::numbers::pi * std::numbers::pi / 4;
+  for (const auto& [load, falls] : std::vector<std::pair<double, int>>{
+           {0.98 * euler, 0}, {1.02 * euler, 1}, {8.98 * euler, 1}, {9.02 * euler, 2}}) {
+    Scene scene = straight(16, 1e7, 1);
+    scene.loads = {{.node = 16, .x = {}, .magnitude = {.value = load}, .direction = {-1, 0, 0}, .turn = {}}};
+    EXPECT_EQ(solved(scene).samples.back().equilibrium->negative_pivots, falls) << load / euler;
+  }
+}
+
+Scene arch(LoadControl control) {
+  Scene scene = straight(16, 1e4, 1);
+  const double rise = 0.04, radius = (0.25 + rise * rise) / (2 * rise), half = std::asin(0.5 / radius);
+  const double degrees = half * 180 / std::numbers::pi;
+  scene.beam.curve = {.type = CurveType::arc,
+                      .center = {0.5, rise - radius, 0},
+                      .radius = radius,
+                      .from_degrees = 90 + degrees,
+                      .to_degrees = 90 - degrees};
+  scene.start.type = scene.end.type = SupportType::pin;
+  scene.loads = {{.node = 8, .x = {}, .magnitude = {.value = 60}, .direction = {0, -1, 0}, .turn = {}}};
+  scene.statics.steps = 100;
+  scene.statics.control = control;
+  return scene;
+}
+
+TEST(Statics, ArchSnapsThroughAlongItsPath) {
+  const RunResult result = solved(arch(LoadControl::arc_length));
+  double largest = 0, least = 1;
+  int falling = 0;
+  const auto& samples = result.samples;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double factor = samples[i].equilibrium->load_factor, before = samples[i - 1].equilibrium->load_factor;
+    if (factor < before) {
+      ++falling;
+      largest = std::max(largest, before);
+      least = std::min(least, factor);
+      if (i > 1 && samples[i - 1].equilibrium->negative_pivots > 0) {
+        EXPECT_GT(samples[i].energy.total(), 0);
+      }
+    }
+  }
+  EXPECT_GT(falling, 3);
+  EXPECT_GT(largest, least);
+  EXPECT_EQ(samples.back().equilibrium->load_factor, 1);
+  EXPECT_EQ(samples.back().equilibrium->negative_pivots, 0);
+  EXPECT_LT(samples.back().flow->loads[0][1], -0.04);
+  const auto unstable =
+      std::ranges::count_if(samples, [](const Sample& s) { return s.equilibrium->negative_pivots > 0; });
+  EXPECT_NEAR(static_cast<double>(unstable), falling, 2);  // where the load falls
+}
+
+/// A failed step keeps what was found before it.
+TEST(Statics, LoadControlStopsAtALimitPoint) {
+  const RunResult result = simulate(arch(LoadControl::load));
+  EXPECT_EQ(result.status, RunStatus::failed);
+  EXPECT_NE(result.failure.find("arc-length"), std::string::npos) << result.failure;
+  EXPECT_GT(result.samples.size(), 4U);
+  EXPECT_LE(result.samples.back().equilibrium->load_factor, result.failure_time + 1e-12);
+}
+
+/// A pinned beam swings down until it hangs; on a slide that gravity pulls along it finds nothing.
+TEST(Statics, MechanismIsNamed) {
+  Scene scene = straight(8, 1e4, 1);
+  scene.gravity = {0, -9.81, 0};
+  scene.start.type = SupportType::pin;
+  const RunResult hanging = solved(scene);
+  EXPECT_LT(distance(hanging.samples.back().end, 0, -hanging.samples.back().beam_length), 1e-6);
+  scene.start.type = SupportType::slide;
+  scene.gravity = {1, 0, 0};
+  const RunResult result = simulate(scene);
+  EXPECT_EQ(result.status, RunStatus::failed);
+  EXPECT_NE(result.failure.find("nothing holds it along (1, 0)"), std::string::npos) << result.failure;
+}
+
+/// (b/L)^2 sqrt(EI/rhoA)/2 pi, b of the characteristic equations.
+TEST(Frequencies, OfBeams) {
+  struct Case {
+    SupportType start, end;
+    std::size_t rigid;
+    double b;
+  };
+  for (const Case& c : {Case{SupportType::pin, SupportType::slide, 0, std::numbers::pi},
+                        Case{SupportType::clamp, SupportType::free, 0, 1.8751040687119611},
+                        Case{SupportType::free, SupportType::free, 3, 4.730040744862704}}) {
+    std::vector<double> errors;
+    for (const int n : {4, 8}) {
+      Scene scene = straight(n, 1e4, 1);
+      scene.start = {.type = c.start, .clamp = ClampType::full};
+      scene.end.type = c.end;
+      scene.statics = {.steps = 1, .frequencies = 4};
+      const RunResult result = solved(scene);
+      ASSERT_EQ(result.frequencies.size(), 4U);
+      errors.push_back(result.frequencies[c.rigid] / (c.b * c.b / (2 * std::numbers::pi)) - 1);
+      for (std::size_t i = 0; i < c.rigid; ++i) EXPECT_NEAR(result.frequencies[i], 0, 1e-3);
+    }
+    EXPECT_LT(errors[1], 1e-4);
+    EXPECT_GT(std::log2(errors[0] / errors[1]), 3.7);
+  }
+}
+
+/// j_n sqrt(g/L)/2, j_n the zeros of the Bessel function J_0; the chain is stretched by its weight over 2 EA.
+TEST(Frequencies, OfAHangingChain) {
+  Scene scene = straight(16, 1e6, 0);
+  scene.gravity = {0, -1, 0};
+  scene.beam.curve.end = {0, -1, 0};
+  scene.start.type = SupportType::pin;
+  scene.statics = {.steps = 1, .frequencies = 3};
+  const RunResult result = solved(scene);
+  const std::array zeros{2.404825557695773, 5.520078110286311, 8.653727912911013};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(result.frequencies[i] / (zeros[i] / (4 * std::numbers::pi)), 1, 1e-6);
+  }
+}
+
+/// A point mass at the tip of a light cantilever: f = sqrt(3 EI/(m L^3))/2 pi, with 33/140 of the beam's mass
+/// (Rayleigh), an upper bound that is off by 1e-4 of the ratio of the masses.
+TEST(Frequencies, OfAMassOnACantilever) {
+  Scene scene = straight(8, 1e6, 1);
+  scene.start.clamp = ClampType::full;
+  scene.point_masses = {{8, 100}};
+  scene.statics = {.steps = 1, .frequencies = 1};
+  const double expected = std::sqrt(3 / (100 + 33.0 / 140)) / (2 * std::numbers::pi);
+  EXPECT_NEAR(solved(scene).frequencies[0] / expected, 1, 1e-5);
+}
+
+}  // namespace
+}  // namespace vlbeam
