@@ -156,7 +156,7 @@ void Spin::drive(const double* a, double t, double* r) const {
 Tally Spin::power(const double* q, const double* rate, const double* a, double t) {
   Tally power;
   residual(q, rate, a, t, residual_.data());
-  for (const DrivenAngle& drive : model_.drives) power.drives += residual_[angle(drive.node)] * rate[angle(drive.node)];
+  for (const DrivenAngle& drive : model_.drives) power.ends += residual_[angle(drive.node)] * rate[angle(drive.node)];
   if (model_.torques.present()) power.loads = add_torques(q, rate, t, forces_.data());
   return power;
 }

@@ -31,10 +31,6 @@ double initial_stretch(const Scene& scene) {
 
 }  // namespace
 
-bool keeps_ledger(const Scene& scene) {
-  return !flows(scene) || scene.integrator.type != IntegratorType::generalized_alpha;
-}
-
 double initial_spin(const Scene& scene) {
   if (!scene.spin) return 0;
   const auto& drives = scene.spin->drives;
@@ -81,7 +77,7 @@ FlowingModel<D> build_flowing_model(const Scene& scene) {
   }
   model.loads = beam.loads;
   model.rest = beam.rest;
-  model.ledger = keeps_ledger(scene);
+  model.ledger = true;
   return model;
 }
 
@@ -91,7 +87,7 @@ Eigen::VectorXd initial_flow(const Scene& scene, FlowingBeam<D>& beam) {
   const double stretch = initial_stretch(scene);
   const Vec<double, D> origin = start + along * (stretch * beam.nodes_at(0).front().value);
   Eigen::VectorXd y = beam.straight_state(origin, along, stretch, initial_velocity(scene), initial_spin(scene));
-  if (const auto& spin = beam.spin())
+  if (const Spin* spin = beam.spin())
     spin->start(y.data() + beam.angle(0), y.data() + beam.coordinates() + beam.angle(0));
   return scene.flow && scene.flow->steady ? steady_state(beam, y) : y;
 }

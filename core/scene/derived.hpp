@@ -49,10 +49,6 @@ inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_i
 /// Whether its samples have what FlowSample holds.
 inline bool has_flow_sample(const Scene& scene) { return flows(scene) || scene.spin || !scene.loads.empty(); }
 
-/// Whether its state holds a ledger of what crosses the boundary: that of a flowing beam is integrated along by methods
-/// of first-order equations.
-bool keeps_ledger(const Scene& scene);
-
 /// What such a scene starts with where it does not say: the spin of its first drive [rad/s], and the velocity of the
 /// matter along the axis at which node 0 stands still [m/s].
 double initial_spin(const Scene& scene);

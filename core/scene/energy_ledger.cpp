@@ -15,19 +15,13 @@ namespace {
 constexpr double large = 0.01;          // of the largest kinetic energy
 constexpr double rounding = 1e-9;       // of the energies there are
 constexpr double noise_strain = 1e-10;  // of a beam at rest
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double supplied(const Sample& sample) {
   double energy = sample.energy.supplied;
-  if (sample.flow && sample.flow->ledger) {
-    energy += sample.flow->ledger->ends + sample.flow->ledger->loads + sample.flow->ledger->mesh;
+  if (sample.flow) {
+    energy += sample.flow->ledger.ends + sample.flow->ledger.loads + sample.flow->ledger.mesh;
   }
   return energy;
-}
-
-bool keeps_ledger(const RunResult& result) {
-  const auto& flow = result.samples.front().flow;
-  return !flow || flow->ledger;
 }
 
 std::string joules(double energy) {
@@ -91,7 +85,6 @@ EnergyLedger energy_ledger(const RunResult& result) {
     ledger.largest_unexplained = std::max(ledger.largest_unexplained, std::abs(ledger.unexplained));
   }
   ledger.dissipated = result.samples.back().energy.dissipated;
-  if (!keeps_ledger(result)) ledger.supplied = ledger.unexplained = ledger.largest_unexplained = nan;
   return ledger;
 }
 

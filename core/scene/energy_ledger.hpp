@@ -18,7 +18,7 @@ struct EnergyLedger {
   double at_contacts = 0;  ///< what impacts of the mass on supports took, negative
   double unexplained = 0;  ///< what is left
 
-  // Over all samples, in magnitude; NaN where the run keeps no ledger.
+  // Over all samples, in magnitude.
   double largest_unexplained = 0;
   double largest_drift = 0;  ///< of the model's own energy between events
 };

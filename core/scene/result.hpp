@@ -35,7 +35,7 @@ struct FlowSample {
   std::vector<Point> loads;                         ///< where the concentrated ones are [m]
   std::vector<Reaction> supports;                   ///< of inner nodes, in the order of the scene
   std::vector<double> torques;                      ///< of the drives of the angle, about the axis [N m]
-  std::optional<Ledger> ledger;                     ///< with methods of first-order equations
+  Ledger ledger;
 };
 
 /// Between the sliding mass and the beam, while it is on it.

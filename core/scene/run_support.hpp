@@ -28,7 +28,8 @@ inline StrainSample strain_sample(const StrainExtremes& extremes) {
 
 /// The whole shape of a beam at time t.
 template <int D>
-Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport);
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport,
+                               const std::vector<double>& mark_rates = {});
 
 /// Where a run stops to look: at the samples, and at the configurations, both in increasing order.
 struct Stops {
@@ -53,9 +54,5 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
 /// Follows the equilibria of a scene.
 template <int D>
 RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress);
-
-/// Runs a scene whose beam is a FlowingBeam.
-template <int D>
-RunResult simulate_flow(const Scene& scene, const std::function<bool(double t)>& progress);
 
 }  // namespace vlbeam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <type_traits>
 
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
@@ -13,8 +14,10 @@
 
 namespace vlbeam {
 
+/// `mark_rates` are those of all nodes along the beam, where more than the joint moves.
 template <int D>
-Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport,
+                               const std::vector<double>& mark_rates) {
   Configuration shape;
   shape.t = t;
   shape.x = chain.mesh.x;
@@ -34,7 +37,8 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
   }
   for (int k = 0; k <= chain.mesh.last(); ++k) {
-    const double x_rate = k == chain.joint ? chain.joint_rate : 0;
+    const double at_joint = k == chain.joint ? chain.joint_rate : 0;
+    const double x_rate = mark_rates.empty() ? at_joint : mark_rates[static_cast<std::size_t>(k)];
     shape.rates.x.push_back(x_rate);
     shape.rates.v.push_back(point_of<D>(position<D>(chain.rate.data(), k) - x_rate * slope<D>(chain.q.data(), k)));
     shape.rates.r_x.push_back(point_of<D>(slope<D>(chain.rate.data(), k)));
@@ -43,55 +47,80 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
   return shape;
 }
 
-template Configuration configuration_of(const ChainState<2>&, double, WeightTransport);
-template Configuration configuration_of(const ChainState<3>&, double, WeightTransport);
+template Configuration configuration_of(const ChainState<2>&, double, WeightTransport, const std::vector<double>&);
+template Configuration configuration_of(const ChainState<3>&, double, WeightTransport, const std::vector<double>&);
 
 namespace {
 
-/// Runs one scene of a known dimension and fills in its result.
-template <int D>
+/// Runs one scene of a known dimension and kind of beam, and fills in its result.
+template <int D, class System>
 class Run {
  public:
-  Run(const Scene& scene, const ProgressCallback& progress)
-      : scene_(scene), progress_(progress), stops_(scene), system_(build_model<D>(scene), build_chain<D>(scene)) {
+  template <class... Parts>
+  Run(const Scene& scene, const ProgressCallback& progress, const Parts&... parts)
+      : scene_(scene), progress_(progress), stops_(scene), system_(parts...) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
-    system_.on_event = [this](const EventRecord<D>& record) { event(record); };
     system_.on_step = [this](double t) { return !progress_ || progress_(t); };
+    if constexpr (!prescribed) system_.on_event = [this](const EventRecord<D>& record) { event(record); };
   }
 
   RunResult operator()() {
-    const auto& x = build_chain<D>(scene_).mesh.x;
-    double shortest = beam_length(scene_);
+    std::vector<double> x;
+    if constexpr (prescribed) {
+      for (const Prescribed& node : system_.nodes_at(0)) x.push_back(node.value);
+    } else {
+      x = build_chain<D>(scene_).mesh.x;
+    }
+    double shortest = x.back() - x.front();
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
     const auto options = integration_options(scene_, system_.model().section, shortest);
-    run_to_end(
-        scene_, system_, [this] { return system_.initial_state(); }, stops_, options, result_);
+    const auto initial = [this]() -> Eigen::VectorXd {
+      if constexpr (prescribed) {
+        return initial_flow(scene_, system_);
+      } else {
+        return system_.initial_state();
+      }
+    };
+    run_to_end(scene_, system_, initial, stops_, options, result_);
     result_.timing.motion -= result_.timing.length_control + observing_;
     result_.solver.rhs_evaluations = system_.rhs_evaluations();
     return std::move(result_);
   }
 
  private:
+  static constexpr bool prescribed = std::is_same_v<System, FlowingBeam<D>>;  ///< all nodes are
+
+  ChainState<D> chain_at(const Eigen::VectorXd& y, double t) const {
+    if constexpr (prescribed) {
+      return system_.chain(y, t);
+    } else {
+      return system_.chain(y);
+    }
+  }
+
+  void keep_shape(const Eigen::VectorXd& y, double t) {
+    std::vector<double> mark_rates;
+    if constexpr (prescribed) {
+      for (const Prescribed& node : system_.nodes_at(t)) mark_rates.push_back(node.rate);
+    }
+    const ChainState<D> chain = chain_at(y, t);
+    Configuration shape = configuration_of(chain, t, weight_transport(scene_), mark_rates);
+    for (int k = 0; system_.spin() != nullptr && k <= chain.mesh.last(); ++k) {
+      shape.angles.push_back(y[system_.angle(k)]);
+      shape.rates.spins.push_back(y[system_.coordinates() + system_.angle(k)]);
+    }
+    result_.configurations.push_back(std::move(shape));
+  }
+
   void sample(const Eigen::VectorXd& y, double t) {
     const auto started = std::chrono::steady_clock::now();
-    if (stops_.keeps_shape_at(t)) {
-      Configuration shape = configuration_of(system_.chain(y), t, weight_transport(scene_));
-      const Spin* spin = system_.spin();
-      for (int k = 0; spin != nullptr && k <= system_.mesh().last(); ++k) {
-        const double* angle = y.data() + system_.angles() + spin->angle(k);
-        shape.angles.push_back(angle[0]);
-        shape.rates.spins.push_back(angle[system_.coordinates()]);
-      }
-      result_.configurations.push_back(std::move(shape));
-    }
+    if (stops_.keeps_shape_at(t)) keep_shape(y, t);
     if (stops_.samples_at(t)) {
-      const auto seen = system_.observe(y, t, ledger_points, true);
-      const auto own = system_.observe(y, t, system_.model().quadrature_points);
+      const Observation<D> seen = system_.observe(y, t, ledger_points, true);
+      const Observation<D> own = system_.observe(y, t, system_.model().quadrature_points);
       Sample sample;
       sample.t = t;
-      const auto chain = system_.chain(y);
-      if (const auto place = mass_coordinate(chain)) sample.joint_position = *place;
-      if (const auto mass = system_.mass_motion(y)) sample.mass_position = point_of<D>(mass->r);
+      const ChainState<D> chain = chain_at(y, t);
       sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
       sample.beam_length = seen.beam_length;
       sample.beam_length_rate = seen.beam_length_rate;
@@ -103,13 +132,10 @@ class Run {
       const OuterForces<D> forces = system_.forces(y, t);
       if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
       for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
-      if (system_.mass_on_beam()) sample.joint = joint_sample(y, chain, forces.on_mass);
-      const ConstraintResidual slopes = system_.slope_residual(y);
-      result_.slopes.position = std::max(result_.slopes.position, slopes.position);
-      result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
+      if constexpr (!prescribed) look_at_mass(y, chain, forces, sample);
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
-      const double supplied = sample.energy.supplied + seen.load_work + seen.drive_work;
+      const double supplied = sample.energy.supplied + seen.load_work + seen.end_work + seen.mesh_work;
       result_.max_energy_drift =
           std::max(result_.max_energy_drift, std::abs(sample.discrete_total - supplied - first_total_ - jumps_));
       result_.samples.push_back(std::move(sample));
@@ -117,19 +143,28 @@ class Run {
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
 
+  void look_at_mass(const Eigen::VectorXd& y, const ChainState<D>& chain, const OuterForces<D>& forces,
+                    Sample& sample) {
+    if (const auto place = mass_coordinate(chain)) sample.joint_position = *place;
+    if (const auto mass = system_.mass_motion(y)) sample.mass_position = point_of<D>(mass->r);
+    if (system_.mass_on_beam()) sample.joint = joint_sample(y, chain, forces.on_mass);
+    const ConstraintResidual slopes = system_.slope_residual(y);
+    result_.slopes.position = std::max(result_.slopes.position, slopes.position);
+    result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
+  }
+
   std::shared_ptr<const FlowSample> flow_sample(const Eigen::VectorXd& y, double t, const Observation<D>& seen,
                                                 const OuterForces<D>& forces) const {
     FlowSample flow;
     flow.mass = seen.mass;
-    if (const Spin* spin = system_.spin()) {
-      const double* angles = y.data() + system_.angles();
-      flow.end_angles = {angles[0], angles[spin->angle(system_.mesh().last())]};
+    if (system_.spin() != nullptr) {
+      flow.end_angles = {y[system_.angle(0)], y[system_.angle(scene_.beam.elements)]};
       flow.spin_momentum = seen.spin_momentum;
       flow.torques = forces.drives;
     }
-    const ChainView<D> beam = system_.view(y.data(), y.data() + system_.coordinates());
-    for (const auto& place : system_.model().loads.places(beam, t)) flow.loads.push_back(point_of<D>(place));
-    flow.ledger = {.mass = 0, .ends = seen.drive_work, .loads = seen.load_work, .mesh = 0};
+    for (const auto& place : system_.load_places(y, t)) flow.loads.push_back(point_of<D>(place));
+    for (const auto& force : forces.guides) flow.supports.push_back(reaction_of<D>(force));
+    flow.ledger = {seen.mass_in, seen.end_work, seen.load_work, seen.mesh_work};
     return std::make_shared<const FlowSample>(std::move(flow));
   }
 
@@ -175,7 +210,7 @@ class Run {
   const Scene& scene_;
   ProgressCallback progress_;
   Stops stops_;
-  BeamSystem<D> system_;
+  System system_;
   RunResult result_;
   double first_total_ = 0, jumps_ = 0, observing_ = 0;
 };
@@ -183,7 +218,8 @@ class Run {
 template <int D>
 RunResult simulate_in(const Scene& scene, const ProgressCallback& progress) {
   if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
-  return flows(scene) ? simulate_flow<D>(scene, progress) : Run<D>(scene, progress)();
+  if (flows(scene)) return Run<D, FlowingBeam<D>>(scene, progress, build_flowing_model<D>(scene))();
+  return Run<D, BeamSystem<D>>(scene, progress, build_model<D>(scene), build_chain<D>(scene))();
 }
 
 }  // namespace

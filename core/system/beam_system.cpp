@@ -519,7 +519,7 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
   const Tally counted = model_.tallies().of(y);
   seen.energy.dissipated = counted.dissipated;
   seen.load_work = counted.loads;
-  seen.drive_work = counted.drives;
+  seen.end_work = counted.ends;
   seen.energy.supplied = counted.supports;
   seen.energy.supplied += ramp_.until(t, {seen.mass_moment, seen.momentum});
   return seen;

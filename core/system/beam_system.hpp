@@ -14,10 +14,10 @@
 #include "core/length_control/length_control.hpp"
 #include "core/parts/loads.hpp"
 #include "core/parts/point_masses.hpp"
+#include "core/parts/spin.hpp"
 #include "core/system/constraints.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
-#include "core/parts/spin.hpp"
 
 namespace vlbeam {
 
@@ -57,16 +57,6 @@ struct BeamModel {
     return {dissipates(), loads.present() || (spin && spin->torques.present()), spin && !spin->drives.empty(),
             driven()};
   }
-};
-
-/// Forces between the beam and what it is connected to, at one instant.
-template <int D>
-struct OuterForces {
-  /// Generalized, with which the supports act on the first and the last node: position [N], slope [N m].
-  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> supports;
-  /// With which the beam acts on the sliding mass [N]; zero off the beam and without one.
-  Vec<double, D> on_mass = Vec<double, D>::Zero();
-  std::vector<double> drives;  ///< about the axis, of what drives angles on the beam [N m]
 };
 
 /// What happened to a beam system at an event.
@@ -178,7 +168,12 @@ class BeamSystem final : public EventedOde {
   /// How the section turns; null if it does not. Its angles stand behind the nodes.
   Spin* spin() { return spin_ ? &*spin_ : nullptr; }
   const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
-  Eigen::Index angles() const { return nodal_; }
+  /// Where the angle of a node stands among the coordinates.
+  Eigen::Index angle(int node) const { return nodal_ + spin_->angle(node); }
+  /// Where the concentrated loads are.
+  std::vector<Vector> load_places(const Eigen::VectorXd& y, double t) const {
+    return model_.loads.places(view(y.data(), y.data() + coordinates_), t);
+  }
   /// The beam has two slopes at the joint.
   bool kinked() const { return has_joint() && model_.joint->kinked(); }
   /// Slopes at the joint, before and behind it, of an array of coordinates or rates.

@@ -14,12 +14,6 @@ namespace {
 constexpr double shortest = 1e-6;         // of an element's mean length at t = 0: below, the elements tangle
 constexpr double smallest_weight = 1e-3;  // of the largest of the same element
 
-/// Where the entries of the ledger stand in the state, behind the rates; the impulse takes D of them, and the
-/// dissipated energy is the last.
-enum LedgerEntry : std::uint8_t { mass_entry, ends_entry, loads_entry, mesh_entry, impulse_entry };
-template <int D>
-constexpr int ledger_size = impulse_entry + D + 2;
-
 std::string text(double value) {
   std::ostringstream stream;
   stream << value;
@@ -137,11 +131,6 @@ void FlowingBeam<D>::adopt_supports() {
     frame_ = support.frame;
     aligned_ = support.aligned;
   }
-}
-
-template <int D>
-Eigen::Index FlowingBeam<D>::size() const {
-  return 2 * coordinates() + (model_.ledger ? ledger_size<D> : damped() ? 1 : 0);
 }
 
 template <int D>
@@ -306,17 +295,18 @@ void FlowingBeam<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double
   force = -force;
   model_.loads.add_forces(view(q, rate), t, a);
   add_inflow(q, rate, a);
-  double dissipated = dissipation();
-  if (!solve_mass(a) || (spin_ && !spin_->accelerate(q + nodal_, rate + nodal_, t, a + nodal_, dissipated))) {
+  Tally power;
+  power.dissipated = dissipation();
+  if (!solve_mass(a) || (spin_ && !spin_->accelerate(q + nodal_, rate + nodal_, t, a + nodal_, power.dissipated))) {
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  if (damped() || model_.ledger) dydt[dydt.size() - 1] = dissipated;
-  if (model_.ledger) book(q, rate, a, t, dydt.data() + 2 * n);
+  if (model_.ledger) power = power + supplied(q, rate, a, t);
+  tallies().add(power, dydt);
 }
 
 template <int D>
-void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, double t, double* entry) {
+Tally FlowingBeam<D>::supplied(const double* q, const double* rate, const double* a, double t) {
   const Eigen::Index n = coordinates();
   residual_.setZero();
   add_residual(a, residual_.data());
@@ -370,20 +360,20 @@ void FlowingBeam<D>::book(const double* q, const double* rate, const double* a, 
     mesh -= on_marks_[i] * nodes_[i].rate;
   }
 
-  entry[mass_entry] = model_.section.rhoA * (nodes_.back().rate - nodes_.front().rate);
-  entry[ends_entry] = power - loads - mesh;
-  entry[loads_entry] = loads;
-  entry[mesh_entry] = mesh;
-  Eigen::Map<Vector> impulse(entry + impulse_entry);
-  impulse = law(t).gravity * (model_.section.rhoA * (nodes_.back().value - nodes_.front().value));
+  Tally result;
+  result.ends = power - loads - mesh;
+  result.loads = loads;
+  result.mesh = mesh;
+  result.mass = model_.section.rhoA * (nodes_.back().rate - nodes_.front().rate);
+  Vector impulse = law(t).gravity * (model_.section.rhoA * (nodes_.back().value - nodes_.front().value));
   for (int k = 0; k < nodes(); ++k) impulse += position<D>(residual_.data(), k);
-  double turning = 0;
-  for (int k = 0; spin_ && k < nodes(); ++k) turning += residual_[angle(k)];
-  entry[impulse_entry + D] = turning;
+  result.impulse.template head<D>() = impulse;
+  for (int k = 0; spin_ && k < nodes(); ++k) result.spin_impulse += residual_[angle(k)];
+  return result;
 }
 
 template <int D>
-FlowReactions<D> FlowingBeam<D>::reactions(const Eigen::VectorXd& y, double t) {
+OuterForces<D> FlowingBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   const std::size_t evaluations = rhs_evaluations_;  // those of the integrator
   Eigen::VectorXd dydt(y.size());
   rhs(y, dydt, t);
@@ -396,28 +386,20 @@ FlowReactions<D> FlowingBeam<D>::reactions(const Eigen::VectorXd& y, double t) {
   add_inflow(q, rate, known.data());
   add_residual(a, force.data());
   force -= known;
-  FlowReactions<D> result;
+  OuterForces<D> result;
   for (const NodeSupport<D>& held : model_.supports) {
-    result.supports.push_back(force.segment<node_size<D>>(Eigen::Index{node_size<D>} * held.node));
+    const auto on_node = force.segment<node_size<D>>(Eigen::Index{node_size<D>} * held.node);
+    if (held.node > 0 && held.node < elements()) {
+      result.guides.push_back(on_node);
+    } else {
+      result.supports[held.node == 0 ? 0 : 1] = on_node;
+    }
   }
   if (spin_) {
     spin_->residual(q + nodal_, rate + nodal_, a + nodal_, t, force.data() + nodal_);
-    result.torques = spin_->drive_torques(force.data() + nodal_);
+    result.drives = spin_->drive_torques(force.data() + nodal_);
   }
   return result;
-}
-
-template <int D>
-FlowLedger<D> FlowingBeam<D>::ledger(const Eigen::VectorXd& y) const {
-  if (!model_.ledger) throw InvalidInput("/ledger", "false", "it must be true: the state holds no ledger otherwise");
-  const double* entry = y.data() + 2 * coordinates();
-  return {.mass = entry[mass_entry],
-          .ends = entry[ends_entry],
-          .loads = entry[loads_entry],
-          .mesh = entry[mesh_entry],
-          .dissipated = entry[impulse_entry + D + 1],
-          .impulse = Eigen::Map<const Vector>(entry + impulse_entry),
-          .spin_impulse = entry[impulse_entry + D]};
 }
 
 template <int D>
@@ -429,10 +411,6 @@ void FlowingBeam<D>::jacobian(const Eigen::VectorXd& /*y*/, double /*t*/, Eigen:
 
 template <int D>
 std::unique_ptr<SecondOrderSystem> FlowingBeam<D>::new_second_order() {
-  if (model_.ledger) {
-    throw InvalidInput("/ledger", "true",
-                       "it must be false with an implicit method, which integrates the motion alone");
-  }
   return std::make_unique<ImplicitFlow<D>>(*this);
 }
 
@@ -531,7 +509,12 @@ Observation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t, int p
     seen.energy.torsion += turning.torsion;
     seen.spin_momentum += turning.momentum;
   }
-  if (y.size() > 2 * coordinates()) seen.energy.dissipated = y[y.size() - 1];
+  const Tally counted = tallies().of(y);
+  seen.energy.dissipated = counted.dissipated;
+  seen.load_work = counted.loads;
+  seen.end_work = counted.ends;
+  seen.mesh_work = counted.mesh;
+  seen.mass_in = counted.mass;
   seen.energy.supplied = ramp_.until(t, {seen.mass_moment, seen.momentum});
   return seen;
 }
@@ -557,6 +540,16 @@ template <int D>
 std::vector<Vec<double, D>> FlowingBeam<D>::load_places(const Eigen::VectorXd& y, double t) const {
   model_.motion.at(t, nodes_);
   return model_.loads.places(view(y.data(), y.data() + coordinates()), t);
+}
+
+template <int D>
+ChainState<D> FlowingBeam<D>::chain(const Eigen::VectorXd& y, double t) const {
+  ChainState<D> result;
+  result.mesh = mesh_;
+  for (const Prescribed& node : nodes_at(t)) result.mesh.x.push_back(node.value);
+  result.q.assign(y.data(), y.data() + nodal_);
+  result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + nodal_);
+  return result;
 }
 
 template <int D>

@@ -11,6 +11,7 @@
 #include "core/dynamics/integrate.hpp"
 #include "core/element/driven_tangent.hpp"
 #include "core/geometry/axis.hpp"
+#include "core/length_control/chain_state.hpp"
 #include "core/parts/loads.hpp"
 #include "core/parts/spin.hpp"
 #include "core/system/observation.hpp"
@@ -42,30 +43,7 @@ struct FlowingModel {
   Loads<D> loads = {};
   /// What the nodes of the rest shape follow, by arc length; null for a straight, unstrained one.
   std::shared_ptr<const Axis<D>> rest = nullptr;
-  bool ledger = false;  ///< the state holds what crossed the boundary; for methods of first-order equations
-};
-
-/// What has crossed the boundary of a flowing beam since the start.
-template <int D>
-struct FlowLedger {
-  double mass = 0;          ///< [kg], in through the ends
-  double ends = 0;          ///< [J], in through the ends with the matter, and from supports and driven angles
-  double loads = 0;         ///< [J], work of the loads
-  double mesh = 0;          ///< [J], work of moving the inner nodes along the beam: discretisation error only
-  double dissipated = 0;    ///< [J], by damping
-  Vec<double, D> impulse;   ///< [N s], of supports, loads and gravity, and in with the matter
-  double spin_impulse = 0;  ///< [N m s], about the axis
-
-  /// Energy that has come in less what damping has taken.
-  double energy() const { return ends + loads + mesh - dissipated; }
-};
-
-/// Forces and torques from outside the beam that hold it, at one instant.
-template <int D>
-struct FlowReactions {
-  /// Generalized, on each node that a support holds, in the order of the model: position [N], slope [N m].
-  std::vector<Eigen::Matrix<double, node_size<D>, 1>> supports;
-  std::vector<double> torques;  ///< about the axis, on each driven angle [N m]
+  bool ledger = false;  ///< the state counts all that is supplied, not just what is dissipated
 };
 
 template <int D>
@@ -73,9 +51,8 @@ class ImplicitFlow;
 
 /// A beam whose nodes move along it as prescribed: a load that travels, a stem that is fed through its guides, a span
 /// that is only what lies between two supports at any time. Every element is a variable-length one.
-/// State y = (q, q', ledger): q holds the nodes, position and slope each, then with spin the angle of each node (and
-/// its twist, if it is cubic); the ledger is there where the model asks for it, and else the dissipated energy where
-/// there is damping.
+/// State y = (q, q', tallies): q holds the nodes, position and slope each, then with spin the angle of each node (and
+/// its twist, if it is cubic).
 ///
 /// Matter comes in through the ends with the velocity it has there: where an end is free to move the momentum flux
 /// belongs to the forces on it.
@@ -90,12 +67,14 @@ class FlowingBeam final : public EventedOde {
   explicit FlowingBeam(const FlowingModel<D>& model);
   ~FlowingBeam() override;
 
-  Eigen::Index size() const override;
+  Eigen::Index size() const override { return 2 * coordinates() + tallies().count(); }
+  Tallies tallies() const {
+    return model_.ledger ? Tallies{true, true, true, false, D} : Tallies{.dissipated = damped()};
+  }
   std::vector<FieldRun> fields() const override;
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   /// Not there: throws InvalidInput.
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
-  /// Throws InvalidInput where the state holds a ledger.
   std::unique_ptr<SecondOrderSystem> new_second_order() override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
@@ -117,7 +96,8 @@ class FlowingBeam final : public EventedOde {
   int elements() const { return model_.motion.last(); }
   int nodes() const { return elements() + 1; }
   Eigen::Index coordinates() const { return nodal_ + (spin_ ? spin_->coordinates() : 0); }
-  const std::optional<Spin>& spin() const { return spin_; }
+  /// How the section turns; null if it does not.
+  const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
   /// Where the angle of a node stands among the coordinates.
   Eigen::Index angle(int node) const { return nodal_ + spin_->angle(node); }
 
@@ -134,9 +114,12 @@ class FlowingBeam final : public EventedOde {
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
   /// The same by the model's own points.
   Observation<D> observe(const Eigen::VectorXd& y, double t) const { return observe(y, t, model_.quadrature_points); }
-  FlowLedger<D> ledger(const Eigen::VectorXd& y) const;
+  /// All that has been supplied since the start, if the model has a ledger.
+  Tally ledger(const Eigen::VectorXd& y) const { return tallies().of(y); }
   /// By the accelerations that belong to the state.
-  FlowReactions<D> reactions(const Eigen::VectorXd& y, double t);
+  OuterForces<D> forces(const Eigen::VectorXd& y, double t);
+  /// Mesh and motion at state y, at time t.
+  ChainState<D> chain(const Eigen::VectorXd& y, double t) const;
   /// Material coordinates of the nodes at time t.
   std::vector<Prescribed> nodes_at(double t) const;
   /// Position of the material point x at time t, which must lie between the end nodes.
@@ -174,8 +157,8 @@ class FlowingBeam final : public EventedOde {
   double dissipation() const;
   /// Solves M a = f in place; false where the mass matrix is singular.
   bool solve_mass(double* f);
-  /// Rates of the ledger's entries.
-  void book(const double* q, const double* rate, const double* a, double t, double* entry);
+  /// What is supplied in a second at the accelerations `a`, of what was evaluated last.
+  Tally supplied(const double* q, const double* rate, const double* a, double t);
 
   FlowingModel<D> model_;
   Mesh mesh_;
@@ -191,7 +174,7 @@ class FlowingBeam final : public EventedOde {
   mutable std::optional<Spin> spin_;
   ChainMass<D> mass_;
   Eigen::VectorXd still_;               // no accelerations
-  Eigen::VectorXd residual_, scratch_;  // of the ledger
+  Eigen::VectorXd residual_, scratch_;  // of what is supplied
   std::vector<double> on_marks_;
   RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0;

@@ -16,7 +16,12 @@ class ImplicitFlow final : public SecondOrderSystem {
 
   Eigen::Index coordinates() const override { return beam_.coordinates(); }
   std::vector<FieldRun> fields() const override { return beam_.fields(); }
-  Tallies tallies() const override { return {.dissipated = beam_.damped()}; }
+  Tallies tallies() const override { return beam_.tallies(); }
+  Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                       double t) override {
+    // by the elements of the last residual, which Newton's last correction is next to nothing away from
+    return !beam_.model().ledger ? Tally{} : beam_.supplied(q.data(), v.data(), a.data(), t);
+  }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
+#include "core/beam/node_map.hpp"
 #include "core/element/moving_points.hpp"
 #include "core/element/rotary_inertia.hpp"
 #include "core/geometry/vec.hpp"
@@ -24,8 +27,8 @@ struct Observation {
   Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
   double mass = 0;                                           ///< of the beam, between its end nodes [kg]
   double spin_momentum = 0;                                  ///< about the axis [kg m^2/s]
-  double load_work = 0;                                      ///< done by loads since the start, where counted [J]
-  double drive_work = 0;                                     ///< by what drives angles [J]
+  double load_work = 0, end_work = 0, mesh_work = 0;         ///< what Tally has of it, where counted [J]
+  double mass_in = 0;                                        ///< the same [kg]
   std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
 
   /// A lumped mass at r that moves with v.
@@ -36,6 +39,18 @@ struct Observation {
     angular_momentum += m * moment_about_origin<D>(r, v);
     mass_moment += m * r;
   }
+};
+
+/// Forces between the beam and what it is connected to, at one instant.
+template <int D>
+struct OuterForces {
+  using OnNode = Eigen::Matrix<double, node_size<D>, 1>;  ///< generalized: position [N], slope [N m]
+
+  std::array<OnNode, 2> supports{OnNode::Zero(), OnNode::Zero()};  ///< on the first and the last node
+  std::vector<OnNode> guides;                                      ///< on inner nodes that supports hold
+  /// With which the beam acts on the sliding mass [N]; zero off the beam and without one.
+  Vec<double, D> on_mass = Vec<double, D>::Zero();
+  std::vector<double> drives;  ///< about the axis, of what drives angles on the beam [N m]
 };
 
 /// Sums energies, momenta and length of a beam's axis, element by element, by a rule of one's own.

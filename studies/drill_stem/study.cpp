@@ -120,9 +120,9 @@ Gap ledger(const Stem& stem, int elements, double duration) {
   double t = 0;
   integrate(beam, y, t, duration, {}, options, counters);
   const auto after = beam.observe(y, t);
-  const auto book = beam.ledger(y);
+  const Tally book = beam.ledger(y);
   const double passed = std::abs(book.ends) + std::abs(book.loads);
-  return {.energy = std::abs(after.energy.total() - before.energy.total() - book.energy()) / passed,
+  return {.energy = std::abs(after.energy.total() - before.energy.total() - book.ends - book.loads - book.mesh) / passed,
           .mass = std::abs(after.mass - before.mass - book.mass) / book.mass,
           .momentum = (after.momentum - before.momentum - book.impulse).norm() / book.impulse.norm(),
           .spin_momentum =

@@ -292,9 +292,6 @@ std::string steps_text(const Scene& scene, const RunResult& result) {
 
 std::string ledger_text(const EnergyLedger& ledger) {
   const auto joules = [](double energy) { return short_number(energy, 4) + " J"; };
-  if (std::isnan(ledger.unexplained)) {
-    return "changed by " + joules(ledger.change) + "; implicit methods keep no ledger of what crosses the ends";
-  }
   return "changed by " + joules(ledger.change) + " = supplied " + joules(ledger.supplied) + ", at events " +
          joules(ledger.at_events) + (ledger.at_contacts != 0 ? ", at contacts " + joules(ledger.at_contacts) : "") +
          ", unexplained " + joules(ledger.unexplained) + " (at most " + joules(ledger.largest_unexplained) +

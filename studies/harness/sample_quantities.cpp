@@ -194,11 +194,10 @@ void add_flow(Quantities& q, const Scene& scene) {
              for (const Point& load : s.flow->loads) out = std::copy_n(load.begin(), d, out);
            });
   }
-  if (!keeps_ledger(scene)) return;
   using Ledger = FlowSample::Ledger;
   const auto entry = [&q](const char* name, const char* unit, const char* description, double Ledger::*member) {
     q.number(std::string("flow/ledger/") + name, std::string("ledger_") + name, unit, description,
-             [member](const Sample& s) { return (*s.flow->ledger).*member; });
+             [member](const Sample& s) { return s.flow->ledger.*member; });
   };
   entry("mass", "kg", "in through the ends since t = 0", &Ledger::mass);
   entry("ends", "J", "in through the ends with the matter, and from supports and drives, since t = 0", &Ledger::ends);

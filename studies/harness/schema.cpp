@@ -457,7 +457,7 @@ Json run_schema() {
         described(
             number_or_null,
             "of all samples: change of the total energy by the model's own points, less what is supplied and what "
-            "changes at events; null where the run keeps no ledger",
+            "changes at events",
             "J")}});
   const Json ledger = record(
       {{"change", described(number_or_null, "of the total energy, what is dissipated included", "J")},

@@ -142,12 +142,5 @@ TEST(ImplicitFlow, RefusesMethodsThatDoNotApply) {
   }
 }
 
-TEST(ImplicitFlow, KeepsNoLedger) {
-  FlowingModel<2> model = whirling<2>();
-  model.ledger = true;
-  FlowingBeam<2> beam(model);
-  EXPECT_THROW(beam.new_second_order(), InvalidInput);
-}
-
 }  // namespace
 }  // namespace vlbeam::test
