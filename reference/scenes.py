@@ -115,6 +115,8 @@ answer("pulled_bar", "end.x", pulled_bar(), 1e-12, "exact", "d'Alembert's soluti
 answer("torsion", "angle_end", torsion(), 1e-12, "exact", "d'Alembert's solution of the rod")
 answer("incline", "joint_position", mp.mpf("0.1") + mp.mpf("9.81") / 4 * mp.mpf("0.25"), 1e-7, "exact",
        "s0 + g sin(30 deg) t^2/2 on a rigid wire; this one bends by 1e-8")
+answer("ring", "joint_position", mp.hypot(mp.mpf("0.5"), mp.mpf("1.2")), 1e-7, "exact",
+       "distance between the ring and the end of a rigid rod; this one is 4e-8 longer there")
 answer("moving_force", "load0_y", moving_force(), 1e-13, "exact", "400 modes of the linear beam")
 answer("rotating_load", "load0_x", rotating_load(), 1e-10, "independent",
        "400 modes of the linear beam (reference/shaft.py)")
@@ -130,6 +132,7 @@ for name, quantity, value, uncertainty, t in (
         ("suspended_beam_friction", "joint_position", 0.1322521312, 2.0e-5, 0.2),
         ("semicircle", "joint_position", 1.15767569, 1.0e-4, 0.4),
         ("bead_on_wire", "mass_position.x", 0.4952973193, 2.0e-5, 0.4),
+        ("sleeve", "joint_position", 0.3590491251, 1.8e-6, 0.3),
         ("drill_stem", "end.x", 0.0004711695638, 4.6e-6, 0.2)):
     answer(name, quantity, value, uncertainty, "self-convergence", judged, t)
 

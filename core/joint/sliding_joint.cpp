@@ -138,10 +138,26 @@ class JointEquations {
   Square schur_inverse_;
 };
 
+/// Takes what `held` holds of the joint's place and slope out of its equations: there, a = 0.
+template <int D, int Unknowns>
+void hold(const Support<D>& held, Eigen::Matrix<double, Unknowns, Unknowns>& mass,
+          Eigen::Matrix<double, Unknowns, 1>& rhs) {
+  using Matrix = Eigen::Matrix<double, Unknowns, Unknowns>;
+  Matrix keep = Matrix::Identity();
+  const auto share = [&](const typename Support<D>::Components& free) -> Eigen::Matrix<double, D, D> {
+    return held.frame * free.matrix().asDiagonal() * held.frame.transpose();
+  };
+  keep.template block<D, D>(0, 0) = share(held.free_position);
+  keep.template block<D, D>(D, D) = share(held.free_slope);
+  const Matrix whole = mass.template selfadjointView<Eigen::Upper>();
+  mass = keep * whole * keep + (Matrix::Identity() - keep);
+  rhs = keep * rhs;
+}
+
 template <int D, bool Kinked>
 std::optional<double> solve(const Span<D>& left, const Span<D>& right, const MovingEquations<double, D>& left_element,
                             const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
-                            const JointMotion<D>& motion, double* force, double* joint_force) {
+                            const JointMotion<D>& motion, const Support<D>* held, double* force, double* joint_force) {
   constexpr int unknowns = (Kinked ? 3 : 2) * D + 1, behind = (Kinked ? 2 : 1) * D, x = unknowns - 1;
   using Equations = JointEquations<D, unknowns>;
   using Column = typename Equations::Column;
@@ -159,6 +175,7 @@ std::optional<double> solve(const Span<D>& left, const Span<D>& right, const Mov
   JointSide<D, unknowns, behind> right_side(right, right_element, 0);
   left_side.eliminate(force, mass, rhs);
   right_side.eliminate(force, mass, rhs);
+  if (held != nullptr) hold<D, unknowns>(*held, mass, rhs);
   const Equations equations(mass, joint, motion);
   if (!equations.positive_definite()) return std::nullopt;
   Column a = equations.solve(rhs, true);
@@ -190,9 +207,10 @@ template <int D>
 std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right,
                                        const MovingEquations<double, D>& left_element,
                                        const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
-                                       const JointMotion<D>& motion, double* force, double* joint_force) {
+                                       const JointMotion<D>& motion, const Support<D>* held, double* force,
+                                       double* joint_force) {
   const auto solution = joint.kinked() ? solve<D, true> : solve<D, false>;
-  return solution(left, right, left_element, right_element, joint, motion, force, joint_force);
+  return solution(left, right, left_element, right_element, joint, motion, held, force, joint_force);
 }
 
 template <int D>
@@ -216,11 +234,11 @@ void solve_without_joint(const Span<D>& left, const Span<D>& right, double* forc
 
 template std::optional<double> solve_with_joint(const Span<2>&, const Span<2>&, const MovingEquations<double, 2>&,
                                                 const MovingEquations<double, 2>&, const SlidingJoint&,
-                                                const JointMotion<2>&, double*, double*);
+                                                const JointMotion<2>&, const Support<2>*, double*, double*);
 template void solve_without_joint(const Span<2>&, const Span<2>&, double*);
 template std::optional<double> solve_with_joint(const Span<3>&, const Span<3>&, const MovingEquations<double, 3>&,
                                                 const MovingEquations<double, 3>&, const SlidingJoint&,
-                                                const JointMotion<3>&, double*, double*);
+                                                const JointMotion<3>&, const Support<3>*, double*, double*);
 template void solve_without_joint(const Span<3>&, const Span<3>&, double*);
 
 }  // namespace vlbeam

@@ -159,8 +159,8 @@ Axis<D> build_axis(const Scene& scene) {
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) {
   const int n = scene.beam.elements;
   InitialNodes nodes{uniform_nodes(breaks, n)};
-  if (!scene.sliding_mass) return nodes;
-  const double x = scene.sliding_mass->position;
+  if (!sliding_joint(scene)) return nodes;
+  const double x = sliding_joint(scene)->position;
   // the nearest interior node moves to the joint, unless the curve needs it where it is
   auto may_move = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
@@ -173,7 +173,7 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
     if (nodes.joint == no_joint || distance(k) <= distance(nodes.joint)) nodes.joint = k;
   }
   if (nodes.joint == no_joint) {
-    throw InvalidInput("/sliding_mass/position", number_text(x),
+    throw InvalidInput(joint_key(scene) + "/position", number_text(x),
                        "the sliding mass needs a node of its own between two knots of the curve: take more elements "
                        "than " +
                            std::to_string(n));
@@ -199,7 +199,7 @@ double standard_length(const Scene& scene) { return beam_length(scene) / scene.b
 
 AxisForm axis_form(const Scene& scene) {
   const bool curved = scene.beam.curve.type != CurveType::line;
-  const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && scene.sliding_mass);
+  const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && sliding_joint(scene));
   const bool exact = scene.setting == SceneSetting::ding_ouyang_2022 && curved && can_be_exact;
   return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
 }
@@ -213,13 +213,14 @@ WeightTransport weight_transport(const Scene& scene) {
 }
 
 double separation_distance(const Scene& scene) {
-  return scene.sliding_mass->separation_distance.value_or(separation_share * beam_length(scene));
+  return sliding_joint(scene)->separation_distance.value_or(separation_share * beam_length(scene));
 }
 
 double end_merge(const Scene& scene) {
-  const bool kinked = scene.sliding_mass && scene.sliding_mass->slopes != JointSlopes::continuous;
-  const bool stops = !scene.sliding_mass || scene.sliding_mass->at_support == AtSupport::stop;
-  const double otherwise = !scene.length_control.enabled || (kinked && stops) ? 0 : default_end_merge;
+  const bool kinked = sliding_joint(scene) && sliding_joint(scene)->slopes != JointSlopes::continuous;
+  const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
+  const bool held = joint_support(scene) != SupportType::free;  // a ring needs a node to hold
+  const double otherwise = !scene.length_control.enabled || (kinked && stops) || held ? 0 : default_end_merge;
   return scene.length_control.end_merge.value_or(otherwise);
 }
 
@@ -294,10 +295,15 @@ BeamModel<D> build_model(const Scene& scene) {
   model.end_motion = motion_of(scene.end);
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
-  if (scene.sliding_mass) {
-    model.joint = SlidingJoint{scene.sliding_mass->mass, scene.sliding_mass->slopes, scene.sliding_mass->friction};
+  if (const SlidingMassSpec* joint = sliding_joint(scene)) {
+    model.joint = SlidingJoint{joint->mass, joint->slopes, joint->friction};
+    const SupportType held = joint_support(scene);
+    if (held == SupportType::pin) model.joint_support = Support<D>::pin();
+    if (held == SupportType::clamp) {
+      model.joint_support = Support<D>::direction_clamp(axis.tangent(joint->position));
+    }
     model.separation_distance = separation_distance(scene);
-    model.at_support = {scene.sliding_mass->at_support, scene.sliding_mass->restitution};
+    model.at_support = {joint->at_support, joint->restitution};
   }
   model.masses.points = build_point_masses(scene, axis.breaks());
   model.time_is_load_factor = scene.analysis == Analysis::statics;
@@ -360,9 +366,9 @@ ChainState<D> build_chain(const Scene& scene) {
   }
   if (has_rest_shape(scene)) chain.rest = chain.q;
   add_rigid_motion(scene, axis, chain);
-  if (!scene.sliding_mass) return chain;
+  if (!sliding_joint(scene)) return chain;
   // the beam is at rest, so the moving node travels along it
-  chain.joint_rate = scene.sliding_mass->velocity;
+  chain.joint_rate = sliding_joint(scene)->velocity;
   const int j = chain.joint;
   auto r_x = slope<D>(chain.q.data(), j);
   position<D>(chain.rate.data(), j) += chain.joint_rate * r_x;
@@ -376,7 +382,7 @@ ChainState<D> build_chain(const Scene& scene) {
   const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
   before += turning;
   behind += turning;
-  const bool kinked = scene.sliding_mass->slopes != JointSlopes::continuous;
+  const bool kinked = sliding_joint(scene)->slopes != JointSlopes::continuous;
   if (kinked) chain.kink = {r_x, behind};
   slope<D>(chain.rate.data(), j) = kinked ? before : Vec<double, D>((before + behind) / 2);
   return chain;

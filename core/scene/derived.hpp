@@ -31,6 +31,18 @@ MergePolicy merge_policy(const Scene& scene);
 /// Whether an element's weights are 1, and stay so.
 inline bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
 
+/// What slides along the beam, or null; how it is held, and the pointer of its options.
+inline const SlidingMassSpec* sliding_joint(const Scene& scene) {
+  if (!scene.sliding_joints.empty()) return &scene.sliding_joints.front();
+  return scene.sliding_mass ? &*scene.sliding_mass : nullptr;
+}
+inline SupportType joint_support(const Scene& scene) {
+  return scene.sliding_joints.empty() ? SupportType::free : scene.sliding_joints.front().support;
+}
+inline std::string joint_key(const Scene& scene) {
+  return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/0";
+}
+
 /// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
 /// the beam is curved at rest.
 WeightTransport weight_transport(const Scene& scene);

@@ -422,68 +422,88 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   support("/supports/at=end", scene.end);
   section("/supports", "what holds the ends of the beam; one that is not listed is free");
 
-  if (visitor.present(
-          Option{.pointer = "/sliding_mass", .unit = "", .description = "a lumped mass that slides along the beam"},
-          scene.sliding_mass)) {
-    auto& mass = *scene.sliding_mass;
-    visitor(Option{.pointer = "/sliding_mass/mass",
+  const auto joint_options = [&](const std::string& at, bool massless, auto& mass) {
+    const std::string mass_at = at + "/mass", position = at + "/position", velocity = at + "/velocity",
+                      slopes = at + "/slopes", friction = at + "/friction", coefficient = friction + "/coefficient",
+                      fades = friction + "/velocity", separation = at + "/separation_distance",
+                      at_support = at + "/at_support", restitution = at + "/restitution";
+    visitor(Option{.pointer = mass_at,
                    .unit = "kg",
                    .description = "mass",
                    .source = example1,
-                   .range = Range::positive(),
-                   .required = true},
+                   .range = massless ? Range::non_negative() : Range::positive(),
+                   .required = !massless},
             mass.mass);
-    visitor(Option{.pointer = "/sliding_mass/position",
+    visitor(Option{.pointer = position,
                    .unit = "m",
                    .description = "material coordinate at t = 0, measured along the beam from its start",
                    .source = example1,
                    .range = Range::positive(),
                    .required = true},
             mass.position);
-    visitor(Option{.pointer = "/sliding_mass/velocity",
-                   .unit = "m/s",
-                   .description = "rate of the material coordinate at t = 0"},
+    visitor(Option{.pointer = velocity, .unit = "m/s", .description = "rate of the material coordinate at t = 0"},
             mass.velocity);
-    visitor(Option{.pointer = "/sliding_mass/slopes",
+    visitor(Option{.pointer = slopes,
                    .unit = "",
                    .description = "the beam's slopes before and behind the mass: one vector, one direction with two "
                                   "magnitudes, a kink with one magnitude, or independent",
                    .source = "Ding & Ouyang 2022, Eq. 39-40"},
             mass.slopes);
-    if (visitor.present(Option{.pointer = "/sliding_mass/friction",
+    if (visitor.present(Option{.pointer = friction,
                                .unit = "",
                                .description = "Coulomb friction between mass and beam, mu N tanh(v/velocity)"},
                         mass.friction)) {
-      visitor(Option{.pointer = "/sliding_mass/friction/coefficient",
+      visitor(Option{.pointer = coefficient,
                      .unit = "-",
                      .description = "mu, friction over the contact force normal to the beam",
                      .range = Range::non_negative(),
                      .required = true},
               mass.friction->coefficient);
-      visitor(Option{.pointer = "/sliding_mass/friction/velocity",
+      visitor(Option{.pointer = fades,
                      .unit = "m/s",
                      .description = "relative velocity below which friction fades",
                      .range = Range::positive()},
               mass.friction->velocity);
     }
     visitor(
-        Option{.pointer = "/sliding_mass/separation_distance",
+        Option{.pointer = separation,
                .unit = "m",
                .description = "distance from a free end where the mass leaves; 1e-3 of the beam's length if not given",
                .range = Range::positive()},
         mass.separation_distance);
-    constexpr std::string_view at_support = "/sliding_mass/at_support";
     visitor(Option{.pointer = at_support,
                    .unit = "",
                    .description = "what becomes of the mass at an end that it cannot leave: the run stops there, or it "
                                   "rests until the contact force turns, or it rebounds"},
             mass.at_support);
-    visitor(Option{.pointer = "/sliding_mass/restitution",
+    visitor(Option{.pointer = restitution,
                    .unit = "-",
                    .description = "of a rebound: speed along the beam after it over that before",
                    .range = Range::closed(0, 1),
                    .when = only_if(at_support, mass.at_support, AtSupport::rebound)},
             mass.restitution);
+  };
+  if (visitor.present(
+          Option{.pointer = "/sliding_mass", .unit = "", .description = "a lumped mass that slides along the beam"},
+          scene.sliding_mass)) {
+    joint_options("/sliding_mass", false, *scene.sliding_mass);
+  }
+  visitor.list(
+      Option{.pointer = "/sliding_joints",
+             .unit = "",
+             .description = "what slides along the beam, one so far: a mass, or a ring or a sleeve that is held "
+                            "in space"},
+      scene.sliding_joints);
+  for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+    auto& joint = scene.sliding_joints[i];
+    const std::string at = "/sliding_joints/" + std::to_string(i), held = at + "/support";
+    visitor(
+        Option{.pointer = held,
+               .unit = "",
+               .description = "free, with a mass; pin: a ring, held where the beam is at t = 0; clamp: a sleeve, which "
+                              "holds the beam's direction, too"},
+        joint.support);
+    joint_options(at, joint.support != SupportType::free, joint);
   }
 
   if (visitor.present(Option{.pointer = "/spin", .unit = "", .description = "the section's rotation about the axis"},

@@ -141,6 +141,14 @@ struct SlidingMassSpec {
   double restitution = 1;                     ///< of a rebound
 };
 
+/// What slides along the beam: a lumped mass, or, held in space, a ring (`pin`) or a sleeve (`clamp`), which holds the
+/// direction of the beam, too. What is held needs no mass.
+struct SlidingJointSpec : SlidingMassSpec {
+  SlidingJointSpec() { mass = 0; }
+
+  SupportType support = SupportType::free;
+};
+
 /// The section's rotation about the axis of the beam.
 struct SpinSpec {
   /// A node whose angle is prescribed [rad].
@@ -279,7 +287,8 @@ struct Scene {
   BeamSpec beam;
   SupportSpec start;
   SupportSpec end;
-  std::optional<SlidingMassSpec> sliding_mass;
+  std::optional<SlidingMassSpec> sliding_mass;        ///< short for one sliding joint that is free
+  std::vector<SlidingJointSpec> sliding_joints = {};  ///< at most one so far, and none beside a sliding mass
   std::optional<SpinSpec> spin;
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};

@@ -212,7 +212,7 @@ void check_beam(const Scene& scene) {
       refuse("/beam/axis", "\"exact\"",
              "a polynomial element holds no conic: it must be \"even\", or the element rational");
     }
-    if (has_rest_shape(scene) && scene.sliding_mass) {
+    if (has_rest_shape(scene) && sliding_joint(scene)) {
       refuse(
           "/beam/axis", "\"exact\"",
           "a mass that slides along an \"as-built\" beam needs \"even\": at an uneven speed the stretch at a node is "
@@ -226,9 +226,60 @@ void check_beam(const Scene& scene) {
   }
 }
 
+std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
+
+/// Rings and sleeves.
+void check_held_joint(const Scene& scene) {
+  if (scene.sliding_joints.empty()) return;
+  const std::string key = joint_key(scene);
+  if (scene.sliding_mass) {
+    refuse("/sliding_joints", "this key", "it does not go together with /sliding_mass, which is one of them");
+  }
+  if (scene.sliding_joints.size() > 1) {
+    refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", "so far it may have one");
+  }
+  const SlidingJointSpec& joint = scene.sliding_joints.front();
+  const std::string support = quoted(to_string(joint.support));
+  if (joint.support == SupportType::free) {
+    if (!(joint.mass > 0)) {
+      refuse(key + "/mass", number_text(joint.mass),
+             "nothing holds this joint: without a mass it has no motion of its own");
+    }
+    return;
+  }
+  if (joint.support == SupportType::slide) {
+    refuse(key + "/support", support, "it must be \"free\", \"pin\" (a ring) or \"clamp\" (a sleeve)");
+  }
+  if (joint.velocity != 0) {
+    refuse(key + "/velocity", number_text(joint.velocity), "what is held starts at rest, with the beam in it");
+  }
+  if (joint.friction) refuse(key + "/friction", "this key", "only of a joint that is \"free\", so far");
+  if (joint.at_support != AtSupport::stop) {
+    refuse(key + "/at_support", quoted(to_string(joint.at_support)), "of a joint that is held it must be \"stop\"");
+  }
+  if (scene.length_control.end_merge.value_or(0) > 0) {
+    refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
+           "a joint that is held keeps its node to the last: it must be 0");
+  }
+  if (scene.length_control.velocities == VelocityTransfer::conservative) {
+    refuse("/length_control/velocities", "\"conservative\"", "with a joint that is held take \"projected\"");
+  }
+  if (scene.integrator.type == IntegratorType::energy_momentum) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it knows no joint that is held: take any other");
+  }
+  if (joint.support == SupportType::pin) return;
+  if (joint.slopes != JointSlopes::continuous) {
+    refuse(key + "/slopes", quoted(to_string(joint.slopes)), "in a sleeve they must be \"continuous\"");
+  }
+  if (merge_policy(scene) == MergePolicy::least_change) {
+    refuse("/length_control/merge", "\"least-change\"", "it changes slopes that a sleeve holds: take another policy");
+  }
+}
+
 void check_sliding_mass(const Scene& scene) {
-  if (!scene.sliding_mass) return;
-  const SlidingMassSpec& mass = *scene.sliding_mass;
+  if (!sliding_joint(scene)) return;
+  const SlidingMassSpec& mass = *sliding_joint(scene);
   const double length = beam_length(scene);
 
   if (scene.beam.element == ElementKind::rancf || scene.beam.element == ElementKind::ancf) {
@@ -238,19 +289,17 @@ void check_sliding_mass(const Scene& scene) {
   // A mass on a node of the support, or of the free tip, would leave an element without length.
   const double margin = 1e-9 * length;
   if (!(mass.position > margin && mass.position < length - margin)) {
-    refuse("/sliding_mass/position", number_text(mass.position),
+    refuse(joint_key(scene) + "/position", number_text(mass.position),
            "the mass must be inside the beam and not on its ends: more than " + number_text(margin) +
                " and less than " + number_text(length - margin) + " [m]");
   }
   place_nodes(scene, build_axis<3>(scene).breaks());
   const double half_element = standard_length(scene) / 2;
   if (mass.separation_distance && !(*mass.separation_distance < half_element)) {
-    refuse("/sliding_mass/separation_distance", number_text(*mass.separation_distance),
+    refuse(joint_key(scene) + "/separation_distance", number_text(*mass.separation_distance),
            "it must be less than half an element, " + number_text(half_element) + " [m]");
   }
 }
-
-std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
 void check_length_control(const Scene& scene) {
   const LengthControlSpec& control = scene.length_control;
@@ -278,35 +327,35 @@ void check_length_control(const Scene& scene) {
     refuse("/length_control/merge", control.merge ? quoted(to_string(*control.merge)) : "left out",
            "with a merge rule it must be \"own\"");
   }
-  if (scene.sliding_mass && scene.sliding_mass->at_support != AtSupport::stop && end_merge(scene) == 0) {
+  if (sliding_joint(scene) && sliding_joint(scene)->at_support != AtSupport::stop && end_merge(scene) == 0) {
     refuse(control.enabled ? "/length_control/end_merge" : "/length_control/enabled", control.enabled ? "0" : "false",
-           "\"at_support\": " + quoted(to_string(scene.sliding_mass->at_support)) +
+           "\"at_support\": " + quoted(to_string(sliding_joint(scene)->at_support)) +
                " needs a mass that reaches the support: take " + (control.enabled ? "a number in (0, 0.9]" : "true") +
                ", or \"at_support\": \"stop\"");
   }
 }
 
 void check_joint(const Scene& scene) {
-  if (!scene.sliding_mass) return;
-  const SlidingMassSpec& mass = *scene.sliding_mass;
+  if (!sliding_joint(scene)) return;
+  const SlidingMassSpec& mass = *sliding_joint(scene);
   const IntegratorType type = scene.integrator.type;
   if (mass.slopes != JointSlopes::continuous) {
     const bool eliminated = scene.constraints == Constraints::eliminated;
     if (type == IntegratorType::generalized_alpha && eliminated) {
-      refuse("/sliding_mass/slopes", quoted(to_string(mass.slopes)),
+      refuse(joint_key(scene) + "/slopes", quoted(to_string(mass.slopes)),
              "\"generalized-alpha\" needs \"constraints\": \"multipliers\" for two slopes at the mass, or an explicit "
              "integrator; with \"eliminated\" they must be \"continuous\"");
     }
     if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum ||
         type == IntegratorType::cvode) {
-      refuse("/sliding_mass/slopes", quoted(to_string(mass.slopes)),
+      refuse(joint_key(scene) + "/slopes", quoted(to_string(mass.slopes)),
              quoted(to_string(type)) +
                  " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\" with "
                  "\"constraints\": \"multipliers\"");
     }
   }
   if (mass.friction && type == IntegratorType::energy_momentum) {
-    refuse("/sliding_mass/friction", "this key",
+    refuse(joint_key(scene) + "/friction", "this key",
            "\"energy-momentum\" has no friction: take another integrator, or leave it out");
   }
 }
@@ -325,7 +374,7 @@ void check_energy_momentum(const Scene& scene) {
     refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
            "it knows no /point_masses: take any other integrator");
   }
-  if (!scene.sliding_mass) return;
+  if (!sliding_joint(scene)) return;
   if (scene.formulation != Formulation::variational) {
     refuse("/formulation", quoted(to_string(scene.formulation)),
            "\"energy-momentum\" with a sliding mass needs \"variational\": the virtual work has no energy to keep");
@@ -383,7 +432,7 @@ void check_support_motion(const Scene& scene) {
       refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
              "it keeps an energy that moving supports change: take any other integrator");
     }
-    if (scene.sliding_mass && scene.length_control.velocities == VelocityTransfer::conservative) {
+    if (sliding_joint(scene) && scene.length_control.velocities == VelocityTransfer::conservative) {
       refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
              "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
     }
@@ -452,8 +501,8 @@ void check_point_masses(const Scene& scene) {
   }
   if (scene.point_masses.empty()) return;
   if (flows(scene)) refuse("/point_masses", "this key", "it goes together with neither /flow nor rotary inertia");
-  if (scene.sliding_mass && scene.sliding_mass->slopes != JointSlopes::continuous) {
-    refuse("/sliding_mass/slopes", quoted(to_string(scene.sliding_mass->slopes)),
+  if (sliding_joint(scene) && sliding_joint(scene)->slopes != JointSlopes::continuous) {
+    refuse(joint_key(scene) + "/slopes", quoted(to_string(sliding_joint(scene)->slopes)),
            "with /point_masses they must be \"continuous\": a kink that passes over a mass is an impact");
   }
 }
@@ -462,6 +511,9 @@ template <int D>
 void check_initial_velocity(const Scene& scene) {
   if (!scene.initial_velocity) return;
   const InitialVelocitySpec& motion = *scene.initial_velocity;
+  if (joint_support(scene) != SupportType::free) {
+    refuse("/initial_velocity", "this key", "not with a joint that is held, so far");
+  }
   if (flows(scene)) {
     refuse("/initial_velocity", "this key", "it goes together with neither /flow nor rotary inertia");
   }
@@ -483,10 +535,10 @@ void check_initial_velocity(const Scene& scene) {
 
 void check_statics(const Scene& scene) {
   if (scene.analysis != Analysis::statics) return;
-  const auto none = [&](bool there, const char* key, const char* why) {
+  const auto none = [&](bool there, const std::string& key, const char* why) {
     if (there) refuse(key, "this key", std::string("statics knows none: ") + why);
   };
-  none(scene.sliding_mass.has_value(), "/sliding_mass", "put a mass that stays where it is into /point_masses");
+  none(sliding_joint(scene) != nullptr, joint_key(scene), "put a mass that stays where it is into /point_masses");
   none(scene.spin.has_value(), "/spin", "leave it out");
   none(scene.flow.has_value(), "/flow", "leave it out, or start a motion from its \"steady\" flow");
   none(scene.initial_velocity.has_value(), "/initial_velocity", "leave it out");
@@ -561,6 +613,7 @@ void validate(const Scene& scene) {
   check_sizes(scene);
   check_curve(scene);
   check_beam(scene);
+  check_held_joint(scene);
   check_sliding_mass(scene);
   check_length_control(scene);
   check_integrator(scene);

@@ -25,8 +25,8 @@ std::string quoted(E value) {
 }
 
 void check_parts(const Scene& scene) {
-  if (scene.sliding_mass) {
-    refuse("/sliding_mass", "this key", "it goes together with neither /spin, /flow nor rotary inertia");
+  if (sliding_joint(scene)) {
+    refuse(joint_key(scene), "this key", "it goes together with neither /spin, /flow nor rotary inertia");
   }
   if (flows(scene) && scene.beam.curve.type != CurveType::line) {
     refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /flow or rotary inertia it must be \"line\"");

@@ -22,6 +22,7 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
   initial_ = state_of(chain, {});
   if (spin_) spin_->start(initial_.data() + nodal_, initial_.data() + coordinates_ + nodal_);
   anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
+  if (has_joint()) joint_anchor_ = initial_.segment<node_size<D>>(Eigen::Index{node_size<D>} * joint_);
   impose(initial_, 0);
   ramp_ = RampWork<D>(model.gravity, model.gravity_ramp);
 }
@@ -35,7 +36,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   mesh_ = chain.mesh;
   rest_ = chain.rest;
   joint_ = chain.joint;
-  free_mass_ = model_.joint.has_value() && joint_ == no_joint && !chain.rider;
+  free_mass_ = model_.joint && !model_.joint_support && joint_ == no_joint && !chain.rider;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
   spin_.reset();
   if (model_.spin) {
@@ -151,7 +152,7 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
 
 template <int D>
 std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y) const {
-  if (!model_.joint) return std::nullopt;
+  if (!model_.joint || !(mass_on_beam() || free_mass_)) return std::nullopt;
   if (rider_) {
     const auto at = rider_motion(y.data(), y.data() + coordinates_);
     return MassMotion{at.r, at.v};
@@ -404,7 +405,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     power.dissipated += before.dissipation + behind.dissipation;
     if (driven) pull.emplace(*this, &at_joint, force, t);
     const auto friction = solve_with_joint(*left_, *right_, before, behind, *model_.joint, joint_motion(q, rate, t),
-                                           force, force + nodal_);
+                                           held_joint(), force, force + nodal_);
     if (!friction) {
       dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
       return;

@@ -38,6 +38,8 @@ struct BeamModel {
   std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no sliding mass
   PointMasses<D> masses;
   std::optional<SlidingJoint> joint;
+  /// What holds the place of the joint's node in space: of a ring, a pin; of a sleeve, a clamp of the direction.
+  std::optional<Support<D>> joint_support;
   double separation_distance = 0;  ///< [m]
   Impact at_support;               ///< where the mass may not leave
   LengthControl length_control;
@@ -155,6 +157,12 @@ class BeamSystem final : public EventedOde {
   };
   /// Empty unless the mass rides inside an element.
   const std::optional<Riding>& rider() const { return rider_; }
+  /// What holds the joint's node, or null.
+  const Support<D>* held_joint() const {
+    return has_joint() && model_.joint_support ? &*model_.joint_support : nullptr;
+  }
+  /// The mass has left the beam, and is in the state.
+  bool has_free_mass() const { return free_mass_; }
   /// The mass is on the beam.
   bool mass_on_beam() const { return has_joint() || rider_; }
   /// Motion of the rider, of arrays like q and q' with x behind the nodes.
@@ -204,6 +212,8 @@ class BeamSystem final : public EventedOde {
   const Span<D>& right() const { return *right_; }
   /// What the supports hold: position and slope of the first and of the last node at the start.
   const std::array<Eigen::Matrix<double, node_size<D>, 1>, 2>& anchors() const { return anchors_; }
+  /// Where the joint's node was at the start: what a ring or a sleeve holds.
+  const Eigen::Matrix<double, node_size<D>, 1>& joint_anchor() const { return joint_anchor_; }
   /// What the supports at start and end prescribe at time t.
   std::array<DrivenPoint<D>, 2> driven_points(double t) const {
     return {model_.start_motion.at(model_.start, t), model_.end_motion.at(model_.end, t)};
@@ -298,6 +308,7 @@ class BeamSystem final : public EventedOde {
   std::array<double, 2> end_limit_{};  ///< [m], of the last and of the first element
   double cut_limit_ = 0;               ///< distance of a rider from the end at which it gets a node [m]
   bool free_mass_ = false;
+  Eigen::Matrix<double, node_size<D>, 1> joint_anchor_ = Eigen::Matrix<double, node_size<D>, 1>::Zero();
   Eigen::Index nodal_ = 0, coordinates_ = 0;
   Eigen::Index behind_ = 0;  ///< where q holds the slope behind the joint: the node's own, unless the joint is kinked
   std::optional<Span<D>> left_, right_;

@@ -240,7 +240,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const Eigen::VectorXd old = y;
   adopt(record.after);
   y = state_of(record.after, old);
-  if (leaving) {
+  if (free_mass_ && leaving) {
     y.segment<D>(nodal_) = mass->r;
     y.segment<D>(coordinates_ + nodal_) = mass->v;
   }

@@ -19,14 +19,16 @@ template <int D>
 double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const {
   const Eigen::Map<const NodeVector> here(q + Eigen::Index{B} * node), next(q + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
-  return direction.dot(here - anchor) - direction.template head<D>().dot(driven[node == 0 ? 0 : 1].value);
+  const double off = direction.dot(here - anchor);
+  return end < 0 ? off : off - direction.template head<D>().dot(driven[static_cast<std::size_t>(end)].value);
 }
 
 template <int D>
 double ImplicitBeam<D>::Constraint::rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const {
   const Eigen::Map<const NodeVector> here(v + Eigen::Index{B} * node), next(v + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
-  return direction.dot(here) - direction.template head<D>().dot(driven[node == 0 ? 0 : 1].rate);
+  const double off = direction.dot(here);
+  return end < 0 ? off : off - direction.template head<D>().dot(driven[static_cast<std::size_t>(end)].rate);
 }
 
 template <int D>
@@ -37,20 +39,21 @@ void ImplicitBeam<D>::refresh() const {
   slope_conditions_ = {};
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
   if (!with_multipliers()) return;
-  at_end_nodes([&](int node, const Support<D>& support) {
-    const NodeVector& anchor = system_.anchors()[node == 0 ? 0 : 1];
+  at_held_nodes([&](int node, const Support<D>& support) {
+    const int end = node == 0 ? 0 : node == nodes() - 1 ? 1 : -1;
+    const NodeVector& anchor = end < 0 ? system_.joint_anchor() : system_.anchors()[static_cast<std::size_t>(end)];
     for (int c = 0; c < D; ++c) {
       NodeVector direction = NodeVector::Zero();
       direction.template head<D>() = support.frame.col(c);
-      if (support.free_position[c] == 0) constraints_.push_back({node, direction, anchor, false});
+      if (support.free_position[c] == 0) constraints_.push_back({node, direction, anchor, end});
       direction.template head<D>().setZero();
       direction.template tail<D>() = support.frame.col(c);
-      if (support.free_slope[c] == 0) constraints_.push_back({node, direction, anchor, false});
+      if (support.free_slope[c] == 0) constraints_.push_back({node, direction, anchor, end});
     }
   });
   if (!system_.has_joint()) return;
   for (int c = 0; c < (system_.kinked() ? D : B); ++c) {
-    constraints_.push_back({system_.joint(), NodeVector::Unit(c), NodeVector::Zero(), true});
+    constraints_.push_back({system_.joint(), NodeVector::Unit(c), NodeVector::Zero(), -1, true});
   }
   slope_conditions_ = {system_.model().joint->slopes, omitted_axis_};
 }
@@ -93,7 +96,7 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   auto runs = nodal_fields(D, nodes());
   if (system_.has_joint() || system_.rider()) {
     runs.push_back({Field::mark, after_nodes()});
-  } else if (system_.model().joint) {
+  } else if (system_.has_free_mass()) {
     runs.push_back({Field::mass, after_nodes(), D});
   }
   if (const Spin* spin = system_.spin()) {
@@ -160,9 +163,11 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   free_residual(q, v, a, t, free_);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
-    const int node = constraint.node + (constraint.tied ? 1 : 0);
-    const double lacking =
-        constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + Eigen::Index{B} * node));
+    const auto lacks = [&](int node) {
+      return constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + Eigen::Index{B} * node));
+    };
+    const bool second = constraint.node == system_.joint() && cut() > 0;  // what holds a joint holds both of its nodes
+    const double lacking = (constraint.tied ? 0 : lacks(constraint.node)) + (second ? lacks(constraint.node + 1) : 0);
     a[a.size() - multipliers() + static_cast<Eigen::Index>(i)] = (constraint.tied ? 1 : -1) * lacking / reference_mass_;
   }
   if (slope_conditions_.count() == 0) return;
@@ -182,8 +187,15 @@ void ImplicitBeam<D>::at_end_nodes(const Function& function) const {
 }
 
 template <int D>
+template <class Function>
+void ImplicitBeam<D>::at_held_nodes(const Function& function) const {
+  at_end_nodes(function);
+  if (const Support<D>* held = system_.held_joint()) function(system_.joint(), *held);
+}
+
+template <int D>
 void ImplicitBeam<D>::project(double* nodes) const {
-  at_end_nodes([&](int k, const Support<D>& support) {
+  at_held_nodes([&](int k, const Support<D>& support) {
     auto keep = [&](auto part, const typename Support<D>::Components& free) {
       part = support.out_of_frame((support.into_frame(part).array() * free).matrix());
     };
@@ -247,7 +259,7 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     slope<D>(r.data(), rider->element + 1) += part.nodes[3];
     r[extra] = part.x;
     dissipation += part.dissipation;
-  } else if (model.joint) {
+  } else if (system_.has_free_mass()) {
     r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
   }
   if (Spin* spin = system_.spin()) {
@@ -428,7 +440,7 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     add_element(tangent_.add_border(rider->element), rider->element,
                 rider_tangent<D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
                                  a[extra], *model.joint, system_.gravity(t), rider->held, by_v, by_a));
-  } else if (model.joint) {
+  } else if (system_.has_free_mass()) {
     for (int c = 0; c < D; ++c) tangent_.add_border(0);
     tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
   }
@@ -490,7 +502,7 @@ void ImplicitBeam<D>::add_friction_tangent(const Eigen::VectorXd& q, const Eigen
 template <int D>
 void ImplicitBeam<D>::constrain_tangent() {
   const std::size_t last = tangent_.diagonal.size() - 1;
-  at_end_nodes([&](int node, const Support<D>& support) {
+  at_held_nodes([&](int node, const Support<D>& support) {
     if ((support.free_position > 0).all() && (support.free_slope > 0).all()) return;
     Block keep = Block::Zero();
     keep.template topLeftCorner<D, D>() =
@@ -502,13 +514,13 @@ void ImplicitBeam<D>::constrain_tangent() {
     size.template head<D>().setConstant(tangent_.diagonal[k].diagonal().template head<D>().cwiseAbs().maxCoeff());
     size.template tail<D>().setConstant(tangent_.diagonal[k].diagonal().template tail<D>().cwiseAbs().maxCoeff());
     tangent_.diagonal[k] = keep * tangent_.diagonal[k] * keep + size.asDiagonal() * (Block::Identity() - keep);
-    if (k == 0) {
-      tangent_.upper[0] = keep * tangent_.upper[0];
-      tangent_.lower[1] = tangent_.lower[1] * keep;
+    if (k < last) {
+      tangent_.upper[k] = keep * tangent_.upper[k];
+      tangent_.lower[k + 1] = tangent_.lower[k + 1] * keep;
     }
-    if (k == last) {
-      tangent_.lower[last] = keep * tangent_.lower[last];
-      tangent_.upper[last - 1] = tangent_.upper[last - 1] * keep;
+    if (k > 0) {
+      tangent_.lower[k] = keep * tangent_.lower[k];
+      tangent_.upper[k - 1] = tangent_.upper[k - 1] * keep;
     }
     for (auto& border : tangent_.border) {
       const int reached = node - border.first;
@@ -613,6 +625,11 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     acceleration = position<D>(a.data(), system_.joint());  // its node moves with the mass
   }
   forces.on_mass = system_.model().joint->mass * (acceleration - system_.gravity(t));
+  if (system_.held_joint() != nullptr) {  // what holds it does the rest
+    const int j = system_.joint();
+    forces.on_mass -= position<D>(free_.data(), j);
+    if (cut() > 0) forces.on_mass -= position<D>(free_.data(), j + 1);
+  }
   return forces;
 }
 

@@ -72,7 +72,8 @@ class ImplicitBeam final : public SecondOrderSystem {
     int node;
     NodeVector direction;
     NodeVector anchor;
-    bool tied;
+    int end;  ///< of the beam, 0 or 1, whose support holds it; -1 for another
+    bool tied = false;
 
     double value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const;
     double rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const;
@@ -118,6 +119,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   double wave_time() const;       ///< of an axial wave through such an element [s]
   template <class Function>
   void at_end_nodes(const Function& function) const;
+  /// The nodes at the ends, and one at a joint that is held.
+  template <class Function>
+  void at_held_nodes(const Function& function) const;
 
   BeamSystem<D>& system_;
   ConservingStep<D> conserving_step_;

@@ -27,7 +27,8 @@ bool BeamSystem<D>::solve_mass(const JointElements* elements, const double* q, d
     return solved.has_value();
   }
   const JointMotion<D> at_rest{joint_slopes(q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero()};
-  return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, at_rest, p, p + nodal_)
+  return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, at_rest, held_joint(), p,
+                          p + nodal_)
       .has_value();
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/simulate.hpp"
@@ -85,7 +86,7 @@ std::string case_number(std::size_t i) {
 
 std::vector<std::string> default_quantities(const Scene& scene) {
   std::vector<std::string> names;
-  if (scene.sliding_mass) names.emplace_back("joint_position");
+  if (sliding_joint(scene)) names.emplace_back("joint_position");
   for (int i = 0; i < scene.dimension; ++i) names.push_back(std::string("end.") + "xyz"[i]);
   names.emplace_back("energy.total");
   return names;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/shape.hpp"
 #include "studies/harness/gnuplot.hpp"
@@ -178,7 +179,13 @@ Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, s
   constexpr double same_time = 1e-9, nan = std::numeric_limits<double>::quiet_NaN();  // of the duration
   const auto x = run.column(find_quantity(run.scene, names[across]));
   const auto y = run.column(find_quantity(run.scene, names[up]));
-  Series masses{"mass", {}, {}, Series::Style::points};
+  const SupportType held = joint_support(run.scene);
+  Series masses{held == SupportType::pin     ? "ring"
+                : held == SupportType::clamp ? "sleeve"
+                                             : "mass",
+                {},
+                {},
+                Series::Style::points};
   for (const Configuration& shape : shapes) {
     const auto sample =
         std::ranges::find_if(run.t, [&](double t) { return std::abs(t - shape.t) <= same_time * run.scene.duration; });
@@ -211,7 +218,7 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
     diagram.series.push_back(std::move(series));
   }
   diagram.equal_scales = comparable(diagram);
-  if (run.scene.sliding_mass) diagram.series.push_back(masses_at(run, shapes, across, up));
+  if (sliding_joint(run.scene)) diagram.series.push_back(masses_at(run, shapes, across, up));
   return diagram;
 }
 
@@ -264,7 +271,7 @@ void draw_animation(const RunFile& run, const std::filesystem::path& figure) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     script += "set title " + text_of(diagram.title + ", t = " + diagram.series[i].title + " s") + "\nplot data index " +
               std::to_string(i) + " using 1:2 with lines linewidth 3 linecolor rgb '#08306b'";
-    if (run.scene.sliding_mass) {
+    if (sliding_joint(run.scene)) {
       const std::string frame = std::to_string(i);
       script += ", data index " + std::to_string(shapes.size()) + " every ::" + frame + "::" + frame +
                 " using 1:2 with points pointtype 7 pointsize 2 linecolor rgb '#a63603'";
@@ -313,7 +320,7 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
     if (run.scene.dimension == 3) tip.emplace_back("end.z");
     diagram = history_diagram(run, tip, "position of the beam's end (m)");
   } else if (what == "joint") {
-    if (!run.scene.sliding_mass) throw InvalidInput("--what", "\"joint\"", "this scene has no sliding mass");
+    if (!sliding_joint(run.scene)) throw InvalidInput("--what", "\"joint\"", "this scene has no sliding mass");
     diagram = history_diagram(run, {"joint_position"}, "material coordinate of the mass (m)");
   } else if (what == "strain") {
     diagram = along_diagram(run, &ShapePoint::strain, "axial strain (-)");

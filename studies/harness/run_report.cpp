@@ -251,7 +251,12 @@ std::string point_text(const Point& point, int dimension) {
 std::string beam_text(const Scene& scene) {
   std::string text = std::to_string(scene.beam.elements) + " elements " + std::string(to_string(scene.beam.element)) +
                      ", " + std::string(to_string(scene.formulation)) + ", " + short_number(beam_length(scene)) + " m";
-  if (scene.sliding_mass) text += "; " + short_number(scene.sliding_mass->mass) + " kg slides on it";
+  if (const SlidingMassSpec* joint = sliding_joint(scene)) {
+    const SupportType held = joint_support(scene);
+    text += held == SupportType::pin     ? "; runs through a ring"
+            : held == SupportType::clamp ? "; runs through a sleeve"
+                                         : "; " + short_number(joint->mass) + " kg slides on it";
+  }
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";
   if (!scene.point_masses.empty()) text += "; " + std::to_string(scene.point_masses.size()) + " point masses";

@@ -241,7 +241,7 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
     q.vector("angular_momentum", "angular_momentum", "kg m^2/s", angular,
              [](const Sample& s) -> Point { return s.angular_momentum; });
   }
-  if (scene.sliding_mass) add_joint(q);
+  if (sliding_joint(scene)) add_joint(q);
   add_strains(q);
   add_reactions(q, scene);
   if (has_flow_sample(scene)) add_flow(q, scene);

@@ -334,6 +334,7 @@ class Writer {
 Scene scene_with_every_part() {
   Scene scene;
   scene.sliding_mass.emplace().friction.emplace();
+  scene.sliding_joints.emplace_back().friction.emplace();
   scene.start.motion.emplace();
   scene.end.motion.emplace();
   scene.spin.emplace().drives.emplace_back();
@@ -380,9 +381,8 @@ Scene read_scene(const std::filesystem::path& file) {
 Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
   filled.beam.quadrature_points = quadrature_points(scene);
-  if (auto& mass = filled.sliding_mass; mass && !mass->separation_distance) {
-    mass->separation_distance = separation_distance(scene);
-  }
+  if (filled.sliding_mass) filled.sliding_mass->separation_distance = separation_distance(scene);
+  for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene);
   filled.length_control.end_merge = end_merge(scene);
   if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);
   filled.length_control.merge = merge_policy(scene);

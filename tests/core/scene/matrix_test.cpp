@@ -42,9 +42,17 @@ SlidingMassSpec& mass(Scene& scene) {
   return *scene.sliding_mass;
 }
 
+void held(Scene& scene, SupportType support) {
+  SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
+  joint.support = support;
+  joint.position = 0.45;
+}
+
 const std::vector<Feature>& features() {
   static const std::vector<Feature> all{
       {"sliding mass", [](Scene& s) { mass(s); }},
+      {"ring", [](Scene& s) { held(s, SupportType::pin); }},
+      {"sleeve", [](Scene& s) { held(s, SupportType::clamp); }},
       {"two slopes at the mass", [](Scene& s) { mass(s).slopes = JointSlopes::equal_stretch; }},
       {"friction at the mass",
        [](Scene& s) {
