@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "core/geometry/rational_cubic.hpp"
 
@@ -18,8 +19,8 @@ struct MergedWeights {
 
 /// Weights by which the merged element of length `l` with nodal coordinates `e` passes through `deleted`, the position
 /// of the deleted node, at its old parameter `u`; of all such weights those with the least |k - 1|
-/// (Ding & Ouyang 2022, Eq. 31-38). As in the paper weights are measured against w_3, whichever way the joint goes: the
-/// mirror image of a merge may get other weights.
+/// (Ding & Ouyang 2022, Eq. 31-38). Throws std::domain_error where something is not finite. As in the paper weights are
+/// measured against w_3, whichever way the joint goes: the mirror image of a merge may get other weights.
 template <int D>
 MergedWeights point_fit(const NodalCubic<double, D>& e, double l, double u, const Vec<double, D>& deleted) {
   // K(u) (r(u) - r_H) = 0 is linear in k: columns of k_0, k_1, k_2 and what is left
@@ -31,6 +32,9 @@ MergedWeights point_fit(const NodalCubic<double, D>& e, double l, double u, cons
   matrix.col(2) = 3 * u * u * v * b;
   const Vec<double, D> rest = u * u * u * b - l * u * u * v * e.s_b;
   const Vec<double, D> misfit = -(rest + matrix.rowwise().sum());
+  if (!matrix.allFinite() || !misfit.allFinite()) {  // of which no decomposition says anything, not even that it failed
+    throw std::domain_error("an element is to be merged whose shape is not finite: the motion has broken down");
+  }
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
   svd.setThreshold(1e-12);  // a straight element has one equation, whatever rounding adds to the others
   const Eigen::Vector3d x = svd.solve(misfit);

@@ -102,7 +102,7 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
     } catch (const ComputationFailed&) {
       // looking at it is what failed
     }
-  } catch (const std::domain_error& refused) {  // what a rule of the program's own gave
+  } catch (const std::domain_error& refused) {  // a merge that cannot be made
     result.status = RunStatus::failed;
     result.failure = refused.what();
     result.failure_time = t;

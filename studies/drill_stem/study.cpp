@@ -122,12 +122,13 @@ Gap ledger(const Stem& stem, int elements, double duration) {
   const auto after = beam.observe(y, t);
   const Tally book = beam.ledger(y);
   const double passed = std::abs(book.ends) + std::abs(book.loads);
-  return {.energy = std::abs(after.energy.total() - before.energy.total() - book.ends - book.loads - book.mesh) / passed,
-          .mass = std::abs(after.mass - before.mass - book.mass) / book.mass,
-          .momentum = (after.momentum - before.momentum - book.impulse).norm() / book.impulse.norm(),
-          .spin_momentum =
-              std::abs(after.spin_momentum - before.spin_momentum - book.spin_impulse) / std::abs(book.spin_impulse),
-          .mesh = std::abs(book.mesh) / passed};
+  return {
+      .energy = std::abs(after.energy.total() - before.energy.total() - book.ends - book.loads - book.mesh) / passed,
+      .mass = std::abs(after.mass - before.mass - book.mass) / book.mass,
+      .momentum = (after.momentum - before.momentum - book.impulse).norm() / book.impulse.norm(),
+      .spin_momentum =
+          std::abs(after.spin_momentum - before.spin_momentum - book.spin_impulse) / std::abs(book.spin_impulse),
+      .mesh = std::abs(book.mesh) / passed};
 }
 
 StudyReport run(const StudyContext& context) {

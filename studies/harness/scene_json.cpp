@@ -334,7 +334,8 @@ class Writer {
 Scene scene_with_every_part() {
   Scene scene;
   scene.sliding_mass.emplace().friction.emplace();
-  scene.sliding_joints.emplace_back().friction.emplace();
+  scene.sliding_joints.emplace_back().support = SupportType::pin;  // one that needs no mass
+  scene.sliding_joints.back().friction.emplace();
   scene.start.motion.emplace();
   scene.end.motion.emplace();
   scene.spin.emplace().drives.emplace_back();

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <limits>
+#include <stdexcept>
+
+#include <Eigen/LU>
 
 #include "tests/core/support/arc.hpp"
 #include "tests/core/support/element_family.hpp"
@@ -132,6 +134,17 @@ TYPED_TEST(PointFit, TakesUnitWeightsWhereNoPositiveOnesWouldDo) {
   const auto merged = point_fit<D>(e, l, 0.5, l / 2 * x + l * y);  // far beside a straight element
   EXPECT_TRUE(merged.unit_fallback);
   EXPECT_EQ(merged.weights(), unit_weights);
+}
+
+// A decomposition of what is not finite would read memory that nobody has written.
+TYPED_TEST(PointFit, RefusesAShapeThatIsNotFinite) {
+  constexpr int D = TypeParam::value;
+  const Vec<double, D> x = Vec<double, D>::Unit(0);
+  for (const double broken : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const NodalCubic<double, D> e{0 * x, x, l * x, broken * x};
+    EXPECT_THROW(point_fit<D>(e, l, 0.5, l / 2 * x), std::domain_error);
+    EXPECT_THROW(point_fit<D>({0 * x, x, l * x, x}, l, 0.5, broken * x), std::domain_error);
+  }
 }
 
 TEST(PointFit, IsTheSameForAPlanarCurveInSpace) {

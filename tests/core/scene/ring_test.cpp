@@ -84,7 +84,7 @@ TEST(Ring, KeepsTheEnergyAndTheMomentum) {
   for (const SupportType support : {SupportType::pin, SupportType::clamp}) {
     for (const ElementKind element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
       const RunResult run = completed(through(support, element));
-      const double largest = run.samples.back().flow->ledger->loads;
+      const double largest = run.samples.back().flow->ledger.loads;
       EXPECT_GT(largest, 0.1);
       EXPECT_LT(run.max_energy_drift, 1e-9 * largest) << run.max_energy_drift;
     }
