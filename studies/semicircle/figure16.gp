@@ -6,7 +6,7 @@ set multiplot layout 2,2 title "Mass sliding on a suspended semicircular beam\n{
 set title "(a) configurations, N = " . finest
 set size ratio -1
 set xrange [-2.2:2.2]
-set yrange [-2.6:0.5]
+set yrange [-2.6:0.9]
 set xlabel "X (m)"
 set ylabel "Y (m)"
 set palette defined (0 "#08306b", 0.25 "#2171b5", 0.5 "#6baed6", 0.75 "#fdae6b", 1 "#a63603")
@@ -51,7 +51,7 @@ stats csv(history) using "gravity_n".finest every ::0::0 nooutput
 gravity = STATS_mean
 stats csv(history) using "total_n".finest every ::0::0 nooutput
 total = STATS_mean
-set yrange [-40:45]
+set yrange [-40:60]  # room for the key
 plot csv(history) using "t":"kinetic_n".finest with lines linewidth 2 linecolor rgb "#a63603" title "kinetic", \
      "" using "t":(column("strain_n".finest) - strain) with lines linewidth 2 linecolor rgb "#4292c6" title "strain", \
      "" using "t":(column("gravity_n".finest) - gravity) with lines linewidth 2 linecolor rgb "#08306b" title "gravity", \

@@ -7,7 +7,7 @@ set xrange [4:50]
 set xtics (5, 10, 20, 30, 40)
 set format y "10^{%T}"
 set xlabel "elements N"
-set key bottom right
+set key bottom left
 letters = "abcd"
 panel = 0
 do for [what in "kinetic_jumps elastic_jumps"] {
