@@ -12,6 +12,7 @@ for file in scenes/*.json; do
   case $name in
     torsion) what=(--quantity angle_start angle_end) ;;
     drill_stem) what=(--quantity end.x end.y) ;;
+    bridge) what=(--quantity mass_position.y) ;;
     rotating_load) what=(--quantity load0_x load0_y) ;;
     incline | suspended_beam_friction) what=(--what joint) ;;
     hanging_cable) what=(--what tension) ;;

@@ -19,9 +19,7 @@ class BorderedBlockTridiagonal {
  public:
   using Block = Eigen::Matrix<double, B, B>;
   using Vector = Eigen::Matrix<double, B, 1>;
-  static constexpr int reach = 4;          ///< nodes that one unknown of the border couples to
-  static constexpr int most_borders = 24;  ///< a moving node, what ties it, and two supports, in space
-  using Corner = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_borders, most_borders>;
+  static constexpr int reach = 4;  ///< nodes that one unknown of the border couples to
 
   /// An unknown of the border: its coupling to the nodes from `first` on.
   struct Border {
@@ -37,7 +35,7 @@ class BorderedBlockTridiagonal {
     lower.assign(n, Block::Zero());
     inverse_.resize(n);
     border.clear();
-    corner.resize(0, 0);
+    corner.setZero();
   }
 
   /// One more unknown, which couples to nodes from `first` on, or just to the last ones before it where there are
@@ -47,8 +45,18 @@ class BorderedBlockTridiagonal {
     added.first = first;
     added.column.fill(Vector::Zero());
     added.row.fill(Vector::Zero());
-    corner.conservativeResizeLike(Corner::Zero(borders(), borders()));
+    if (corner.rows() < borders()) corner.conservativeResizeLike(Eigen::MatrixXd::Zero(borders(), borders()));
     return added;
+  }
+
+  /// Uncouples an unknown of the border from all others, with `size` on the diagonal.
+  void fix(int unknown, double size) {
+    Border& fixed = border[static_cast<std::size_t>(unknown)];
+    fixed.column.fill(Vector::Zero());
+    fixed.row.fill(Vector::Zero());
+    corner.row(unknown).setZero();
+    corner.col(unknown).setZero();
+    corner(unknown, unknown) = size;
   }
 
   int nodes() const { return static_cast<int>(diagonal.size()); }
@@ -70,17 +78,17 @@ class BorderedBlockTridiagonal {
     if (border.empty()) return true;
     const std::size_t stride = B * n;
     columns_.assign(stride * border.size(), 0.0);
-    Corner rest = corner;
+    rest_ = corner.topLeftCorner(borders(), borders());
     for (int j = 0; j < borders(); ++j) {
       const Border& from = border[static_cast<std::size_t>(j)];
       double* column = columns_.data() + stride * static_cast<std::size_t>(j);
       for (int i = 0; i < reached(from); ++i) block(column, from.first + i) = from.column[static_cast<std::size_t>(i)];
       substitute(column, static_cast<std::size_t>(from.first));
-      for (int i = 0; i < borders(); ++i) rest(i, j) -= row_times(border[static_cast<std::size_t>(i)], column);
+      for (int i = 0; i < borders(); ++i) rest_(i, j) -= row_times(border[static_cast<std::size_t>(i)], column);
     }
-    corner_scale_ = scales_of(rest);
-    corner_lu_.compute(corner_scale_.asDiagonal() * rest * corner_scale_.asDiagonal());
-    return rest.allFinite() && corner_lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0;
+    set_scales(rest_, corner_scale_);
+    corner_lu_.compute(corner_scale_.asDiagonal() * rest_ * corner_scale_.asDiagonal());
+    return rest_.allFinite() && corner_lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0;
   }
 
   /// Solves in place; `x` holds B numbers a node, then the border's unknowns.
@@ -90,8 +98,9 @@ class BorderedBlockTridiagonal {
     const std::size_t stride = B * diagonal.size();
     Eigen::Map<Eigen::VectorXd> extra(x + stride, borders());
     for (int i = 0; i < borders(); ++i) extra[i] -= row_times(border[static_cast<std::size_t>(i)], x);
-    const CornerVector solved = corner_lu_.solve(corner_scale_.cwiseProduct(extra));
-    extra = corner_scale_.cwiseProduct(solved);
+    scaled_ = corner_scale_.cwiseProduct(extra);
+    solved_.noalias() = corner_lu_.solve(scaled_);
+    extra = corner_scale_.cwiseProduct(solved_);
     Eigen::Map<Eigen::VectorXd> nodal(x, static_cast<Eigen::Index>(stride));
     for (int j = 0; j < borders(); ++j) {
       nodal -= extra[j] * Eigen::Map<const Eigen::VectorXd>(columns_.data() + stride * static_cast<std::size_t>(j),
@@ -99,8 +108,9 @@ class BorderedBlockTridiagonal {
     }
   }
 
-  /// Of the last factored matrix, which is symmetric and has no border: how many of its eigenvalues are negative, by
-  /// Sylvester's law those of its pivots. One below `zero` of its block's diagonal counts as none.
+  /// Of the last factored matrix, which is symmetric: how many of its eigenvalues are negative, by Sylvester's law
+  /// those of its pivots, the last of which is the small matrix that the border leaves (Haynsworth 1968). One below
+  /// `zero` of its block's diagonal counts as none.
   int negative_pivots(double zero) const {
     int count = 0;
     for (std::size_t k = 0; k < inverse_.size(); ++k) {
@@ -112,6 +122,13 @@ class BorderedBlockTridiagonal {
       const Eigen::SelfAdjointEigenSolver<Block> solver(even, Eigen::EigenvaluesOnly);
       for (const double value : solver.eigenvalues()) count += value < 0 && value > -1 / zero ? 1 : 0;
     }
+    if (border.empty()) return count;
+    const Eigen::VectorXd sizes = corner.diagonal().head(borders()).cwiseAbs().cwiseMax(rest_.diagonal().cwiseAbs());
+    const Eigen::VectorXd scale = (sizes.array() > 0).select(sizes, 1).cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * rest_ * scale.asDiagonal();
+    const Eigen::MatrixXd even = (scaled + scaled.transpose()) / 2;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(even, Eigen::EigenvaluesOnly);
+    for (const double value : solver.eigenvalues()) count += value < -zero ? 1 : 0;
     return count;
   }
 
@@ -132,33 +149,33 @@ class BorderedBlockTridiagonal {
         dense.block<1, B>(B * n + j, at) = b.row[static_cast<std::size_t>(i)].transpose();
       }
     }
-    if (borders() > 0) dense.block(B * n, B * n, borders(), borders()) = corner;
+    if (borders() > 0) {
+      dense.block(B * n, B * n, borders(), borders()) = corner.topLeftCorner(borders(), borders());
+    }
   }
 
   std::vector<Block> diagonal, upper, lower;  ///< upper[k] couples k to k + 1, lower[k] couples k to k - 1
   std::vector<Border> border;
-  Corner corner;  ///< among the border's unknowns; new ones are zero
+  Eigen::MatrixXd corner;  ///< among the border's unknowns; new ones are zero, and any beyond them
 
  private:
-  using CornerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_borders, 1>;
-
   /// Powers of two that bring the diagonal near that of the first unknown. Unknowns have several units: pivots chosen
   /// by size would depend on them, and with them the rounding.
-  template <class Matrix>
-  static auto scales_of(const Matrix& matrix) {
-    Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1> scales(matrix.rows());
+  template <class Matrix, class Scales>
+  static void set_scales(const Matrix& matrix, Scales& scales) {
+    scales.resize(matrix.rows());
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       const double ratio = std::abs(matrix(i, i) / matrix(0, 0));
       scales[i] = std::isnormal(ratio) ? std::ldexp(1.0, -(std::ilogb(ratio) >> 1)) : 1;
     }
-    return scales;
   }
 
   static Block inverse_of(const Block& pivot) {
     if constexpr (B <= 4) {
       return pivot.inverse();  // in closed form, without pivoting
     } else {
-      const Vector scale = scales_of(pivot);
+      Vector scale;
+      set_scales(pivot, scale);
       return scale.asDiagonal() * (scale.asDiagonal() * pivot * scale.asDiagonal()).eval().inverse() *
              scale.asDiagonal();
     }
@@ -191,9 +208,11 @@ class BorderedBlockTridiagonal {
   }
 
   std::vector<Block> inverse_;
-  std::vector<double> columns_;            ///< the border's columns, solved
-  Eigen::PartialPivLU<Corner> corner_lu_;  ///< of the scaled corner
-  CornerVector corner_scale_;
+  std::vector<double> columns_;                     ///< the border's columns, solved
+  Eigen::MatrixXd rest_;                            ///< of the corner, once the nodes are eliminated
+  Eigen::PartialPivLU<Eigen::MatrixXd> corner_lu_;  ///< of that, scaled
+  Eigen::VectorXd corner_scale_;
+  mutable Eigen::VectorXd scaled_, solved_;
 };
 
 }  // namespace vlbeam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
@@ -9,40 +11,61 @@
 
 namespace vlbeam {
 
-/// A beam in motion as a part sees it that acts on its material points: elements between nodes of which one, the
-/// joint, may move along the beam freely, or all as prescribed. Where the coordinates of an element stand depends on
-/// how the joint's node is kept: once, with the slope behind it apart if the beam is kinked there, or twice.
-template <int D>
-struct ChainView {
-  const Mesh& mesh;  ///< its entry at the joint is not used, nor any `x` where all nodes are prescribed
-  WeightTransport transport;
-  const double *q, *rate;
-  int joint = -1;            ///< index of the moving node; negative without one
+/// Where the coordinates of a joint stand: of a node that moves along the beam freely. It is kept once, with the slope
+/// behind it apart if the beam is kinked there, or twice.
+struct JointPlace {
+  int node = 0;              ///< of the mesh
   Eigen::Index mark = 0;     ///< where its material coordinate stands
   Eigen::Index behind = -1;  ///< where the slope behind it stands, if not with the node's other coordinates
   bool cut = false;          ///< its node is there twice, the copies next to each other
+  int passed = -1;           ///< how many point masses, in their order, are before it; -1: as its coordinate says
+};
+
+/// A beam in motion as a part sees it that acts on its material points: elements between nodes of which some, the
+/// joints, may move along the beam freely, or all as prescribed.
+template <int D>
+struct ChainView {
+  const Mesh& mesh;  ///< its entries at joints are not used, nor any `x` where all nodes are prescribed
+  WeightTransport transport;
+  const double *q, *rate;
+  std::span<const JointPlace> joints = {};         ///< in the order of the chain
   const std::vector<Prescribed>* marks = nullptr;  ///< material coordinates of all nodes, where they are prescribed
 
-  bool has_joint() const { return joint >= 0; }
-  bool at_joint(int element) const { return has_joint() && (element == joint || element + 1 == joint); }
+  /// The joint at a node of the mesh, or null.
+  const JointPlace* joint_at(int node) const {
+    for (const JointPlace& joint : joints) {
+      if (joint.node == node) return &joint;
+    }
+    return nullptr;
+  }
+  /// Whether an end of the element is a joint.
+  bool at_joint(int element) const { return joint_at(element) != nullptr || joint_at(element + 1) != nullptr; }
   /// The node, copies counted, at which element k starts.
-  int first_node(int k) const { return k + (cut && k >= joint ? 1 : 0); }
+  int first_node(int k) const {
+    int node = k;
+    for (const JointPlace& joint : joints) node += joint.cut && k >= joint.node ? 1 : 0;
+    return node;
+  }
   /// Where the nodal vector i of element k stands: r_A, s_A, r_B, s_B.
   Eigen::Index vector(int k, int i) const {
-    if (i == 1 && k == joint && behind >= 0) return behind;
+    if (i == 1) {
+      const JointPlace* const joint = joint_at(k);
+      if (joint != nullptr && joint->behind >= 0) return joint->behind;
+    }
     return Eigen::Index{node_size<D>} * first_node(k) + Eigen::Index{D} * i;
   }
 
   MovingCoordinates<double, D> coordinates(int k) const {
     const auto i = static_cast<std::size_t>(k);
     if (marks != nullptr) return {cubic(q, k), (*marks)[i].value, (*marks)[i + 1].value};
-    return {cubic(q, k), has_joint() && k == joint ? q[mark] : mesh.x[i],
-            has_joint() && k + 1 == joint ? q[mark] : mesh.x[i + 1]};
+    const JointPlace *const a = joint_at(k), *const b = joint_at(k + 1);
+    return {cubic(q, k), a != nullptr ? q[a->mark] : mesh.x[i], b != nullptr ? q[b->mark] : mesh.x[i + 1]};
   }
   MovingCoordinates<double, D> rates(int k) const {
     const auto i = static_cast<std::size_t>(k);
     if (marks != nullptr) return {cubic(rate, k), (*marks)[i].rate, (*marks)[i + 1].rate};
-    return {cubic(rate, k), has_joint() && k == joint ? rate[mark] : 0, has_joint() && k + 1 == joint ? rate[mark] : 0};
+    const JointPlace *const a = joint_at(k), *const b = joint_at(k + 1);
+    return {cubic(rate, k), a != nullptr ? rate[a->mark] : 0, b != nullptr ? rate[b->mark] : 0};
   }
   MovingKinematics<double, D> kinematics(int k) const {
     const bool moving = at_joint(k) || marks != nullptr;
@@ -53,14 +76,16 @@ struct ChainView {
   /// Material coordinate of a node [m].
   double mark_of(int node) const {
     if (marks != nullptr) return (*marks)[static_cast<std::size_t>(node)].value;
-    return has_joint() && node == joint ? q[mark] : mesh.x[static_cast<std::size_t>(node)];
+    const JointPlace* const joint = joint_at(node);
+    return joint != nullptr ? q[joint->mark] : mesh.x[static_cast<std::size_t>(node)];
   }
   /// Index of the element that holds the material point x; of the first or the last one beyond the ends.
   int element_at(double x) const {
     if (marks != nullptr) return vlbeam::element_at(*marks, x);
-    const int k = mesh.element_at(x);
-    if (!at_joint(k)) return k;
-    return x < q[mark] ? joint - 1 : joint;
+    int k = mesh.element_at(x);
+    for (const JointPlace& joint : joints) k += k + 1 == joint.node && x >= q[joint.mark] ? 1 : 0;
+    for (std::size_t i = joints.size(); i-- > 0;) k -= k == joints[i].node && x < q[joints[i].mark] ? 1 : 0;
+    return k;
   }
 
  private:

@@ -56,6 +56,9 @@ class Span {
 
   int open() const { return open_; }
   const Support<D>& support() const { return support_; }
+  /// The support stands otherwise, and fixes the same components of its frame: what is factored does not know the
+  /// frame.
+  void stand_by(const Support<D>& support) { support_ = support; }
   /// Mass left at the open node once the others are eliminated, in the support's frame.
   const NodeBlock<D>& open_mass() const { return open_mass_; }
   /// What the support leaves free at the open node: everything, unless the span has no element.

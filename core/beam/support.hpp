@@ -8,6 +8,17 @@
 
 namespace vlbeam {
 
+/// Vectors of the plane, columns of `a`, turned by a right angle; in space none are turned.
+template <int D, class Columns>
+auto quarter_turn(const Columns& a) {
+  typename Columns::PlainObject turned = Columns::PlainObject::Zero(a.rows(), a.cols());
+  if constexpr (D == 2) {
+    turned.row(0) = -a.row(1);
+    turned.row(1) = a.row(0);
+  }
+  return turned;
+}
+
 /// What a support leaves free at an end node, component by component in an orthonormal frame of its own:
 /// 1 a free component of position or slope, 0 a fixed one.
 template <int D>
@@ -47,6 +58,15 @@ struct Support {
     Support support = pin();
     support.free_position[0] = 1;
     support.turn(direction);
+    return support;
+  }
+
+  /// The same, turned in the plane by `angle` [rad] about its point; in space nothing turns.
+  Support turned(double angle) const {
+    Support support = *this;
+    if (D != 2 || angle == 0) return support;
+    support.frame = quarter_turn<D>(frame) * std::sin(angle) + frame * std::cos(angle);
+    support.aligned = false;
     return support;
   }
 

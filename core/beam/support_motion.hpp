@@ -5,30 +5,58 @@
 
 namespace vlbeam {
 
-/// What a support prescribes of its point, with the first two derivatives: in global components.
+/// What a support prescribes of its point, with the first two derivatives: in global components. If it turns by the
+/// angle theta, what it holds of the slope s turns with it, F^T s = F_0^T s_0 on the fixed components of its frame F:
+///   s' = theta' J s,   s'' = theta'' J s + 2 theta' J s' + theta'^2 s   on these,   J a right angle.
 template <int D>
 struct DrivenPoint {
   Vec<double, D> value = Vec<double, D>::Zero();         ///< displacement since t = 0 [m]
   Vec<double, D> rate = Vec<double, D>::Zero();          ///< [m/s]
   Vec<double, D> acceleration = Vec<double, D>::Zero();  ///< [m/s^2]
+  Prescribed angle;                                      ///< [rad] by which it has turned since t = 0
+
+  /// Of `part`, a slope or its rate, what a support fixes that has turned already.
+  static Vec<double, D> held(const Support<D>& turned, const Vec<double, D>& part) {
+    return turned.out_of_frame((turned.into_frame(part).array() * (1 - turned.free_slope)).matrix());
+  }
+  /// Where the slope `anchor` that it held at t = 0 is now.
+  Vec<double, D> turned(const Vec<double, D>& anchor) const {
+    if (D != 2 || angle.value == 0) return anchor;
+    return std::cos(angle.value) * anchor + std::sin(angle.value) * quarter_turn<D>(anchor);
+  }
+  Vec<double, D> slope_rate(const Vec<double, D>& slope) const { return angle.rate * quarter_turn<D>(slope); }
+  Vec<double, D> slope_acceleration(const Vec<double, D>& slope, const Vec<double, D>& turning) const {
+    return angle.acceleration * quarter_turn<D>(slope) + 2 * angle.rate * quarter_turn<D>(turning) +
+           angle.rate * angle.rate * slope;
+  }
 };
 
-/// Displacement of a support's point, `direction` times a function of time, counted from where it is at t = 0. Without
-/// a function the support stands still.
+/// Displacement of a support's point, `direction` times a function of time, and its angle about this point, both
+/// counted from where it is at t = 0. Without a function the support stands still.
 template <int D>
 struct SupportMotion {
   Vec<double, D> direction = Vec<double, D>::Zero();  ///< [-]
   TimeFunction displacement;                          ///< [m]
+  TimeFunction angle = {};                            ///< [rad], in the plane
 
-  explicit operator bool() const { return static_cast<bool>(displacement); }
+  explicit operator bool() const { return displacement || angle; }
+  bool turns() const { return static_cast<bool>(angle); }
 
   /// Of the components that `support` fixes; the others it does not drive.
   DrivenPoint<D> at(const Support<D>& support, double t) const {
-    if (!displacement) return {};
+    DrivenPoint<D> point;
+    if (angle) {
+      point.angle = angle(t);
+      point.angle.value -= angle(0).value;
+    }
+    if (!displacement) return point;
     const Vec<double, D> held =
         support.out_of_frame((support.into_frame(direction).array() * (1 - support.free_position)).matrix());
     const Prescribed now = displacement(t);
-    return {(now.value - displacement(0).value) * held, now.rate * held, now.acceleration * held};
+    point.value = (now.value - displacement(0).value) * held;
+    point.rate = now.rate * held;
+    point.acceleration = now.acceleration * held;
+    return point;
   }
 };
 

@@ -158,10 +158,10 @@ class Interpolant {
 Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, std::size_t k) {
   Interpolant interpolant(ode, step);
   const double h = step.t1 - step.t0;
-  auto interpolated = [&](double tau) { return ode.guards(interpolant(tau), step.t0 + tau)[k]; };
+  auto interpolated = [&](double tau) { return ode.guards(interpolant(tau), step.t0 + tau)[k].value; };
   std::uintmax_t evaluations = 40;
-  const auto bracket = boost::math::tools::toms748_solve(interpolated, 0.0, h, ode.guards(step.y0, step.t0)[k],
-                                                         ode.guards(step.y1, step.t1)[k],
+  const auto bracket = boost::math::tools::toms748_solve(interpolated, 0.0, h, ode.guards(step.y0, step.t0)[k].value,
+                                                         ode.guards(step.y1, step.t1)[k].value,
                                                          boost::math::tools::eps_tolerance<double>(40), evaluations);
   double tau = (bracket.first + bracket.second) / 2, low = 0, high = h;
   const double reach = 1e-4 * h;
@@ -169,7 +169,7 @@ Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const St
   double last_tau = 0, last_value = 0;
   for (int i = 0;; ++i) {
     const Eigen::VectorXd& y = side.at(main, step.y0, step.t0, step.t0 + tau);
-    const double value = ode.guards(y, step.t0 + tau)[k];
+    const double value = ode.guards(y, step.t0 + tau)[k].value;
     const bool closed = high - low <= 1e-15 * h || tau == last_tau;
     if (std::abs(value) <= (i < 4 ? guard_tolerance : event_tolerance) || closed || i == most_refinements) {
       return {static_cast<int>(k), step.t0 + tau, y};
@@ -198,9 +198,9 @@ Eigen::VectorXd state_at(EventedOde& ode, SideStepper& side, const Stepper& main
 Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, bool exactly) {
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
   Located first;
-  for (std::size_t k = 0; k < max_guards; ++k) {
-    if (at_end[k] <= event_tolerance) continue;
-    if (at_start[k] >= -guard_tolerance) return {static_cast<int>(k), step.t0, step.y0};
+  for (std::size_t k = 0; k < at_end.size(); ++k) {
+    if (at_end[k].value <= event_tolerance) continue;
+    if (at_start[k].value >= -guard_tolerance) return {static_cast<int>(k), step.t0, step.y0};
     const Located found = exactly ? locate(ode, side, main, step, k) : Located{static_cast<int>(k), step.t1, step.y1};
     if (first.index < 0 || found.t < first.t) first = found;
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -25,8 +24,13 @@ class Ode {
   virtual std::unique_ptr<SecondOrderSystem> new_second_order() { return nullptr; }
 };
 
-inline constexpr int max_guards = 9;
-/// Values of the guard functions; an event is due where one turns positive. Unused ones are negative.
-using Guards = std::array<double, max_guards>;
+/// A function of state and time: an event is due where it turns positive.
+struct Guard {
+  int kind;  ///< what the event is: the system's own numbers
+  int part;  ///< of which part of the system
+  double value;
+};
+/// As many and in the same order until the next event.
+using Guards = std::vector<Guard>;
 
 }  // namespace vlbeam

@@ -9,7 +9,7 @@ struct Tally {
   double dissipated = 0;  ///< by damping and friction
   double loads = 0;       ///< done by loads
   double ends = 0;        ///< by what drives angles; where beam flows, all that its supports do and matter brings along
-  double supports = 0;    ///< done by supports that move
+  double supports = 0;    ///< done by supports that move, and by guides
   double mesh = 0;        ///< work of moving inner nodes along the beam: discretisation error only
   double mass = 0;        ///< in through the ends [kg]
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< of supports, loads, gravity, and in with the matter [N s]

@@ -163,7 +163,13 @@ class RiderMass {
 
   /// Two spans that share their open node, and one of their elements.
   RiderMass(const Span<D>& left, const Span<D>& right, int nodes, int element) : first_(Eigen::Index{B} * element) {
-    answer_.setZero(Eigen::Index{B} * nodes, 2 * B);
+    answer_.resize(Eigen::Index{B} * nodes, 2 * B);
+    update(left, right);
+  }
+
+  /// Anew, for supports that stand otherwise.
+  void update(const Span<D>& left, const Span<D>& right) {
+    answer_.setZero();
     for (int i = 0; i < 2 * B; ++i) {
       answer_(first_ + i, i) = 1;
       solve_without_joint(left, right, answer_.col(i).data());

@@ -27,6 +27,7 @@ struct JointMotion {
   Eigen::Matrix<double, 2 * D, 1> slopes, slope_rates;  ///< r_x before and behind the joint
   double x_rate;                                        ///< [m/s]
   Vec<double, D> gravity;                               ///< [m/s^2]
+  std::optional<double> x_acceleration = std::nullopt;  ///< [m/s^2], where a guide prescribes it
 };
 
 /// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force`

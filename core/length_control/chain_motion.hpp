@@ -13,8 +13,7 @@ template <int D>
 Weights<double> current_weights(const ChainState<D>& chain, int k, WeightTransport of_joint) {
   const auto i = static_cast<std::size_t>(k);
   const auto& weights = chain.mesh.weights[i];
-  const bool at_joint = k == chain.joint || k + 1 == chain.joint;
-  const bool restricted = at_joint && of_joint == WeightTransport::transported && weights.w != unit_weights;
+  const bool restricted = chain.moves(k) && of_joint == WeightTransport::transported && weights.w != unit_weights;
   return restricted ? weights.on(chain.mesh.x[i], chain.mesh.x[i + 1]) : weights.w;
 }
 
@@ -22,8 +21,7 @@ Weights<double> current_weights(const ChainState<D>& chain, int k, WeightTranspo
 template <int D>
 PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport of_joint) {
   const auto q = chain.coordinates(k), rate = chain.rates(k);
-  const bool at_joint = k == chain.joint || k + 1 == chain.joint;
-  const WeightTransport transport = at_joint ? of_joint : WeightTransport::frozen;
+  const WeightTransport transport = chain.moves(k) ? of_joint : WeightTransport::frozen;
   const MovingKinematics<double, D> kinematics(q, rate, transport, chain.mesh.weights[static_cast<std::size_t>(k)]);
   const double u = (x - q.x_a) / (q.x_b - q.x_a);
   return kinematics.at(u, rational_shape(kinematics.weights(), u));

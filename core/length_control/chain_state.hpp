@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -8,23 +9,32 @@
 
 namespace vlbeam {
 
-inline constexpr int no_joint = -1;
-
-/// A beam's mesh with its motion, and the node that moves along it, if one does.
-/// Rates at the moving node are those of the node, at all others those of the material point. Where the beam may be
-/// kinked at the moving node, the node's slope is the one before it.
+/// A beam's mesh with its motion, and the nodes that move along it, the joints.
+/// Rates at a joint are those of the node, at all other nodes those of the material point. Where the beam may be kinked
+/// at a joint, the node's slope is the one before it.
 template <int D>
 struct ChainState {
   Mesh mesh;
   std::vector<double> q, rate;  ///< nodal arrays
   std::vector<double> rest;     ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
-  int joint = no_joint;         ///< index of the moving node
-  double joint_rate = 0;        ///< rate of its material coordinate mesh.x[joint] [m/s]
-  /// The beam's slope behind the moving node.
+  /// The beam's slope behind a joint.
   struct Kink {
     Vec<double, D> slope, rate;
   };
-  std::optional<Kink> kink;
+  /// A node that moves along the beam.
+  struct Joint {
+    int node;
+    double rate = 0;  ///< of its material coordinate mesh.x[node] [m/s]
+    std::optional<Kink> kink = {};
+    int index = 0;  ///< which of the joints there were at the start
+  };
+  std::vector<Joint> joints;  ///< in the order of the chain
+  /// A sliding mass that has left the beam.
+  struct Departed {
+    int index;  ///< which of the joints it was
+    Vec<double, D> r, v;
+  };
+  std::vector<Departed> departed;
   /// A mass inside the first or the last element, instead of a moving node.
   struct Rider {
     int element;
@@ -37,19 +47,58 @@ struct ChainState {
   MovingCoordinates<double, D> coordinates(int k) const {
     const auto i = static_cast<std::size_t>(k);
     MovingCoordinates<double, D> result{element_nodes<D>(q.data(), k), mesh.x[i], mesh.x[i + 1]};
-    if (kink && k == joint) result.e.s_a = kink->slope;
+    const Joint* const start = joint_at(k);
+    if (start != nullptr && start->kink) result.e.s_a = start->kink->slope;
     return result;
   }
   MovingCoordinates<double, D> rates(int k) const {
-    MovingCoordinates<double, D> result{element_nodes<D>(rate.data(), k), k == joint ? joint_rate : 0,
-                                        k + 1 == joint ? joint_rate : 0};
-    if (kink && k == joint) result.e.s_a = kink->rate;
+    const Joint *const start = joint_at(k), *const end = joint_at(k + 1);
+    MovingCoordinates<double, D> result{element_nodes<D>(rate.data(), k), start != nullptr ? start->rate : 0,
+                                        end != nullptr ? end->rate : 0};
+    if (start != nullptr && start->kink) result.e.s_a = start->kink->rate;
     return result;
   }
+
+  /// The joint at a node, or null.
+  const Joint* joint_at(int node) const {
+    for (const Joint& joint : joints) {
+      if (joint.node == node) return &joint;
+    }
+    return nullptr;
+  }
+  /// Whether an end of element k moves.
+  bool moves(int k) const { return joint_at(k) != nullptr || joint_at(k + 1) != nullptr; }
 
   bool curved_at_rest() const { return !rest.empty(); }
   /// Nodes of element k in its rest shape.
   NodalCubic<double, D> rest_nodes(int k) const { return element_nodes<D>(rest.data(), k); }
+
+  /// One more node, before what is now node `at`, with nothing in it; the element that held it becomes two.
+  void insert_node(int at) {
+    const auto i = static_cast<std::size_t>(at), first = i * node_size<D>;
+    const auto widen = [&](std::vector<double>& nodal) {
+      nodal.insert(nodal.begin() + static_cast<std::ptrdiff_t>(first), node_size<D>, 0.0);
+    };
+    mesh.x.insert(mesh.x.begin() + at, mesh.x[i]);
+    mesh.weights.insert(mesh.weights.begin() + at, mesh.weights[i - 1]);
+    widen(q);
+    widen(rate);
+    if (curved_at_rest()) widen(rest);
+    for (Joint& joint : joints) joint.node += joint.node >= at ? 1 : 0;
+  }
+  /// Without node `at`, which is no joint: its two elements become one, that has the weights of the first.
+  void erase_node(int at) {
+    const auto first = static_cast<std::ptrdiff_t>(node_size<D>) * at;
+    const auto narrow = [&](std::vector<double>& nodal) {
+      nodal.erase(nodal.begin() + first, nodal.begin() + first + node_size<D>);
+    };
+    mesh.x.erase(mesh.x.begin() + at);
+    mesh.weights.erase(mesh.weights.begin() + at);
+    narrow(q);
+    narrow(rate);
+    if (curved_at_rest()) narrow(rest);
+    for (Joint& joint : joints) joint.node -= joint.node > at ? 1 : 0;
+  }
 
   /// Copies node `from` of `other` to node `to`.
   void copy_node(int to, const ChainState& other, int from) {

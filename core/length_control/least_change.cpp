@@ -166,7 +166,10 @@ class Search {
   }
 
   /// Where the beam may be kinked at the joint its slopes there obey conditions of their own.
-  bool held(int node) const { return chain_.kink && node == chain_.joint; }
+  bool held(int node) const {
+    const auto* joint = chain_.joint_at(node);
+    return joint != nullptr && joint->kink;
+  }
 
   /// Gauss-Newton's sums of the distance, and the change of strain energy with its gradient.
   void evaluate(const Unknowns& p) {

@@ -108,24 +108,32 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
 }  // namespace
 
 template <int D>
-MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                                const MovingLaw<D>& law) {
+MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Direction direction, const Remeshing& what,
+                                const LengthControl& control, const MovingLaw<D>& law) {
   const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
-  const int j = before.joint;
-  const int cut = forward ? j - 1 : j, deleted = forward ? j + 1 : j - 1, merged = forward ? j + 1 : j - 2;
-  const auto& x = before.mesh.x;
-  const double x_new = forward ? x[static_cast<std::size_t>(cut)] + control.standard_length
-                               : x[static_cast<std::size_t>(cut) + 1] - control.standard_length;
-  const auto node = segment(before, cut, x_new, law.transport);
-  place_node(chain, j, node);
-  chain.copy_node(deleted, before, j);
-  chain.joint = deleted;
-  chain.mesh.weights[static_cast<std::size_t>(j) - 1] = node.left;
-  chain.mesh.weights[static_cast<std::size_t>(j)] = node.right;
-  renew_cut(chain, j - 1, control);
-  renew_cut(chain, j, control);
-  return merge_into(chain, merged, before, deleted, control, law);
+  const int j = before.joints[which].node;
+  if (what.cut) {
+    const int cut = forward ? j - 1 : j, at = cut + 1;
+    const auto& x = before.mesh.x;
+    const double x_new = forward ? x[static_cast<std::size_t>(cut)] + control.standard_length
+                                 : x[static_cast<std::size_t>(cut) + 1] - control.standard_length;
+    const auto node = segment(before, cut, x_new, law.transport);
+    chain.insert_node(at);
+    place_node(chain, at, node);
+    chain.mesh.weights[static_cast<std::size_t>(at) - 1] = node.left;
+    chain.mesh.weights[static_cast<std::size_t>(at)] = node.right;
+  }
+  const int now = chain.joints[which].node, deleted = forward ? now + 1 : now - 1;
+  if (what.merge) chain.erase_node(deleted);
+  const int joint = chain.joints[which].node;
+  if (what.cut) {
+    const int cut = forward ? joint - 2 : joint;
+    renew_cut(chain, cut, control);
+    renew_cut(chain, cut + 1, control);
+  }
+  if (!what.merge) return {};
+  return merge_into(chain, forward ? joint : joint - 1, before, forward ? j + 1 : j - 1, control, law);
 }
 
 template <int D>
@@ -133,7 +141,7 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
                            const MovingLaw<D>& law) {
   const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
-  const int j = before.joint, cut = forward ? j - 1 : j, merged = forward ? j : j - 1;
+  const int j = before.joints.front().node, cut = forward ? j - 1 : j, merged = forward ? j : j - 1;
   const auto& x = before.mesh.x;
   const auto i = static_cast<std::size_t>(j);
   const double reach = std::min(control.standard_length, (x[i + 1] - x[i - 1]) / 2);
@@ -141,10 +149,8 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
   place_node(chain, j, node);
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
   renew_cut(chain, cut, control);
-  chain.joint = no_joint;
-  chain.joint_rate = 0;
-  chain.kink.reset();
-  chain.rider = {merged, x[i], before.joint_rate, false};
+  chain.joints.clear();
+  chain.rider = {merged, x[i], before.joints.front().rate, false};
   return merge_into(chain, merged, before, j, control, law);
 }
 
@@ -169,8 +175,7 @@ MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, con
   slope<D>(chain.rate.data(), j) += rider.rate * at.r_xx;
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.right : node.left;
   renew_cut(chain, cut, control);
-  chain.joint = j;
-  chain.joint_rate = rider.rate;
+  chain.joints = {{.node = j, .rate = rider.rate}};
   chain.rider.reset();
   return merge_into(chain, merged, before, j, control, law);
 }
@@ -179,7 +184,8 @@ template <int D>
 void separate(ChainState<D>& chain, Direction direction, const LengthControl& control, WeightTransport transport) {
   const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
-  const int j = before.joint, end = forward ? j + 1 : j - 1, kept = forward ? j - 1 : j;
+  const int j = (forward ? before.joints.back() : before.joints.front()).node, end = forward ? j + 1 : j - 1,
+            kept = forward ? j - 1 : j;
   const auto& x = before.mesh.x;
   const double x_end = x[static_cast<std::size_t>(end)];
   const double x_new = forward ? x_end - control.standard_length : x_end + control.standard_length;
@@ -208,18 +214,28 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
     if (weights.w == unit_weights) return {unit_weights, a, b};
     return {restrict_cubic(w, parameter(a), parameter(b)), a, b};
   };
-  place_node(chain, j, at_material_point(x_new));
+  if (forward) {
+    chain.joints.pop_back();
+  } else {
+    chain.joints.erase(chain.joints.begin());
+  }
   place_node(chain, end, at_material_point(x_end));
   const double x_low = forward ? q.x_a : x_end, x_high = forward ? x_end : q.x_b;
+  const bool next_is_joint = chain.joint_at(forward ? j - 1 : j + 1) != nullptr;
+  if (next_is_joint && x_high - x_low < 1.5 * control.standard_length) {
+    chain.erase_node(j);
+    chain.mesh.weights[static_cast<std::size_t>(forward ? j - 1 : 0)] = weights_between(x_low, x_high);
+    return;
+  }
+  place_node(chain, j, at_material_point(x_new));
   chain.mesh.weights[static_cast<std::size_t>(j) - 1] = weights_between(x_low, x_new);
   chain.mesh.weights[static_cast<std::size_t>(j)] = weights_between(x_new, x_high);
-  chain.joint = no_joint;
-  chain.joint_rate = 0;
-  chain.kink.reset();
 }
 
-template MergedWeights segment_and_merge(ChainState<2>&, Direction, const LengthControl&, const MovingLaw<2>&);
-template MergedWeights segment_and_merge(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
+template MergedWeights segment_and_merge(ChainState<2>&, std::size_t, Direction, const Remeshing&, const LengthControl&,
+                                         const MovingLaw<2>&);
+template MergedWeights segment_and_merge(ChainState<3>&, std::size_t, Direction, const Remeshing&, const LengthControl&,
+                                         const MovingLaw<3>&);
 template MergedWeights merge_at_end(ChainState<2>&, Direction, const LengthControl&, const MovingLaw<2>&);
 template MergedWeights merge_at_end(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
 template MergedWeights cut_at_end(ChainState<2>&, const LengthControl&, const MovingLaw<2>&,

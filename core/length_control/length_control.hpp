@@ -21,24 +21,32 @@ struct LengthControl {
   VelocityTransfer velocities = VelocityTransfer::nodal;
   /// The last element, shorter than this share of L_std, loses its moving node; 0: never.
   double end_merge = 0;
+  /// An element beside a joint, shorter than this share of L_std, is merged with the next one; 0: never by itself.
+  double lower = 0;
 
   /// Where what rides inside the last element gets a node again, so that no other event is due at once.
   double end_cut() const { return std::max(end_merge, 2 - upper) + 0.01; }
   double trigger_length() const { return upper * (1 + hysteresis) * standard_length; }
+  double merge_length() const { return lower * standard_length; }
 };
 
-/// Which way the moving node goes relative to the fixed ones.
+/// Which way a moving node goes relative to the fixed ones.
 enum class Direction { forward, backward };
 
-/// The element behind the moving node is cut at L_std from its far end, and the node ahead deleted: the two elements
-/// there become one. Nodes keep their number and `joint` moves on by one; nodal coordinates and rates of the outer
-/// nodes are kept (Ding & Ouyang 2022, section 4), but for slopes that the merge policy changes. `backward` is the
-/// mirror image.
-template <int D>
-MergedWeights segment_and_merge(ChainState<D>& chain, Direction direction, const LengthControl& control,
-                                const MovingLaw<D>& law);
+/// What an event does on the two sides of a joint that moves forward (backward is the mirror image).
+struct Remeshing {
+  bool cut = true;    ///< the element behind it, at L_std from its far end
+  bool merge = true;  ///< the node ahead is deleted: the two elements there become one
+};
 
-/// The moving node goes before the last element (forward) or the first one (backward) vanishes: the element behind it
+/// Cuts and merges at the joint chain.joints[which]. With both, nodes keep their number and the joint moves on by one;
+/// nodal coordinates and rates of the outer nodes are kept (Ding & Ouyang 2022, section 4), but for slopes that the
+/// merge policy changes.
+template <int D>
+MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Direction direction, const Remeshing& what,
+                                const LengthControl& control, const MovingLaw<D>& law);
+
+/// The only joint goes before the last element (forward) or the first one (backward) vanishes: the element behind it
 /// is cut at L_std from the end of the beam, or in the middle between end and next fixed node where that is nearer, and
 /// the two elements at the moving node become the fixed one inside which it now rides. Nodes keep their number; the cut
 /// is node `joint`.
@@ -46,17 +54,18 @@ template <int D>
 MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const LengthControl& control,
                            const MovingLaw<D>& law);
 
-/// What rides inside the last or the first element gets a moving node: the element is cut there, and the next fixed
-/// node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes. The new node follows the rest
-/// curve, given by `rest`, position and slope first (null without a rest shape). What the element's own rest shape
-/// differs by from it, which earlier cuts have left, the beam's node is moved by too, so that nothing is stressed.
+/// What rides inside the last or the first element gets a moving node, the only joint: the element is cut there, and
+/// the next fixed node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes. The new node
+/// follows the rest curve, given by `rest`, position and slope first (null without a rest shape). What the element's
+/// own rest shape differs by from it, which earlier cuts have left, the beam's node is moved by too, so that nothing is
+/// stressed.
 template <int D>
 MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law,
                          const std::array<Vec<double, D>, 4>* rest);
 
-/// The moving node leaves the beam at its last node (forward) or first node (backward). The last element, about to
-/// vanish, goes with it: curve and velocity of the element behind the node are continued to the end, and cut at L_std
-/// from it, where the uniform mesh lacks a node.
+/// The last joint leaves the beam at its last node (forward), or the first one at its first node (backward). The last
+/// element, about to vanish, goes with it: curve and velocity of the element behind the node are continued to the end,
+/// and cut at L_std from it, where the uniform mesh lacks a node; but not where another joint is nearer than that.
 template <int D>
 void separate(ChainState<D>& chain, Direction direction, const LengthControl& control, WeightTransport transport);
 

@@ -54,7 +54,7 @@ double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force, d
 template <int D>
 typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k,
                                                    double t) const {
-  constexpr int X = point_coordinates<D> - 1;
+  constexpr int X = point_coordinates<D> - 2;
   const double x = load.place(beam, t);
   const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), x);
   const Eigen::Matrix<double, D, D> turning = load.turning(at.r_x, t);
@@ -67,28 +67,38 @@ typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, con
   }
   if (!beam.at_joint(k)) return matrix;
 
-  const bool a_moves = k == beam.joint;
-  const Vec<double, D> force = load.force_on(at.r_x, t), y = a_moves ? at.y_a : at.y_b,
-                       y_x = a_moves ? at.y_a_x : at.y_b_x;
-  // how the shape functions change with the mark, and the second derivative of r by it: the kinematics of unit nodal
-  // vectors, and of the mark alone at unit rate
+  const std::array<bool, 2> moves{beam.joint_at(k) != nullptr, beam.joint_at(k + 1) != nullptr};
+  const std::array<Vec<double, D>, 2> y{at.y_a, at.y_b}, y_x{at.y_a_x, at.y_b_x};
+  const Vec<double, D> force = load.force_on(at.r_x, t);
+  // how the shape functions change with the marks, and the second derivatives of r by them: the kinematics of unit
+  // nodal vectors, and of the marks alone at unit rates
   using Row = Eigen::Vector4d;
   const MovingCoordinates<double, D> q = beam.coordinates(k);
   const MovingCoordinates<double, 4> unit{{Row::Unit(0), Row::Unit(1), Row::Unit(2), Row::Unit(3)}, q.x_a, q.x_b};
   const MovingCoordinates<double, 4> still{{Row::Zero(), Row::Zero(), Row::Zero(), Row::Zero()}, 0, 0};
-  MovingCoordinates<double, D> alone{
-      {Vec<double, D>::Zero(), Vec<double, D>::Zero(), Vec<double, D>::Zero(), Vec<double, D>::Zero()}, 0, 0};
-  (a_moves ? alone.x_a : alone.x_b) = 1;
+  const auto second = [&](double a_rate, double b_rate) -> Vec<double, D> {
+    const Vec<double, D> none = Vec<double, D>::Zero();
+    const MovingCoordinates<double, D> alone{{none, none, none, none}, a_rate, b_rate};
+    return point_at<double, D>(MovingKinematics<double, D>(q, alone, beam.transport, beam.weights(k)), x).remainder;
+  };
   const auto units = point_at<double, 4>(MovingKinematics<double, 4>(unit, still, beam.transport, beam.weights(k)), x);
-  const Row s_mark = a_moves ? units.y_a : units.y_b;
-  const Vec<double, D> second =
-      point_at<double, D>(MovingKinematics<double, D>(q, alone, beam.transport, beam.weights(k)), x).remainder;
-  for (int i = 0; i < 4; ++i) {
-    const auto ii = static_cast<std::size_t>(i);
-    matrix.template block<D, 1>(D * i, X) = -(s_mark[i] * force + at.s[ii] * (turning * y_x));
-    matrix.template block<1, D>(X, D * i) = -(s_mark[i] * force + at.s_x[ii] * (turning.transpose() * y)).transpose();
+  for (std::size_t e = 0; e < 2; ++e) {
+    if (!moves[e]) continue;
+    const Eigen::Index to = X + static_cast<Eigen::Index>(e);
+    const Row s_mark = e == 0 ? units.y_a : units.y_b;
+    for (int i = 0; i < 4; ++i) {
+      const auto ii = static_cast<std::size_t>(i);
+      matrix.template block<D, 1>(D * i, to) = -(s_mark[i] * force + at.s[ii] * (turning * y_x[e]));
+      matrix.template block<1, D>(to, D * i) =
+          -(s_mark[i] * force + at.s_x[ii] * (turning.transpose() * y[e])).transpose();
+    }
+    matrix(to, to) = -(second(e == 0 ? 1 : 0, e == 0 ? 0 : 1).dot(force) + y[e].dot(turning * y_x[e]));
   }
-  matrix(X, X) = -(second.dot(force) + y.dot(turning * y_x));
+  if (moves[0] && moves[1]) {
+    const double mixed = (second(1, 1) - second(1, 0) - second(0, 1)).dot(force) / 2;
+    matrix(X, X + 1) = -(mixed + y[0].dot(turning * y_x[1]));
+    matrix(X + 1, X) = -(mixed + y[1].dot(turning * y_x[0]));
+  }
   return matrix;
 }
 

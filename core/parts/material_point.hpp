@@ -6,9 +6,10 @@
 
 namespace vlbeam {
 
-/// Coordinates of an element of a chain: its nodal vectors and the mark of a joint.
+/// Coordinates of an element of a chain: its nodal vectors and the marks of its ends, which count where those are
+/// joints.
 template <int D>
-inline constexpr int point_coordinates = 4 * D + 1;
+inline constexpr int point_coordinates = 4 * D + 2;
 template <int D>
 using PointMatrix = Eigen::Matrix<double, point_coordinates<D>, point_coordinates<D>>;
 
@@ -33,9 +34,61 @@ void add_point_force(const ChainView<D>& beam, int k, const PointMotion<double, 
     const auto n = static_cast<std::size_t>(i);
     Eigen::Map<Vec<double, D>>(out + beam.vector(k, i)) += at.s[n] * f.on_r + at.s_x[n] * f.on_slope;
   }
-  if (!beam.at_joint(k)) return;
-  const bool a_moves = k == beam.joint;
-  out[beam.mark] += f.on_r.dot(a_moves ? at.y_a : at.y_b) + f.on_slope.dot(a_moves ? at.y_a_x : at.y_b_x);
+  if (const JointPlace* a = beam.joint_at(k)) out[a->mark] += f.on_r.dot(at.y_a) + f.on_slope.dot(at.y_a_x);
+  if (const JointPlace* b = beam.joint_at(k + 1)) out[b->mark] += f.on_r.dot(at.y_b) + f.on_slope.dot(at.y_b_x);
+}
+
+/// A number with its derivatives by the coordinates of an element.
+template <int D>
+using ElementReal = Eigen::AutoDiffScalar<Eigen::Matrix<double, point_coordinates<D>, 1>>;
+
+/// Coordinates of element k, or their rates, each with `seed` for its derivative by itself.
+template <int D>
+MovingCoordinates<ElementReal<D>, D> active_coordinates(const ChainView<D>& beam, int k,
+                                                        const MovingCoordinates<double, D>& from, double seed) {
+  using Real = ElementReal<D>;
+  const auto part = [&](const Vec<double, D>& value, int first) {
+    Vec<Real, D> result;
+    for (int c = 0; c < D; ++c) {
+      result[c] = Real(value[c]);
+      result[c].derivatives()[first + c] = seed;
+    }
+    return result;
+  };
+  MovingCoordinates<Real, D> result{
+      {part(from.e.r_a, 0), part(from.e.s_a, D), part(from.e.r_b, 2 * D), part(from.e.s_b, 3 * D)},
+      Real(from.x_a),
+      Real(from.x_b)};
+  if (beam.joint_at(k) != nullptr) result.x_a.derivatives()[point_coordinates<D> - 2] = seed;
+  if (beam.joint_at(k + 1) != nullptr) result.x_b.derivatives()[point_coordinates<D> - 1] = seed;
+  return result;
+}
+
+/// Element k with derivatives by its coordinates and by_v times those by their rates.
+template <int D>
+MovingKinematics<ElementReal<D>, D> active_element(const ChainView<D>& beam, int k, double by_v) {
+  return {active_coordinates(beam, k, beam.coordinates(k), 1), active_coordinates(beam, k, beam.rates(k), by_v),
+          beam.at_joint(k) ? beam.transport : WeightTransport::frozen, beam.weights(k)};
+}
+
+/// Adds the derivatives of minus N^T F to a matrix of element k.
+template <int D>
+void add_point_tangent(const ChainView<D>& beam, int k, const PointMotion<ElementReal<D>, D>& at,
+                       const PointForce<ElementReal<D>, D>& f, PointMatrix<D>& tangent) {
+  using Real = ElementReal<D>;
+  for (int i = 0; i < 4; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const Vec<Real, D> nodal = f.on_r * at.s[n] + f.on_slope * at.s_x[n];
+    for (int c = 0; c < D; ++c) tangent.row(D * i + c) -= nodal[c].derivatives().transpose();
+  }
+  if (beam.joint_at(k) != nullptr) {
+    const Real on_a = f.on_r.dot(at.y_a) + f.on_slope.dot(at.y_a_x);
+    tangent.row(point_coordinates<D> - 2) -= on_a.derivatives().transpose();
+  }
+  if (beam.joint_at(k + 1) != nullptr) {
+    const Real on_b = f.on_r.dot(at.y_b) + f.on_slope.dot(at.y_b_x);
+    tangent.row(point_coordinates<D> - 1) -= on_b.derivatives().transpose();
+  }
 }
 
 /// Derivatives of minus such a force by the element's coordinates, by_v times those by velocities and by_a times those
@@ -44,46 +97,20 @@ void add_point_force(const ChainView<D>& beam, int k, const PointMotion<double, 
 template <int D, class Force>
 PointMatrix<D> point_tangent(const ChainView<D>& beam, int k, double x, const double* a, double by_v, double by_a,
                              const Force& force) {
-  constexpr int N = point_coordinates<D>, X = N - 1;
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Real = ElementReal<D>;
   using Vector = Vec<Real, D>;
-  const bool moves = beam.at_joint(k), a_moves = k == beam.joint;
-  const auto active = [&](const MovingCoordinates<double, D>& from, double seed) {
-    const auto part = [&](const Vec<double, D>& value, int first) {
-      Vector result;
-      for (int c = 0; c < D; ++c) {
-        result[c] = Real(value[c]);
-        result[c].derivatives()[first + c] = seed;
-      }
-      return result;
-    };
-    MovingCoordinates<Real, D> result{
-        {part(from.e.r_a, 0), part(from.e.s_a, D), part(from.e.r_b, 2 * D), part(from.e.s_b, 3 * D)},
-        Real(from.x_a),
-        Real(from.x_b)};
-    if (moves) (a_moves ? result.x_a : result.x_b).derivatives()[X] = seed;
-    return result;
-  };
+  const bool a_moves = beam.joint_at(k) != nullptr, b_moves = beam.joint_at(k + 1) != nullptr;
   ChainView<D> accelerations = beam;
   accelerations.rate = a;
-  const auto q = active(beam.coordinates(k), 1), rate = active(beam.rates(k), by_v),
-             second = active(accelerations.rates(k), by_a);
-  const MovingKinematics<Real, D> element(q, rate, moves ? beam.transport : WeightTransport::frozen, beam.weights(k));
-  const PointMotion<Real, D> at = point_at<Real, D>(element, x);
+  const auto second = active_coordinates(beam, k, accelerations.rates(k), by_a);
+  const PointMotion<Real, D> at = point_at<Real, D>(active_element(beam, k, by_v), x);
   Vector acceleration =
       at.remainder + second.e.r_a * at.s[0] + second.e.s_a * at.s[1] + second.e.r_b * at.s[2] + second.e.s_b * at.s[3];
-  if (moves) acceleration += a_moves ? Vector(at.y_a * second.x_a) : Vector(at.y_b * second.x_b);
+  if (a_moves) acceleration += at.y_a * second.x_a;
+  if (b_moves) acceleration += at.y_b * second.x_b;
   const PointForce<Real, D> f = force(at, acceleration);
   PointMatrix<D> tangent = PointMatrix<D>::Zero();
-  for (int i = 0; i < 4; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const Vector nodal = f.on_r * at.s[n] + f.on_slope * at.s_x[n];
-    for (int c = 0; c < D; ++c) tangent.row(D * i + c) = -nodal[c].derivatives().transpose();
-  }
-  if (moves) {
-    const Real on_mark = f.on_r.dot(a_moves ? at.y_a : at.y_b) + f.on_slope.dot(a_moves ? at.y_a_x : at.y_b_x);
-    tangent.row(X) = -on_mark.derivatives().transpose();
-  }
+  add_point_tangent(beam, k, at, f, tangent);
   return tangent;
 }
 

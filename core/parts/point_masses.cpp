@@ -4,8 +4,9 @@ namespace vlbeam {
 
 template <int D>
 void PointMasses<D>::add_weight(const ChainView<D>& beam, const Vector& gravity, double* force) const {
-  for (const PointMass& point : points) {
-    const int k = beam.element_at(point.x);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointMass& point = points[i];
+    const int k = element_of(beam, i);
     if (beam.at_joint(k)) continue;
     add_point_force<D>(beam, k, point_at<double, D>(beam.kinematics(k), point.x),
                        {point.mass * gravity, Vector::Zero()}, force);
@@ -15,8 +16,9 @@ void PointMasses<D>::add_weight(const ChainView<D>& beam, const Vector& gravity,
 template <int D>
 void PointMasses<D>::add_to(const ChainView<D>& beam, int k, const Vector& gravity,
                             MovingEquations<double, D>& equations) const {
-  for (const PointMass& point : points) {
-    if (beam.element_at(point.x) != k) continue;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PointMass& point = points[n];
+    if (element_of(beam, n) != k) continue;
     const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), point.x);
     const double m = point.mass;
     const Vector force = m * (gravity - at.remainder);
@@ -39,8 +41,9 @@ void PointMasses<D>::add_residual(const ChainView<D>& beam, const double* a, con
                                   double* residual) const {
   ChainView<D> accelerations = beam;
   accelerations.rate = a;
-  for (const PointMass& point : points) {
-    const int k = beam.element_at(point.x);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointMass& point = points[i];
+    const int k = element_of(beam, i);
     if (!beam.at_joint(k)) continue;
     const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), point.x);
     const auto second = accelerations.rates(k);

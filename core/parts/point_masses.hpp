@@ -12,9 +12,23 @@ template <int D>
 struct PointMasses {
   using Vector = Vec<double, D>;
 
-  std::vector<PointMass> points = {};
+  std::vector<PointMass> points = {};  ///< in the order of their material coordinates
 
   bool present() const { return !points.empty(); }
+
+  /// Index of the element that holds the `i`-th. At a joint which of the two it is changes at a passage, and not
+  /// before: a step that goes past it is a smooth one until the passage is located.
+  int element_of(const ChainView<D>& beam, std::size_t i) const {
+    int k = beam.element_at(points[i].x);
+    const int rank = static_cast<int>(i);
+    for (const JointPlace& joint : beam.joints) {
+      k += k + 1 == joint.node && joint.passed >= 0 && rank >= joint.passed ? 1 : 0;
+    }
+    for (std::size_t n = beam.joints.size(); n-- > 0;) {
+      k -= k == beam.joints[n].node && rank < beam.joints[n].passed ? 1 : 0;
+    }
+    return k;
+  }
 
   /// Adds the weight of those on elements of fixed length to an array like q.
   void add_weight(const ChainView<D>& beam, const Vector& gravity, double* force) const;
@@ -26,9 +40,9 @@ struct PointMasses {
   template <class Add>
   void add_tangent(const ChainView<D>& beam, const double* a, const Vector& gravity, double by_v, double by_a,
                    const Add& add) const {
-    for (const PointMass& point : points) {
-      const int k = beam.element_at(point.x);
-      if (beam.at_joint(k)) add(k, tangent(point, beam, k, a, gravity, by_v, by_a));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int k = element_of(beam, i);
+      if (beam.at_joint(k)) add(k, tangent(points[i], beam, k, a, gravity, by_v, by_a));
     }
   }
 

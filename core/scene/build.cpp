@@ -36,24 +36,25 @@ Vec<double, D> second_derivative(const ChainState<D>& chain, int k, double u) {
   return curve.evaluate(u)[2] / (l * l);
 }
 
-/// The axis, exactly. The two elements at the joint are one curve cut in two, so that it is smooth there, and with
-/// transported weights stays what it is while the joint slides.
+/// The axis, exactly, with one joint at most. The two elements at it are one curve cut in two, so that it is smooth
+/// there, and with transported weights stays what it is while the joint slides.
 template <int D>
 CubicChain<D> exact_shape(const Axis<D>& axis, const InitialNodes& nodes) {
   const auto& x = nodes.x;
-  const auto j = static_cast<std::size_t>(std::max(nodes.joint, 1));
-  if (nodes.joint == no_joint || !axis.in_one_piece(x[j - 1], x[j + 1])) return exact_chain(axis, x);
+  const int joint = nodes.joints.empty() ? 0 : nodes.joints.front();
+  const auto j = static_cast<std::size_t>(std::max(joint, 1));
+  if (joint == 0 || !axis.in_one_piece(x[j - 1], x[j + 1])) return exact_chain(axis, x);
   std::vector<double> others = x;
-  others.erase(others.begin() + nodes.joint);
+  others.erase(others.begin() + joint);
   auto chain = exact_chain(axis, others);
   const double l = x[j + 1] - x[j - 1], u = (x[j] - x[j - 1]) / l;
   const auto whole = RationalCubic<double, D>::from_nodal({chain.r[j - 1], chain.r_x[j - 1], chain.r[j], chain.r_x[j]},
                                                           l, chain.weights[j - 1]);
   const auto at = whole.evaluate(u);
-  chain.r.insert(chain.r.begin() + nodes.joint, at[0]);
-  chain.r_x.insert(chain.r_x.begin() + nodes.joint, at[1] / l);
+  chain.r.insert(chain.r.begin() + joint, at[0]);
+  chain.r_x.insert(chain.r_x.begin() + joint, at[1] / l);
   chain.weights[j - 1] = restrict_cubic(whole.weights, 0.0, u);
-  chain.weights.insert(chain.weights.begin() + nodes.joint, restrict_cubic(whole.weights, u, 1.0));
+  chain.weights.insert(chain.weights.begin() + joint, restrict_cubic(whole.weights, u, 1.0));
   return chain;
 }
 
@@ -159,26 +160,31 @@ Axis<D> build_axis(const Scene& scene) {
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) {
   const int n = scene.beam.elements;
   InitialNodes nodes{uniform_nodes(breaks, n)};
-  if (!sliding_joint(scene)) return nodes;
-  const double x = sliding_joint(scene)->position;
-  // the nearest interior node moves to the joint, unless the curve needs it where it is
-  auto may_move = [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    return k > 0 && k < n && !std::binary_search(breaks.begin(), breaks.end(), nodes.x[i]) && nodes.x[i - 1] < x &&
-           x < nodes.x[i + 1];
-  };
-  for (int k = 1; k < n; ++k) {
-    if (!may_move(k)) continue;
-    const auto distance = [&](int i) { return std::abs(nodes.x[static_cast<std::size_t>(i)] - x); };
-    if (nodes.joint == no_joint || distance(k) <= distance(nodes.joint)) nodes.joint = k;
+  const auto joints = sliding_joints(scene);
+  for (std::size_t which = 0; which < joints.size(); ++which) {
+    const double x = joints[which].position;
+    // the nearest interior node moves to the joint, unless the curve or another joint needs it where it is
+    const int first = nodes.joints.empty() ? 1 : nodes.joints.back() + 1;
+    auto may_move = [&](int k) {
+      const auto i = static_cast<std::size_t>(k);
+      return !std::binary_search(breaks.begin(), breaks.end(), nodes.x[i]) && nodes.x[i - 1] < x && x < nodes.x[i + 1];
+    };
+    int node = 0;
+    for (int k = first; k < n; ++k) {
+      if (!may_move(k)) continue;
+      const auto distance = [&](int i) { return std::abs(nodes.x[static_cast<std::size_t>(i)] - x); };
+      if (node == 0 || distance(k) <= distance(node)) node = k;
+    }
+    if (node == 0) {
+      const bool one = joints.size() == 1;
+      throw InvalidInput(joint_key(scene, which) + "/position", number_text(x),
+                         std::string(one ? "the sliding mass needs a node of its own between two knots of the curve"
+                                         : "each joint needs a node of its own, between two knots of a curve") +
+                             ": take more elements than " + std::to_string(n));
+    }
+    nodes.joints.push_back(node);
+    nodes.x[static_cast<std::size_t>(node)] = x;
   }
-  if (nodes.joint == no_joint) {
-    throw InvalidInput(joint_key(scene) + "/position", number_text(x),
-                       "the sliding mass needs a node of its own between two knots of the curve: take more elements "
-                       "than " +
-                           std::to_string(n));
-  }
-  nodes.x[static_cast<std::size_t>(nodes.joint)] = x;
   return nodes;
 }
 
@@ -212,16 +218,27 @@ WeightTransport weight_transport(const Scene& scene) {
   return scene.weights.value_or(is_curved_at_rest(scene) ? WeightTransport::transported : WeightTransport::frozen);
 }
 
-double separation_distance(const Scene& scene) {
-  return sliding_joint(scene)->separation_distance.value_or(separation_share * beam_length(scene));
+double separation_distance(const Scene& scene, const SlidingMassSpec& joint) {
+  return joint.separation_distance.value_or(separation_share * beam_length(scene));
 }
 
 double end_merge(const Scene& scene) {
-  const bool kinked = sliding_joint(scene) && sliding_joint(scene)->slopes != JointSlopes::continuous;
+  if (scene.analysis == Analysis::statics) return 0;  // nothing rides there
+  const bool kinked =
+      sliding_joint(scene) && joint_slopes(scene, sliding_joints(scene).front()) != JointSlopes::continuous;
   const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
-  const bool held = joint_support(scene) != SupportType::free;  // a ring needs a node to hold
-  const double otherwise = !scene.length_control.enabled || (kinked && stops) || held ? 0 : default_end_merge;
+  const bool held = joint_support(scene) != SupportType::free || guided(scene);  // it needs a node to hold
+  const bool several = scene.sliding_joints.size() > 1;
+  const double otherwise =
+      !scene.length_control.enabled || (kinked && stops) || held || several ? 0 : default_end_merge;
   return scene.length_control.end_merge.value_or(otherwise);
+}
+
+double merge_below(const Scene& scene) {
+  const auto& control = scene.length_control;
+  const bool several = scene.sliding_joints.size() > 1;
+  const double otherwise = control.enabled && several ? 2 - control.upper * (1 + control.hysteresis) : 0;
+  return control.lower.value_or(otherwise);
 }
 
 AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene) {
@@ -238,6 +255,15 @@ std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<
     masses.push_back({nodes[static_cast<std::size_t>(spec.node)], spec.mass});
   }
   return masses;
+}
+
+/// A joint's material coordinate, from its way along the beam.
+TimeFunction travelling(double from, const TimeFunction& way) {
+  return [way, shift = from - way(0).value](double t) {
+    Prescribed x = way(t);
+    x.value += shift;
+    return x;
+  };
 }
 
 /// Adds the velocities of the scene's rigid motion to those of a chain's nodes, without what supports hold.
@@ -289,23 +315,35 @@ BeamModel<D> build_model(const Scene& scene) {
   model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
   const auto motion_of = [&scene](const SupportSpec& spec) -> SupportMotion<D> {
     if (!spec.motion) return {};
-    return {vector_of<D>(spec.motion->direction).normalized(), acting(spec.motion->displacement, scene.analysis)};
+    const auto& [direction, displacement, angle] = *spec.motion;
+    SupportMotion<D> motion;
+    if (angle) motion.angle = time_function(*angle);
+    if (direction == Point{}) return motion;
+    motion.direction = vector_of<D>(direction).normalized();
+    motion.displacement = acting(displacement, scene.analysis);
+    return motion;
   };
   model.start_motion = motion_of(scene.start);
   model.end_motion = motion_of(scene.end);
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
-  if (const SlidingMassSpec* joint = sliding_joint(scene)) {
-    model.joint = SlidingJoint{joint->mass, joint->slopes, joint->friction};
-    const SupportType held = joint_support(scene);
-    if (held == SupportType::pin) model.joint_support = Support<D>::pin();
-    if (held == SupportType::clamp) {
-      model.joint_support = Support<D>::direction_clamp(axis.tangent(joint->position));
+  for (const SlidingJointSpec& spec : sliding_joints(scene)) {
+    ModelJoint<D>& joint = model.joints.emplace_back();
+    joint.law = SlidingJoint{spec.mass, joint_slopes(scene, spec), spec.friction};
+    if (spec.support == SupportType::pin) joint.support = Support<D>::pin();
+    if (spec.support == SupportType::clamp) {
+      joint.support = Support<D>::direction_clamp(axis.tangent(spec.position));
     }
-    model.separation_distance = separation_distance(scene);
-    model.at_support = {joint->at_support, joint->restitution};
+    joint.separation_distance = separation_distance(scene, spec);
+    joint.at_support = {spec.at_support, spec.restitution};
+    if (spec.x) joint.x = travelling(spec.position, time_function(*spec.x));
   }
   model.masses.points = build_point_masses(scene, axis.breaks());
+  const double of_mass = scene.beam.material.mass_damping * model.section.rhoA;
+  const DragSpec drag = scene.drag.value_or(DragSpec{});
+  model.drag = {{drag.linear.normal + of_mass, drag.linear.tangential + of_mass},
+                {drag.quadratic.normal, drag.quadratic.tangential},
+                model.quadrature_points};
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   const auto& control = scene.length_control;
@@ -316,8 +354,9 @@ BeamModel<D> build_model(const Scene& scene) {
                           merge_policy(scene),
                           control.merge_rule,
                           !is_polynomial(scene.beam.element),
-                          control.velocities,
-                          end_merge(scene)};
+                          scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
+                          end_merge(scene),
+                          merge_below(scene)};
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
   auto [loads, torques] = build_loads<D>(scene);
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
@@ -355,7 +394,6 @@ ChainState<D> build_chain(const Scene& scene) {
   }
   ChainState<D> chain;
   chain.mesh.x = x;
-  chain.joint = nodes.joint;
   chain.q.resize(static_cast<std::size_t>(node_size<D>) * x.size());
   chain.rate.assign(chain.q.size(), 0);
   for (int k = 0; k <= scene.beam.elements; ++k) {
@@ -366,25 +404,37 @@ ChainState<D> build_chain(const Scene& scene) {
   }
   if (has_rest_shape(scene)) chain.rest = chain.q;
   add_rigid_motion(scene, axis, chain);
-  if (!sliding_joint(scene)) return chain;
-  // the beam is at rest, so the moving node travels along it
-  chain.joint_rate = sliding_joint(scene)->velocity;
-  const int j = chain.joint;
-  auto r_x = slope<D>(chain.q.data(), j);
-  position<D>(chain.rate.data(), j) += chain.joint_rate * r_x;
-  Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
-  if (has_rest_shape(scene)) {
-    before = behind = chain.joint_rate * axis.derivatives(x[static_cast<std::size_t>(j)])[2];
-  } else if (!axis.straight()) {
-    before = chain.joint_rate * second_derivative(chain, j - 1, 1);
-    behind = chain.joint_rate * second_derivative(chain, j, 0);
+  // the beam is at rest or moves as a rigid body, so each moving node travels along it
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const int j = nodes.joints[i];
+    auto r_x = slope<D>(chain.q.data(), j);
+    const bool held = joints[i].support != SupportType::free;
+    // what is held stands still, and what goes through it is the beam
+    const double own = joints[i].x ? time_function(*joints[i].x)(0).rate : joints[i].velocity;
+    const double rate = held ? -position<D>(chain.rate.data(), j).dot(r_x) / r_x.squaredNorm() : own;
+    auto& joint = chain.joints.emplace_back();
+    joint = {.node = j, .rate = rate, .index = static_cast<int>(i)};
+    position<D>(chain.rate.data(), j) += rate * r_x;
+    Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
+    if (has_rest_shape(scene)) {
+      before = behind = rate * axis.derivatives(x[static_cast<std::size_t>(j)])[2];
+    } else if (!axis.straight()) {
+      before = rate * second_derivative(chain, j - 1, 1);
+      behind = rate * second_derivative(chain, j, 0);
+    }
+    const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
+    before += turning;
+    behind += turning;
+    const bool kinked = joint_slopes(scene, joints[i]) != JointSlopes::continuous;
+    if (kinked) joint.kink = {r_x, behind};
+    slope<D>(chain.rate.data(), j) = kinked ? before : Vec<double, D>((before + behind) / 2);
+    if (held) position<D>(chain.rate.data(), j).setZero();
+    if (joints[i].support != SupportType::clamp) continue;
+    const auto sleeve = Support<D>::direction_clamp(axis.tangent(x[static_cast<std::size_t>(j)]));
+    slope<D>(chain.rate.data(), j) =
+        sleeve.out_of_frame((sleeve.into_frame(slope<D>(chain.rate.data(), j)).array() * sleeve.free_slope).matrix());
   }
-  const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
-  before += turning;
-  behind += turning;
-  const bool kinked = sliding_joint(scene)->slopes != JointSlopes::continuous;
-  if (kinked) chain.kink = {r_x, behind};
-  slope<D>(chain.rate.data(), j) = kinked ? before : Vec<double, D>((before + behind) / 2);
   return chain;
 }
 

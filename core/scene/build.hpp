@@ -10,11 +10,11 @@ namespace vlbeam {
 template <int D>
 Axis<D> build_axis(const Scene& scene);
 
-/// Material coordinates of the initial nodes, and which of them is the joint's. Throws InvalidInput where the sliding
-/// mass has no node of its own between two knots of a NURBS curve.
+/// Material coordinates of the initial nodes, and which of them are the joints'. Throws InvalidInput where a joint has
+/// no node of its own between two knots of a NURBS curve.
 struct InitialNodes {
   std::vector<double> x;
-  int joint = no_joint;
+  std::vector<int> joints = {};
 };
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks);
 

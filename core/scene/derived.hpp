@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/scene/scene.hpp"
 
 namespace vlbeam {
@@ -31,7 +33,14 @@ MergePolicy merge_policy(const Scene& scene);
 /// Whether an element's weights are 1, and stay so.
 inline bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
 
-/// What slides along the beam, or null; how it is held, and the pointer of its options.
+/// What slides along the beam, in order; a sliding mass is one that is free.
+inline std::vector<SlidingJointSpec> sliding_joints(const Scene& scene) {
+  if (!scene.sliding_mass) return scene.sliding_joints;
+  SlidingJointSpec free;
+  static_cast<SlidingMassSpec&>(free) = *scene.sliding_mass;
+  return {free};
+}
+/// The first of them, or null; how it is held, and the pointer of the options of one.
 inline const SlidingMassSpec* sliding_joint(const Scene& scene) {
   if (!scene.sliding_joints.empty()) return &scene.sliding_joints.front();
   return scene.sliding_mass ? &*scene.sliding_mass : nullptr;
@@ -39,19 +48,33 @@ inline const SlidingMassSpec* sliding_joint(const Scene& scene) {
 inline SupportType joint_support(const Scene& scene) {
   return scene.sliding_joints.empty() ? SupportType::free : scene.sliding_joints.front().support;
 }
-inline std::string joint_key(const Scene& scene) {
-  return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/0";
+/// Whether something guides a joint along the beam.
+inline bool guided(const Scene& scene) {
+  return std::any_of(scene.sliding_joints.begin(), scene.sliding_joints.end(),
+                     [](const SlidingJointSpec& joint) { return joint.x.has_value(); });
+}
+inline std::string joint_key(const Scene& scene, std::size_t which = 0) {
+  return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/" + std::to_string(which);
+}
+
+/// What the beam's slopes do at it: in statics a sleeve has one on each side of it, in its direction, so that the
+/// stretch may jump there as the tension does.
+inline JointSlopes joint_slopes(const Scene& scene, const SlidingJointSpec& joint) {
+  const bool sleeve = scene.analysis == Analysis::statics && joint.support == SupportType::clamp;
+  return sleeve ? JointSlopes::tangent : joint.slopes;
 }
 
 /// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
 /// the beam is curved at rest.
 WeightTransport weight_transport(const Scene& scene);
 
-/// Distance from a free end at which the sliding mass of the scene leaves [m].
-double separation_distance(const Scene& scene);
+/// Distance from a free end at which a joint of the scene leaves [m].
+double separation_distance(const Scene& scene, const SlidingMassSpec& joint);
 
 /// Length of the last element, over L_std, at which the sliding mass of the scene loses its node; 0 for never.
 double end_merge(const Scene& scene);
+/// Length of an element beside a joint, over L_std, below which it is merged with the next one; 0 for never.
+double merge_below(const Scene& scene);
 /// With what is not given.
 AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 

@@ -61,6 +61,9 @@ constexpr auto names(Analysis) {
 constexpr auto names(LoadControl) {
   return std::to_array<Named<LoadControl>>({{LoadControl::load, "load"}, {LoadControl::arc_length, "arc-length"}});
 }
+constexpr auto names(StaticJoints) {
+  return std::to_array<Named<StaticJoints>>({{StaticJoints::released, "released"}, {StaticJoints::held, "held"}});
+}
 constexpr auto names(LoadPlace) {
   using enum LoadPlace;
   return std::to_array<Named<LoadPlace>>({{node, "node"}, {point, "point"}, {beam, "beam"}});
@@ -123,12 +126,15 @@ constexpr auto names(WeightTransport) {
 constexpr auto names(EventType) {
   using enum EventType;
   return std::to_array<Named<EventType>>({{segment_merge, "segment-merge"},
+                                          {segmentation, "segmentation"},
+                                          {merging, "merging"},
                                           {separation, "separation"},
                                           {reweighting, "reweighting"},
                                           {end_merge, "end-merge"},
                                           {end_cut, "end-cut"},
                                           {contact, "contact"},
-                                          {lift_off, "lift-off"}});
+                                          {lift_off, "lift-off"},
+                                          {passage, "passage"}});
 }
 constexpr auto names(RunStatus) {
   using enum RunStatus;

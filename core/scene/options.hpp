@@ -83,7 +83,8 @@ struct Option {
   Range range = {};
   int components = 0;  ///< length of a Point as written: the scene's dimension
   Condition when = {};
-  bool required = false;  ///< where its parent is given
+  bool required = false;          ///< where its parent is given
+  std::string_view instead = "";  ///< a key beside it with which it is not required
 };
 
 /// An option that takes a choice of names, or is left out.
@@ -326,6 +327,11 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .source = "Ding & Ouyang 2022, Eq. 19",
                  .range = Range::non_negative()},
           beam.material.damping);
+  visitor(Option{.pointer = "/beam/material/mass_damping",
+                 .unit = "1/s",
+                 .description = "alpha of damping in proportion to the beam's mass: a force -alpha times the momentum",
+                 .range = Range::non_negative()},
+          beam.material.mass_damping);
   visitor(Option{.pointer = "/beam/material/curvature_regularization",
                  .unit = "1/m",
                  .description =
@@ -392,11 +398,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
     part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
     part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
     part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
+    part("until", "s", "time from which on it goes on evenly, at the rate it has then; if not given it never does",
+         Range::non_negative(), f.until);
   };
 
   const auto support = [&](const std::string& entry, auto& at) {
     const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
-                      direction = motion + "/direction";
+                      direction = motion + "/direction", angle = motion + "/angle";
     visitor(Option{.pointer = type, .unit = "", .description = "how the end is held", .required = true}, at.type);
     visitor(Option{.pointer = clamp,
                    .unit = "",
@@ -407,13 +415,20 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
             Option{.pointer = motion,
                    .unit = "",
                    .description = "displacement of a clamp or a pin as a function of time, from where it is "
-                                  "at t = 0 and from rest"},
+                                  "at t = 0 and from rest, and the angle of a clamp"},
             at.motion)) {
+      const bool turns = visitor.present(
+          Option{.pointer = angle,
+                 .unit = "",
+                 .description = "by which a clamp turns about its point, in the plane, from how it stands at t = 0"},
+          at.motion->angle);
+      if (turns) time_function(angle, "rad", {}, *at.motion->angle);
       visitor(Option{.pointer = direction,
                      .unit = "-",
-                     .description = "of the displacement; it need not have unit length",
+                     .description = "of the displacement; it need not have unit length; needed without an angle",
                      .components = scene.dimension,
-                     .required = true},
+                     .required = !turns,
+                     .instead = "angle"},
               at.motion->direction);
       time_function(motion, "m", {}, at.motion->displacement);
     }
@@ -491,8 +506,8 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   visitor.list(
       Option{.pointer = "/sliding_joints",
              .unit = "",
-             .description = "what slides along the beam, one so far: a mass, or a ring or a sleeve that is held "
-                            "in space"},
+             .description = "what slides along the beam, in order from its start: masses, and rings and sleeves that "
+                            "are held in space"},
       scene.sliding_joints);
   for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
     auto& joint = scene.sliding_joints[i];
@@ -503,7 +518,14 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                .description = "free, with a mass; pin: a ring, held where the beam is at t = 0; clamp: a sleeve, which "
                               "holds the beam's direction, too"},
         joint.support);
-    joint_options(at, joint.support != SupportType::free, joint);
+    const bool guided = visitor.present(
+        Option{.pointer = at + "/x",
+               .unit = "",
+               .description = "its way along the beam as a function of time, counted from where it is at t = 0: what "
+                              "guides it does the work"},
+        joint.x);
+    if (guided) time_function(at + "/x", "m", {}, *joint.x);
+    joint_options(at, guided || joint.support != SupportType::free, joint);
   }
 
   if (visitor.present(Option{.pointer = "/spin", .unit = "", .description = "the section's rotation about the axis"},
@@ -641,6 +663,27 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
             velocity.about);
   }
 
+  if (visitor.present(Option{.pointer = "/drag",
+                             .unit = "",
+                             .description = "of still air: a force per unstretched length against the beam's velocity"},
+                      scene.drag)) {
+    auto& drag = *scene.drag;
+    const auto coefficient = [&](std::string_view pointer, std::string_view unit, std::string_view description,
+                                 auto& member) {
+      visitor(Option{.pointer = pointer, .unit = unit, .description = description, .range = Range::non_negative()},
+              member);
+    };
+    section("/drag/linear", "in proportion to the velocity");
+    section("/drag/quadratic", "in proportion to the square of the velocity");
+    coefficient("/drag/linear/normal", "N s/m^2", "of the velocity across the axis", drag.linear.normal);
+    coefficient("/drag/linear/tangential", "N s/m^2", "of the velocity along the axis", drag.linear.tangential);
+    coefficient("/drag/quadratic/normal", "N s^2/m^3",
+                "of the velocity across the axis: half the density of the air "
+                "times the coefficient of drag and the width",
+                drag.quadratic.normal);
+    coefficient("/drag/quadratic/tangential", "N s^2/m^3", "of the velocity along the axis", drag.quadratic.tangential);
+  }
+
   visitor(Option{.pointer = "/formulation",
                  .unit = "",
                  .description = "equations of motion at a moving node: Lagrange's, or the paper's virtual work",
@@ -692,6 +735,15 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .range = {.low = 0, .high = 0.9}},
           scene.length_control.end_merge);
 
+  visitor(Option{.pointer = "/length_control/lower",
+                 .unit = "-",
+                 .description =
+                     "length over the uniform element length below which an element beside a joint is merged with the "
+                     "next one, even where the other side is not cut; 0 never; if not given 2 - upper (1 + hysteresis) "
+                     "with several joints, where both fall together on even elements, and 0 with one",
+                 .range = {.low = 0, .high = 1}},
+          scene.length_control.lower);
+
   visitor(
       Option{.pointer = "/constraints",
              .unit = "",
@@ -731,6 +783,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .range = Range::closed(0, 1000),
                  .when = statics},
           scene.statics.frequencies);
+  visitor(Option{.pointer = "/statics/joints",
+                 .unit = "",
+                 .description = "what becomes of a ring, a sleeve or a sliding mass, which keeps its place on the beam "
+                                "while the load grows: it is released and slides to where it is in equilibrium, or "
+                                "held, in the natural frequencies, too",
+                 .when = statics},
+          scene.statics.joints);
 
   const std::string_view integrator_type = "/integrator/type";
   const auto timed = [&](Option option, auto& member) {  // there is no time in statics

@@ -44,6 +44,7 @@ struct JointSample {
   Point force;        ///< with which the beam acts on the mass [N]
   double tangential;  ///< of the force: along the beam's tangent, towards its end [N]
   double normal;      ///< and across it, the magnitude [N]
+  double guiding;     ///< of what guides the mass, on its material coordinate: its power over `velocity` [N]
 };
 
 /// Least and largest over the beam; of strains from the rest shape, as the strain law measures them.
@@ -55,14 +56,23 @@ struct StrainSample {
 
 /// Of an equilibrium.
 struct StaticSample {
-  double load_factor = 0;   ///< what loads, gravity and displacements of supports are scaled by
-  int negative_pivots = 0;  ///< of the tangent: directions in which the potential energy falls; 0 is stable
+  double load_factor = 0;    ///< what loads, gravity and displacements of supports are scaled by
+  int negative_pivots = 0;   ///< of the tangent: directions in which the potential energy falls; 0 is stable
+  double holding_force = 0;  ///< on the material coordinate of a joint, along the beam [N]; 0 once it is released
+};
+
+/// One of several joints.
+struct SlidingSample {
+  std::optional<double> position;      ///< material coordinate [m], while it is on the beam
+  std::optional<Point> mass_position;  ///< [m]; of a ring or a sleeve while it is on the beam
+  std::optional<JointSample> on_beam;
 };
 
 /// The observed quantities at one instant.
 struct Sample {
   double t = 0;                          ///< in statics the number of the equilibrium, from 0
-  std::optional<double> joint_position;  ///< material coordinate x_i [m]; empty once the mass has left, or without one
+  std::optional<double> joint_position;  ///< of the first joint: material coordinate x_i [m]; empty once the mass has
+                                         ///< left, or without one
   std::optional<Point> mass_position;    ///< [m]; empty without a sliding mass
   Point end{};                           ///< position of the beam's last node [m]
   double beam_length = 0;                ///< current arc length [m]
@@ -74,7 +84,8 @@ struct Sample {
   std::array<Reaction, 2>
       reactions{};  ///< of the supports at start and end, by the accelerations that belong to the state
   StrainSample strains;
-  std::optional<JointSample> joint;  ///< as `joint_position`
+  std::optional<JointSample> joint;   ///< as `joint_position`
+  std::vector<SlidingSample> joints;  ///< all of them, where there are several
   std::shared_ptr<const FlowSample> flow;
   std::optional<StaticSample> equilibrium;
 };
@@ -93,13 +104,20 @@ struct Configuration {
     std::vector<Point> r_x;  ///< [-]
   };
   Rest rest;
-  /// Where the beam may be kinked, at the mass: `r_x` has the slope before it, this is the one behind.
+  /// Where the beam may be kinked, at a joint: `r_x` has the slope before it, this is the one behind.
   struct Kink {
     std::size_t node;
     Point r_x;
     Point r_x_rate{};  ///< [1/s]
   };
-  std::optional<Kink> kink;
+  std::vector<Kink> kinks;
+  /// The one at a node, or null.
+  const Kink* kink_at(std::size_t node) const {
+    for (const Kink& kink : kinks) {
+      if (kink.node == node) return &kink;
+    }
+    return nullptr;
+  }
   /// How fast all this changes.
   struct Rates {
     std::vector<double> x;      ///< of the material coordinates [m/s]
@@ -114,6 +132,7 @@ struct Configuration {
 struct Event {
   double t = 0;
   EventType type = EventType::segment_merge;
+  int joint = 0;  ///< which of the scene's
   double joint_position = 0;
   std::array<double, 3> weights{1, 1, 1};  ///< k_0, k_1, k_2 of the merged element (k_3 = 1)
   bool unit_fallback = false;              ///< a k_i <= 0 was found and unit weights taken instead (Eq. 38)

@@ -81,17 +81,20 @@ struct Material {
   double youngs_modulus = 2e7;          ///< [Pa], used with a circle
   double poisson_ratio = 0.3;           ///< used with a circle that spins
   double damping = 0;                   ///< Kelvin-Voigt time c [s]
+  double mass_damping = 0;              ///< alpha [1/s]: forces -alpha rhoA v per length
   double curvature_regularization = 0;  ///< kappa_reg [1/m], needed by bending damping in 3D
 };
 
 /// A quantity as a function of time:
-/// S(t/ramp) (value + rate t + acceleration t^2/2 + amplitude sin(2 pi frequency t + phase)), S of gravity_ramp.
+/// S(t/ramp) (value + rate t + acceleration t^2/2 + amplitude sin(2 pi frequency t + phase)), S of gravity_ramp; from
+/// `until` on it goes on evenly, at the rate it has then.
 struct TimeSpec {
   double value = 0, rate = 0, acceleration = 0;
   double amplitude = 0;
-  double frequency = 0;      ///< [Hz]
-  double phase_degrees = 0;  ///< [degrees]
-  double ramp = 0;           ///< [s]
+  double frequency = 0;              ///< [Hz]
+  double phase_degrees = 0;          ///< [degrees]
+  double ramp = 0;                   ///< [s]
+  std::optional<double> until = {};  ///< [s]; if not given it never does
 };
 
 /// Rotary inertia of bending.
@@ -116,10 +119,11 @@ struct BeamSpec {
   std::array<double, 4> weights{1, 1, 1, 1};  ///< initial weights of every element
 };
 
-/// Displacement of a clamp or a pin as a function of time, counted from where it is at t = 0.
+/// How a clamp or a pin moves as a function of time, counted from where it is at t = 0.
 struct SupportMotionSpec {
-  Point direction{};      ///< need not have unit length
-  TimeSpec displacement;  ///< [m]
+  Point direction{};                   ///< of the displacement; need not have unit length
+  TimeSpec displacement;               ///< [m]
+  std::optional<TimeSpec> angle = {};  ///< [rad], of a clamp in the plane, about its point
 };
 
 /// The support of one end.
@@ -147,6 +151,7 @@ struct SlidingJointSpec : SlidingMassSpec {
   SlidingJointSpec() { mass = 0; }
 
   SupportType support = SupportType::free;
+  std::optional<TimeSpec> x;  ///< way of the joint along the beam as a function of time, counted from `position` [m]
 };
 
 /// The section's rotation about the axis of the beam.
@@ -216,6 +221,16 @@ struct LoadSpec {
   TimeSpec turn;             ///< force: angle by which the direction has turned about the initial axis [rad]
 };
 
+/// Force per unstretched length against the velocity of the beam in still air, across and along its axis.
+struct DragSpec {
+  struct Coefficients {
+    double normal = 0, tangential = 0;
+  };
+
+  Coefficients linear = {};     ///< over the velocity [N s/m^2]
+  Coefficients quadratic = {};  ///< over its square [N s^2/m^3]
+};
+
 /// How the lengths of the elements beside the sliding mass are controlled.
 struct LengthControlSpec {
   bool enabled = true;
@@ -224,7 +239,8 @@ struct LengthControlSpec {
   std::optional<MergePolicy> merge = {};  ///< see merge_policy()
   MergeRule merge_rule = {};              ///< of the policy `own`; no scene file can hold it
   VelocityTransfer velocities = VelocityTransfer::projected;
-  std::optional<double> end_merge;  ///< over L_std: a shorter last element loses its moving node; see end_merge()
+  std::optional<double> end_merge;   ///< over L_std: a shorter last element loses its moving node; see end_merge()
+  std::optional<double> lower = {};  ///< over L_std: a shorter element beside a joint is merged; see merge_below()
 };
 
 /// Absolute tolerances by kind. That of slopes is the one of lengths over L_std, that of twist the one of angles; of
@@ -269,14 +285,21 @@ enum class LoadControl {
   arc_length,  ///< steps along the path of equilibria, on which the load factor may also fall
 };
 
+/// What becomes of joints that slide, which keep their place on the beam while the load grows.
+enum class StaticJoints {
+  released,  ///< then they find theirs
+  held,
+};
+
 struct StaticsSpec {
   int steps = 10;
   LoadControl control = LoadControl::load;
   double tolerance = 1e-12;  ///< largest last correction: of positions over the beam's length, and of slopes
   int frequencies = 0;       ///< how many, about the last equilibrium
+  StaticJoints joints = StaticJoints::released;
 };
 
-/// One beam, its supports and loads, and at most one mass that slides on it; or a shaft that spins or flows through its
+/// One beam, its supports and loads, and what slides on it; or a shaft that spins or flows through its
 /// supports. SI units.
 struct Scene {
   std::string title;
@@ -288,12 +311,13 @@ struct Scene {
   SupportSpec start;
   SupportSpec end;
   std::optional<SlidingMassSpec> sliding_mass;        ///< short for one sliding joint that is free
-  std::vector<SlidingJointSpec> sliding_joints = {};  ///< at most one so far, and none beside a sliding mass
+  std::vector<SlidingJointSpec> sliding_joints = {};  ///< in order along the beam; none beside a sliding mass
   std::optional<SpinSpec> spin;
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};
   std::vector<PointMassSpec> point_masses = {};
   std::optional<InitialVelocitySpec> initial_velocity;
+  std::optional<DragSpec> drag = {};
   Analysis analysis = Analysis::dynamics;
   StaticsSpec statics;
   Formulation formulation = Formulation::variational;

@@ -1,5 +1,7 @@
 #include "core/scene/shape.hpp"
 
+#include <algorithm>
+
 #include <stdexcept>
 
 #include "core/element/moving_kinematics.hpp"
@@ -23,7 +25,7 @@ void check(const Configuration& shape, int per_element) {
       nodes >= 2 && shape.r.size() == nodes && shape.r_x.size() == nodes && shape.weights.size() + 1 == nodes &&
       shape.rates.x.size() == nodes && shape.rates.v.size() == nodes && shape.rates.r_x.size() == nodes &&
       shape.rest.r.size() == shape.rest.r_x.size() && (shape.rest.r.empty() || shape.rest.r.size() == nodes) &&
-      (!shape.kink || shape.kink->node < nodes);
+      std::all_of(shape.kinks.begin(), shape.kinks.end(), [&](const auto& kink) { return kink.node < nodes; });
   if (!whole) throw std::invalid_argument("a configuration has one entry a node, and one of weights an element");
   if (per_element < 1) throw std::invalid_argument("an element has at least one interval of points");
 }
@@ -47,9 +49,9 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
   };
   std::vector<ShapePoint> points;
   for (std::size_t k = 0; k + 1 < shape.x.size(); ++k) {
-    const bool behind_kink = shape.kink && shape.kink->node == k;
-    const Point& slope = behind_kink ? shape.kink->r_x : shape.r_x[k];
-    const Point& slope_rate = behind_kink ? shape.kink->r_x_rate : shape.rates.r_x[k];
+    const auto* const kink = shape.kink_at(k);
+    const Point& slope = kink != nullptr ? kink->r_x : shape.r_x[k];
+    const Point& slope_rate = kink != nullptr ? kink->r_x_rate : shape.rates.r_x[k];
     const MovingCoordinates<double, D> q{
         {vector_of<D>(shape.r[k]), vector_of<D>(slope), vector_of<D>(shape.r[k + 1]), vector_of<D>(shape.r_x[k + 1])},
         shape.x[k],

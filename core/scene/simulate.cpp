@@ -29,7 +29,11 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.rest.r.push_back(point_of<D>(position<D>(chain.rest.data(), k)));
     shape.rest.r_x.push_back(point_of<D>(slope<D>(chain.rest.data(), k)));
   }
-  if (chain.kink) shape.kink = {static_cast<std::size_t>(chain.joint), point_of<D>(chain.kink->slope)};
+  for (const auto& joint : chain.joints) {
+    if (!joint.kink) continue;
+    shape.kinks.push_back(
+        {static_cast<std::size_t>(joint.node), point_of<D>(joint.kink->slope), point_of<D>(joint.kink->rate)});
+  }
   for (int k = 0; k < chain.mesh.elements(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto& weights = chain.mesh.weights[i];
@@ -37,13 +41,13 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
   }
   for (int k = 0; k <= chain.mesh.last(); ++k) {
-    const double at_joint = k == chain.joint ? chain.joint_rate : 0;
+    const auto* const joint = chain.joint_at(k);
+    const double at_joint = joint != nullptr ? joint->rate : 0;
     const double x_rate = mark_rates.empty() ? at_joint : mark_rates[static_cast<std::size_t>(k)];
     shape.rates.x.push_back(x_rate);
     shape.rates.v.push_back(point_of<D>(position<D>(chain.rate.data(), k) - x_rate * slope<D>(chain.q.data(), k)));
     shape.rates.r_x.push_back(point_of<D>(slope<D>(chain.rate.data(), k)));
   }
-  if (chain.kink) shape.kink->r_x_rate = point_of<D>(chain.kink->rate);
   return shape;
 }
 
@@ -145,9 +149,20 @@ class Run {
 
   void look_at_mass(const Eigen::VectorXd& y, const ChainState<D>& chain, const OuterForces<D>& forces,
                     Sample& sample) {
-    if (const auto place = mass_coordinate(chain)) sample.joint_position = *place;
-    if (const auto mass = system_.mass_motion(y)) sample.mass_position = point_of<D>(mass->r);
-    if (system_.mass_on_beam()) sample.joint = joint_sample(y, chain, forces.on_mass);
+    const std::size_t count = system_.model().joints.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const int index = static_cast<int>(i);
+      SlidingSample joint;
+      joint.position = mark_of(chain, index);
+      if (const auto mass = system_.mass_motion(y, index)) joint.mass_position = point_of<D>(mass->r);
+      if (system_.on_beam(index)) joint.on_beam = joint_sample(y, chain, index, forces);
+      if (i == 0) {
+        sample.joint_position = joint.position;
+        sample.mass_position = joint.mass_position;
+        sample.joint = joint.on_beam;
+      }
+      if (count > 1) sample.joints.push_back(joint);
+    }
     const ConstraintResidual slopes = system_.slope_residual(y);
     result_.slopes.position = std::max(result_.slopes.position, slopes.position);
     result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
@@ -168,30 +183,40 @@ class Run {
     return std::make_shared<const FlowSample>(std::move(flow));
   }
 
-  /// Material coordinate of the mass, while it is on the beam.
-  static std::optional<double> mass_coordinate(const ChainState<D>& chain) {
+  /// Material coordinate of a joint, while it is on the beam.
+  static std::optional<double> mark_of(const ChainState<D>& chain, int index) {
     if (chain.rider) return chain.rider->x;
-    if (chain.joint == no_joint) return std::nullopt;
-    return chain.mesh.x[static_cast<std::size_t>(chain.joint)];
+    const auto* const joint = find(chain, index);
+    if (joint == nullptr) return std::nullopt;
+    return chain.mesh.x[static_cast<std::size_t>(joint->node)];
+  }
+  static const typename ChainState<D>::Joint* find(const ChainState<D>& chain, int index) {
+    const auto found = std::find_if(chain.joints.begin(), chain.joints.end(),
+                                    [index](const auto& joint) { return joint.index == index; });
+    return found == chain.joints.end() ? nullptr : &*found;
   }
 
-  JointSample joint_sample(const Eigen::VectorXd& y, const ChainState<D>& chain, const Vec<double, D>& force) const {
+  JointSample joint_sample(const Eigen::VectorXd& y, const ChainState<D>& chain, int index,
+                           const OuterForces<D>& forces) const {
+    const Vec<double, D>& force = forces.on_masses[static_cast<std::size_t>(index)];
     Vec<double, D> tangent;
+    const auto* const joint = find(chain, index);
     if (chain.rider) {
       tangent = system_.rider_motion(y.data(), y.data() + system_.coordinates()).r_x.normalized();
     } else {
-      tangent = slope<D>(chain.q.data(), chain.joint).normalized();
+      tangent = slope<D>(chain.q.data(), joint->node).normalized();
+      if (joint->kink) tangent = (tangent + joint->kink->slope.normalized()).normalized();
     }
-    if (chain.kink) tangent = (tangent + chain.kink->slope.normalized()).normalized();
     const double along = force.dot(tangent);
-    return {chain.rider ? chain.rider->rate : chain.joint_rate, point_of<D>(force), along,
-            (force - along * tangent).norm()};
+    return {chain.rider ? chain.rider->rate : joint->rate, point_of<D>(force), along, (force - along * tangent).norm(),
+            forces.guiding[static_cast<std::size_t>(index)]};
   }
 
   void event(const EventRecord<D>& record) {
     Event event;
     event.t = record.t;
     event.type = record.type;
+    event.joint = record.joint;
     event.joint_position = record.joint_position;
     event.weights = record.merged.k;
     event.unit_fallback = record.merged.unit_fallback;

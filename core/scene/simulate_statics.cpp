@@ -14,7 +14,7 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   const ChainState<D> chain = system.chain(at.y);
   Sample sample;
   sample.t = number;
-  sample.equilibrium = {at.factor, at.negative_pivots};
+  sample.equilibrium = {at.factor, at.negative_pivots, at.holding_force};
   sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
   sample.beam_length = seen.beam_length;
   sample.energy = seen.energy;
@@ -22,6 +22,16 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   sample.strains = strain_sample(*seen.extremes);
   const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
   for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+  if (system.has_joint()) {
+    const auto& joint = chain.joints.front();
+    sample.joint_position = chain.mesh.x[static_cast<std::size_t>(joint.node)];
+    const Vec<double, D> place = position<D>(chain.q.data(), joint.node), &force = forces.on_masses.front();
+    sample.mass_position = point_of<D>(place);
+    Vec<double, D> tangent = slope<D>(chain.q.data(), joint.node).normalized();
+    if (joint.kink) tangent = (tangent + joint.kink->slope.normalized()).normalized();
+    const double along = force.dot(tangent);
+    sample.joint = {0, point_of<D>(force), along, (force - along * tangent).norm(), 0};
+  }
   if (!system.model().loads.present()) return sample;
   FlowSample flow;
   flow.mass = seen.mass;
@@ -51,7 +61,9 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
     return goes_on;
   };
   try {
-    trace_equilibria<D>(system, {statics.steps, statics.control == LoadControl::arc_length, statics.tolerance},
+    trace_equilibria<D>(system,
+                        {statics.steps, statics.control == LoadControl::arc_length, statics.tolerance,
+                         statics.joints == StaticJoints::released},
                         on_point, result.solver);
     if (last && statics.frequencies > 0) result.frequencies = natural_frequencies(system, *last, statics.frequencies);
   } catch (const ComputationFailed& failure) {

@@ -10,7 +10,7 @@ namespace vlbeam {
 
 /// The function that a scene describes, with its derivatives.
 inline TimeFunction time_function(const TimeSpec& spec) {
-  return [spec](double t) -> Prescribed {
+  const auto function = [spec](double t) -> Prescribed {
     const double omega = 2 * std::numbers::pi * spec.frequency;
     const double angle = omega * t + spec.phase_degrees * (std::numbers::pi / 180);
     const double sine = spec.amplitude * std::sin(angle), cosine = spec.amplitude * std::cos(angle);
@@ -20,6 +20,12 @@ inline TimeFunction time_function(const TimeSpec& spec) {
     const Prescribed share = smooth_ramp(t, spec.ramp);
     return {share.value * value, share.rate * value + share.value * rate,
             share.acceleration * value + 2 * share.rate * rate + share.value * acceleration};
+  };
+  if (!spec.until) return function;
+  return [function, until = *spec.until](double t) -> Prescribed {
+    if (t < until) return function(t);
+    const Prescribed then = function(until);
+    return {then.value + then.rate * (t - until), then.rate, 0};
   };
 }
 

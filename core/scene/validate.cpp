@@ -228,20 +228,52 @@ void check_beam(const Scene& scene) {
 
 std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
-/// Rings and sleeves.
-void check_held_joint(const Scene& scene) {
-  if (scene.sliding_joints.empty()) return;
-  const std::string key = joint_key(scene);
-  if (scene.sliding_mass) {
+bool is_zero(const TimeSpec& f) { return f.value == 0 && f.rate == 0 && f.acceleration == 0 && f.amplitude == 0; }
+
+/// What the rate of a function of time may be at t = 0, but for its ramp: a cosine, of phase 90 degrees, has a rate of
+/// rounding.
+double largest_rate(const TimeSpec& f) { return std::abs(f.rate) + std::abs(f.amplitude * f.frequency); }
+
+/// What several joints do not go together with.
+void check_several_joints(const Scene& scene) {
+  if (scene.sliding_mass && !scene.sliding_joints.empty()) {
     refuse("/sliding_joints", "this key", "it does not go together with /sliding_mass, which is one of them");
   }
-  if (scene.sliding_joints.size() > 1) {
-    refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", "so far it may have one");
+  const auto& joints = scene.sliding_joints;
+  if (joints.size() < 2) return;
+  const double apart = 0.2 * standard_length(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const std::string key = joint_key(scene, i);
+    if (i > 0 && !(joints[i].position >= joints[i - 1].position + apart)) {
+      refuse(key + "/position", number_text(joints[i].position),
+             "joints stand in order along the beam and a fifth of an element apart: at least " +
+                 number_text(joints[i - 1].position + apart) + " [m], by that of " + joint_key(scene, i - 1));
+    }
+    if (joints[i].at_support != AtSupport::stop) {
+      refuse(key + "/at_support", quoted(to_string(joints[i].at_support)),
+             "of one of several joints it must be \"stop\"");
+    }
   }
-  const SlidingJointSpec& joint = scene.sliding_joints.front();
+  if (scene.length_control.end_merge.value_or(0) > 0) {
+    refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
+           "with several joints each keeps its node: it must be 0");
+  }
+  if (scene.integrator.type == IntegratorType::energy_momentum) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it knows one sliding mass at most: take any other");
+  }
+  if (axis_form(scene) == AxisForm::exact && scene.beam.curve.type != CurveType::line) {
+    refuse("/beam/axis", "\"exact\"", "with several joints it must be \"even\"");
+  }
+}
+
+/// A ring or a sleeve.
+void check_held_joint(const Scene& scene, std::size_t which) {
+  const std::string key = joint_key(scene, which);
+  const SlidingJointSpec& joint = scene.sliding_joints[which];
   const std::string support = quoted(to_string(joint.support));
   if (joint.support == SupportType::free) {
-    if (!(joint.mass > 0)) {
+    if (!(joint.mass > 0) && !joint.x) {
       refuse(key + "/mass", number_text(joint.mass),
              "nothing holds this joint: without a mass it has no motion of its own");
     }
@@ -269,35 +301,78 @@ void check_held_joint(const Scene& scene) {
            "it knows no joint that is held: take any other");
   }
   if (joint.support == SupportType::pin) return;
-  if (joint.slopes != JointSlopes::continuous) {
-    refuse(key + "/slopes", quoted(to_string(joint.slopes)), "in a sleeve they must be \"continuous\"");
+  const bool tangent = scene.analysis == Analysis::statics && joint.slopes == JointSlopes::tangent;
+  if (joint.slopes != JointSlopes::continuous && !tangent) {
+    refuse(key + "/slopes", quoted(to_string(joint.slopes)),
+           "in a sleeve they must be \"continuous\", or in statics \"tangent\", which they are there");
   }
   if (merge_policy(scene) == MergePolicy::least_change) {
     refuse("/length_control/merge", "\"least-change\"", "it changes slopes that a sleeve holds: take another policy");
   }
 }
 
+/// A joint whose way along the beam is given.
+void check_guided_joint(const Scene& scene, std::size_t which) {
+  const SlidingJointSpec& joint = scene.sliding_joints[which];
+  if (!joint.x) return;
+  const std::string key = joint_key(scene, which), at = key + "/x";
+  if (joint.velocity != 0) {
+    refuse(key + "/velocity", number_text(joint.velocity),
+           "beside /x, which gives the joint its velocity, it must be 0");
+  }
+  if (joint.support != SupportType::free) {
+    const double rate = time_function(*joint.x)(0).rate;
+    if (std::abs(rate) > 1e-12 * largest_rate(*joint.x)) {
+      refuse(
+          at, "a velocity of " + number_text(rate) + " m/s at t = 0",
+          "the beam starts from rest in what is held: give it a ramp > 0 [s], or an oscillation a phase of 90 degrees");
+    }
+    if (scene.initial_velocity)
+      refuse(at, "this key", "of a joint that is held it does not go together with /initial_velocity");
+  }
+  if (joint.at_support != AtSupport::stop) {
+    refuse(key + "/at_support", quoted(to_string(joint.at_support)), "of a joint that is guided it must be \"stop\"");
+  }
+  if (scene.length_control.end_merge.value_or(0) > 0) {
+    refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
+           "a joint that is guided keeps its node to the last: it must be 0");
+  }
+  if (scene.length_control.velocities == VelocityTransfer::conservative) {
+    refuse("/length_control/velocities", "\"conservative\"", "with a joint that is guided take \"projected\"");
+  }
+  const IntegratorType type = scene.integrator.type;
+  if (type == IntegratorType::energy_momentum || type == IntegratorType::ida) {
+    refuse("/integrator/type", quoted(to_string(type)), "it knows no joint that is guided: take any other");
+  }
+  if (scene.analysis == Analysis::statics) {
+    refuse(at, "this key", "statics knows none: hold the joint with \"statics\": {\"joints\": \"held\"}");
+  }
+}
+
 void check_sliding_mass(const Scene& scene) {
   if (!sliding_joint(scene)) return;
-  const SlidingMassSpec& mass = *sliding_joint(scene);
   const double length = beam_length(scene);
-
   if (scene.beam.element == ElementKind::rancf || scene.beam.element == ElementKind::ancf) {
     refuse("/beam/element", "\"" + std::string(to_string(scene.beam.element)) + "\"",
            "a sliding mass needs an element of variable length: \"ALE-RANCF\" or \"ALE-ANCF\"");
   }
-  // A mass on a node of the support, or of the free tip, would leave an element without length.
-  const double margin = 1e-9 * length;
-  if (!(mass.position > margin && mass.position < length - margin)) {
-    refuse(joint_key(scene) + "/position", number_text(mass.position),
-           "the mass must be inside the beam and not on its ends: more than " + number_text(margin) +
-               " and less than " + number_text(length - margin) + " [m]");
+  const auto joints = sliding_joints(scene);
+  const double half_element = standard_length(scene) / 2;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    // A mass on a node of the support, or of the free tip, would leave an element without length.
+    const double margin = 1e-9 * length;
+    if (!(joints[i].position > margin && joints[i].position < length - margin)) {
+      refuse(joint_key(scene, i) + "/position", number_text(joints[i].position),
+             "the mass must be inside the beam and not on its ends: more than " + number_text(margin) +
+                 " and less than " + number_text(length - margin) + " [m]");
+    }
   }
   place_nodes(scene, build_axis<3>(scene).breaks());
-  const double half_element = standard_length(scene) / 2;
-  if (mass.separation_distance && !(*mass.separation_distance < half_element)) {
-    refuse(joint_key(scene) + "/separation_distance", number_text(*mass.separation_distance),
-           "it must be less than half an element, " + number_text(half_element) + " [m]");
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].separation_distance && !(*joints[i].separation_distance < half_element)) {
+      refuse(joint_key(scene, i) + "/separation_distance", number_text(*joints[i].separation_distance),
+             "it must be less than half an element, " + number_text(half_element) + " [m]");
+    }
   }
 }
 
@@ -309,6 +384,11 @@ void check_length_control(const Scene& scene) {
            "upper (1 + hysteresis) = " + number_text(trigger) +
                " must be in [1.5, 2): below, an event re-fires at once in the other direction; from 2 on, the element "
                "ahead vanishes first");
+  }
+  if (control.lower && !(*control.lower < trigger - 1)) {
+    refuse("/length_control/lower", number_text(*control.lower),
+           "it must be less than upper (1 + hysteresis) - 1 = " + number_text(trigger - 1) +
+               ": what a cut leaves would be merged at once");
   }
   if (control.end_merge && *control.end_merge > 0 && !control.enabled) {
     refuse("/length_control/end_merge", number_text(*control.end_merge),
@@ -335,27 +415,27 @@ void check_length_control(const Scene& scene) {
   }
 }
 
-void check_joint(const Scene& scene) {
-  if (!sliding_joint(scene)) return;
-  const SlidingMassSpec& mass = *sliding_joint(scene);
+void check_joint(const Scene& scene, std::size_t which) {
+  const SlidingJointSpec mass = sliding_joints(scene)[which];
+  const std::string key = joint_key(scene, which);
   const IntegratorType type = scene.integrator.type;
   if (mass.slopes != JointSlopes::continuous) {
     const bool eliminated = scene.constraints == Constraints::eliminated;
     if (type == IntegratorType::generalized_alpha && eliminated) {
-      refuse(joint_key(scene) + "/slopes", quoted(to_string(mass.slopes)),
+      refuse(key + "/slopes", quoted(to_string(mass.slopes)),
              "\"generalized-alpha\" needs \"constraints\": \"multipliers\" for two slopes at the mass, or an explicit "
              "integrator; with \"eliminated\" they must be \"continuous\"");
     }
     if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum ||
         type == IntegratorType::cvode) {
-      refuse(joint_key(scene) + "/slopes", quoted(to_string(mass.slopes)),
+      refuse(key + "/slopes", quoted(to_string(mass.slopes)),
              quoted(to_string(type)) +
                  " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\" with "
                  "\"constraints\": \"multipliers\"");
     }
   }
   if (mass.friction && type == IntegratorType::energy_momentum) {
-    refuse(joint_key(scene) + "/friction", "this key",
+    refuse(key + "/friction", "this key",
            "\"energy-momentum\" has no friction: take another integrator, or leave it out");
   }
 }
@@ -369,6 +449,10 @@ void check_energy_momentum(const Scene& scene) {
   if (!scene.loads.empty()) {
     refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
            "it keeps an energy that loads change: take any other integrator");
+  }
+  if (scene.drag || scene.beam.material.mass_damping > 0) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it keeps an energy that /drag and mass_damping take: take any other integrator");
   }
   if (!scene.point_masses.empty()) {
     refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
@@ -411,18 +495,39 @@ void check_integrator(const Scene& scene) {
   }
 }
 
+/// Of a support's angle; `at` is where its motion stands.
+void check_turning(const Scene& scene, const std::string& at, const SupportSpec& support) {
+  const std::string key = at + "/angle";
+  if (support.type != SupportType::clamp) {
+    refuse(key, "this key", "only a \"clamp\" can turn: a " + quoted(to_string(support.type)) + " holds no direction");
+  }
+  if (scene.dimension == 3) refuse(key, "this key", "a clamp turns in a planar scene only");
+  if (scene.analysis == Analysis::statics) refuse(key, "this key", "statics knows none: leave it out");
+  if (scene.integrator.type == IntegratorType::ida) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it knows no clamp that turns: take any other but \"energy-momentum\"");
+  }
+  const double rate = time_function(*support.motion->angle)(0).rate;
+  const double beam = scene.initial_velocity ? scene.initial_velocity->rotation : 0;
+  if (std::abs(rate - beam) > 1e-12 * (largest_rate(*support.motion->angle) + std::abs(beam))) {
+    refuse(key, "a rate of " + number_text(rate) + " rad/s at t = 0",
+           "a clamp turns at first as the beam does, by " + number_text(beam) +
+               " rad/s: give it a ramp > 0 [s], or the beam this /initial_velocity/rotation");
+  }
+}
+
 void check_support_motion(const Scene& scene) {
   const auto check = [&](const std::string& at, const SupportSpec& support) {
     if (!support.motion) return;
     if (support.type != SupportType::clamp && support.type != SupportType::pin) {
       refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(to_string(support.type)));
     }
-    if (support.motion->direction == Point{}) {
+    const TimeSpec& displacement = support.motion->displacement;
+    if (support.motion->angle) check_turning(scene, at, support);
+    if (support.motion->direction == Point{} && !(support.motion->angle && is_zero(displacement))) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
-    const TimeSpec& displacement = support.motion->displacement;
-    // a cosine, of phase 90 degrees, has a rate of rounding
-    const double most = std::abs(displacement.rate) + std::abs(displacement.amplitude * displacement.frequency);
+    const double most = largest_rate(displacement);
     if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
       refuse(
           at, "a velocity of " + number_text(rate) + " m/s at t = 0",
@@ -501,8 +606,10 @@ void check_point_masses(const Scene& scene) {
   }
   if (scene.point_masses.empty()) return;
   if (flows(scene)) refuse("/point_masses", "this key", "it goes together with neither /flow nor rotary inertia");
-  if (sliding_joint(scene) && sliding_joint(scene)->slopes != JointSlopes::continuous) {
-    refuse(joint_key(scene) + "/slopes", quoted(to_string(sliding_joint(scene)->slopes)),
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].slopes == JointSlopes::continuous) continue;
+    refuse(joint_key(scene, i) + "/slopes", quoted(to_string(joints[i].slopes)),
            "with /point_masses they must be \"continuous\": a kink that passes over a mass is an impact");
   }
 }
@@ -511,9 +618,6 @@ template <int D>
 void check_initial_velocity(const Scene& scene) {
   if (!scene.initial_velocity) return;
   const InitialVelocitySpec& motion = *scene.initial_velocity;
-  if (joint_support(scene) != SupportType::free) {
-    refuse("/initial_velocity", "this key", "not with a joint that is held, so far");
-  }
   if (flows(scene)) {
     refuse("/initial_velocity", "this key", "it goes together with neither /flow nor rotary inertia");
   }
@@ -527,10 +631,27 @@ void check_initial_velocity(const Scene& scene) {
         Eigen::Map<const Eigen::Vector3d>(motion.translation.data()).norm() + std::abs(motion.rotation) * axis.length();
     if (held <= 1e-9 * size) return;
     refuse("/initial_velocity", "a velocity of " + number_text(held) + " m/s against " + at,
-           "a " + quoted(to_string(spec.type)) + " stands still at t = 0: let the beam turn about it");
+           "what holds it there stands still at t = 0: let the beam turn about it" +
+               std::string(spec.type == SupportType::slide ? ", or run along its tangent" : ""));
   };
   check("/supports/at=start", scene.start, 0);
   check("/supports/at=end", scene.end, axis.length());
+  // the beam may run through a ring, along its tangent
+  SupportSpec ring;
+  ring.type = SupportType::slide;
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].support != SupportType::free) check(joint_key(scene, i), ring, joints[i].position);
+  }
+}
+
+void check_drag(const Scene& scene) {
+  if (!flows(scene)) return;
+  if (scene.drag) refuse("/drag", "this key", "it goes together with neither /flow nor rotary inertia");
+  if (scene.beam.material.mass_damping > 0) {
+    refuse("/beam/material/mass_damping", number_text(scene.beam.material.mass_damping),
+           "with /flow or rotary inertia it must be 0");
+  }
 }
 
 void check_statics(const Scene& scene) {
@@ -538,7 +659,24 @@ void check_statics(const Scene& scene) {
   const auto none = [&](bool there, const std::string& key, const char* why) {
     if (there) refuse(key, "this key", std::string("statics knows none: ") + why);
   };
-  none(sliding_joint(scene) != nullptr, joint_key(scene), "put a mass that stays where it is into /point_masses");
+  if (scene.sliding_joints.size() > 1) {
+    refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", "statics knows one, so far");
+  }
+  if (const SlidingMassSpec* joint = sliding_joint(scene)) {
+    const std::string key = joint_key(scene);
+    none(joint->friction.has_value(), key + "/friction", "in equilibrium nothing slides; leave it out");
+    if (joint->velocity != 0) refuse(key + "/velocity", number_text(joint->velocity), "in statics it must be 0");
+    if (joint->at_support != AtSupport::stop) {
+      refuse(key + "/at_support", quoted(to_string(joint->at_support)), "in statics it must be \"stop\"");
+    }
+    if (scene.formulation != Formulation::variational) {
+      refuse("/formulation", quoted(to_string(scene.formulation)),
+             "in statics with a joint that slides it must be \"variational\": the virtual work has no potential");
+    }
+    if (scene.length_control.end_merge.value_or(0) > 0) {
+      refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge), "in statics it must be 0");
+    }
+  }
   none(scene.spin.has_value(), "/spin", "leave it out");
   none(scene.flow.has_value(), "/flow", "leave it out, or start a motion from its \"steady\" flow");
   none(scene.initial_velocity.has_value(), "/initial_velocity", "leave it out");
@@ -566,7 +704,8 @@ void check_statics(const Scene& scene) {
   if (scene.start.motion) constant("/supports/at=start/motion", scene.start.motion->displacement);
   if (scene.end.motion) constant("/supports/at=end/motion", scene.end.motion->displacement);
   const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
-  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded) {
+  const bool in_sleeve = joint_support(scene) == SupportType::clamp;
+  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_sleeve) {
     refuse("/supports", "nothing that holds the beam", "under loads or gravity it has no equilibrium: hold an end");
   }
   if (scene.statics.control == LoadControl::arc_length) {
@@ -613,11 +752,15 @@ void validate(const Scene& scene) {
   check_sizes(scene);
   check_curve(scene);
   check_beam(scene);
-  check_held_joint(scene);
+  check_several_joints(scene);
+  for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+    check_held_joint(scene, i);
+    check_guided_joint(scene, i);
+  }
   check_sliding_mass(scene);
   check_length_control(scene);
   check_integrator(scene);
-  check_joint(scene);
+  for (std::size_t i = 0; i < sliding_joints(scene).size(); ++i) check_joint(scene, i);
   check_energy_momentum(scene);
   check_support_motion(scene);
   check_output(scene);
@@ -625,6 +768,7 @@ void validate(const Scene& scene) {
   check_point_masses(scene);
   scene.dimension == 2 ? check_initial_velocity<2>(scene) : check_initial_velocity<3>(scene);
   check_statics(scene);
+  check_drag(scene);
   if (flows(scene) || scene.spin) validate_flow(scene);
   if (!flows(scene)) scene.dimension == 2 ? check_resting_parts<2>(scene) : check_resting_parts<3>(scene);
 }

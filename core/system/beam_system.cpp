@@ -10,19 +10,24 @@
 namespace vlbeam {
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
-  if (model.spin && model.joint) {
+  if (model.spin && !model.joints.empty()) {
     throw InvalidInput("/sliding_mass", "this key", "it does not go together with /spin");
   }
   if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
-  if (model.driven() && model.joint && model.length_control.velocities == VelocityTransfer::conservative) {
+  if (model.driven() && !model.joints.empty() && model.length_control.velocities == VelocityTransfer::conservative) {
     throw InvalidInput("/length_control/velocities", "\"conservative\"",
                        "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
   }
+  std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   adopt(chain);
   initial_ = state_of(chain, {});
   if (spin_) spin_->start(initial_.data() + nodal_, initial_.data() + coordinates_ + nodal_);
   anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
-  if (has_joint()) joint_anchor_ = initial_.segment<node_size<D>>(Eigen::Index{node_size<D>} * joint_);
+  joint_anchors_.assign(model.joints.size(), Eigen::Matrix<double, node_size<D>, 1>::Zero());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    joint_anchors_[static_cast<std::size_t>(index_[i])] =
+        initial_.segment<node_size<D>>(Eigen::Index{node_size<D>} * places_[i].node);
+  }
   impose(initial_, 0);
   ramp_ = RampWork<D>(model.gravity, model.gravity_ramp);
 }
@@ -35,8 +40,16 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
   mesh_ = chain.mesh;
   rest_ = chain.rest;
-  joint_ = chain.joint;
-  free_mass_ = model_.joint && !model_.joint_support && joint_ == no_joint && !chain.rider;
+  departed_.clear();
+  for (const auto& mass : chain.departed) departed_.push_back(mass.index);
+  passed_.resize(model_.joints.size(), -1);
+  for (const auto& joint : chain.joints) {  // later on it is passages that count
+    int& passed = passed_[static_cast<std::size_t>(joint.index)];
+    if (passed >= 0) continue;
+    const double x = mesh_.x[static_cast<std::size_t>(joint.node)];
+    passed = static_cast<int>(std::ranges::count_if(model_.masses.points, [x](auto& point) { return point.x < x; }));
+  }
+  if (chain.rider) passed_.front() = -1;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
   spin_.reset();
   if (model_.spin) {
@@ -44,25 +57,57 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     for (const double x : mesh_.x) marks.push_back({x, 0, 0});
     spin_.emplace(*model_.spin, std::move(marks), model_.formulation, model_.quadrature_points);
   }
-  coordinates_ = nodal_ + (spin_ ? spin_->coordinates() : 0) + (has_joint() || chain.rider ? 1 : 0) +
-                 (kinked() || free_mass_ ? D : 0);
-  behind_ = kinked() ? nodal_ + 1 : Eigen::Index{node_size<D>} * joint_ + D;
+  places_.clear();
+  index_.clear();
+  Eigen::Index next = nodal_ + (spin_ ? spin_->coordinates() : 0);
+  for (const auto& joint : chain.joints) {
+    places_.push_back({.node = joint.node, .mark = next++, .passed = passed_[static_cast<std::size_t>(joint.index)]});
+    index_.push_back(joint.index);
+  }
+  if (chain.rider) ++next;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!joint(i).law.kinked()) continue;
+    places_[i].behind = next;
+    next += D;
+  }
+  coordinates_ = next + D * static_cast<Eigen::Index>(departed_.size());
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
-  const int left_open = has_joint() ? joint_ - 1 : middle, right_open = has_joint() ? joint_ + 1 : middle;
+  const int left_open = has_joint() ? places_.front().node - 1 : middle,
+            right_open = has_joint() ? places_.back().node + 1 : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest, model_.masses.points);
   right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest, model_.masses.points);
+  between_.clear();
+  for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+    const int low = places_[i].node + 1, high = places_[i + 1].node - 1;
+    if (low <= high) between_.emplace_back(mesh_, low, high, model_.section, rule, rest, model_.masses.points);
+  }
   if (model_.driven()) {
     for (const std::size_t end : {0, 1}) {
       const std::size_t k = end == 0 ? 0 : static_cast<std::size_t>(mesh_.elements()) - 1;
       end_inertia_[end] = fixed_inertia(mesh_.x[k + 1] - mesh_.x[k], mesh_.weights[k].w, rule);
     }
   }
-  if (has_joint()) {
-    const auto j = static_cast<std::size_t>(joint_);
-    left_table_ = ShapeTabulation(rule, mesh_.weights[j - 1].w);
-    right_table_ = ShapeTabulation(rule, mesh_.weights[j].w);
+  parts_.clear();
+  const auto joint_at = [&](int node) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (places_[i].node == node) return static_cast<int>(i);
+    }
+    return -1;
+  };
+  for (int k = 0; has_joint() && k < mesh_.elements(); ++k) {
+    const int a = joint_at(k), b = joint_at(k + 1);
+    if (a < 0 && b < 0) continue;
+    const MovingEnds ends = a < 0 ? MovingEnds::b : b < 0 ? MovingEnds::a : MovingEnds::both;
+    parts_.push_back({k, ends, a, b, ShapeTabulation(rule, mesh_.weights[static_cast<std::size_t>(k)].w)});
+  }
+  elements_.reserve(parts_.size());
+  motions_.reserve(places_.size());
+  if (chained()) {
+    std::vector<typename JointChain<D>::Joint> joints;
+    for (std::size_t i = 0; i < places_.size(); ++i) joints.push_back({&joint(i).law, held(i), places_[i]});
+    joint_chain_.layout(*left_, *right_, between_, parts_, std::move(joints));
   }
   rider_.reset();
   if (chain.rider) {
@@ -84,22 +129,27 @@ void BeamSystem<D>::set_end_limits() {
   if (!control.enabled || control.end_merge == 0) return;
   if (rider_) cut_limit_ = control.end_cut() * std::min(control.standard_length, rider_->curve.length);
   if (!has_joint()) return;
-  const auto j = static_cast<std::size_t>(joint_);
+  const int node = places_.front().node;
+  const auto j = static_cast<std::size_t>(node);
   const double unit = std::min(control.standard_length, (mesh_.x[j + 1] - mesh_.x[j - 1]) / 2);
   const auto limit = [&](double length) {  // an element that is shorter from the start has to halve first
     const double due = control.end_merge * unit;
     return length > due ? due : length / 2;
   };
-  if (joint_ + 1 == mesh_.last()) end_limit_[0] = limit(mesh_.x[j + 1] - mesh_.x[j]);
-  if (joint_ == 1) end_limit_[1] = limit(mesh_.x[j] - mesh_.x[j - 1]);
+  if (node + 1 == mesh_.last()) end_limit_[0] = limit(mesh_.x[j + 1] - mesh_.x[j]);
+  if (node == 1) end_limit_[1] = limit(mesh_.x[j] - mesh_.x[j - 1]);
 }
 
 template <int D>
 std::vector<FieldRun> BeamSystem<D>::fields() const {
   auto runs = nodal_fields(D, nodal_ / node_size<D>);
-  if (has_joint() || rider_) runs.push_back({Field::mark, nodal_});
-  if (kinked()) runs.push_back({Field::slope, behind_, D});
-  if (free_mass_) runs.push_back({Field::mass, nodal_, D});
+  if (rider_) runs.push_back({Field::mark, nodal_});
+  for (const JointPlace& place : places_) runs.push_back({Field::mark, place.mark});
+  for (const JointPlace& place : places_) {
+    if (place.behind >= 0) runs.push_back({Field::slope, place.behind, D});
+  }
+  if (!departed_.empty())
+    runs.push_back({Field::mass, departed_at(0), D * static_cast<Eigen::Index>(departed_.size())});
   if (spin_) {
     for (const FieldRun& run : spin_->fields(nodal_)) runs.push_back(run);
   }
@@ -111,17 +161,22 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
   y.head(nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal_);
   y.segment(coordinates_, nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), nodal_);
-  if (has_joint()) {
-    y[nodal_] = chain.mesh.x[static_cast<std::size_t>(chain.joint)];
-    y[coordinates_ + nodal_] = chain.joint_rate;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    const auto& joint = chain.joints[i];
+    y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
+    y[coordinates_ + place.mark] = joint.rate;
+    if (place.behind < 0) continue;
+    y.segment<D>(place.behind) = joint.kink->slope;
+    y.segment<D>(coordinates_ + place.behind) = joint.kink->rate;
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    y.segment<D>(departed_at(i)) = chain.departed[i].r;
+    y.segment<D>(coordinates_ + departed_at(i)) = chain.departed[i].v;
   }
   if (rider_) {
     y[nodal_] = chain.rider->x;
     y[coordinates_ + nodal_] = chain.rider->rate;
-  }
-  if (kinked()) {
-    y.segment<D>(behind_) = chain.kink->slope;
-    y.segment<D>(coordinates_ + behind_) = chain.kink->rate;
   }
   const Eigen::Index tallies = model_.tallies().count();
   if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
@@ -134,110 +189,152 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
   result.mesh = mesh_;
   result.q.assign(y.data(), y.data() + nodal_);
   result.rate.assign(y.data() + coordinates_, y.data() + coordinates_ + nodal_);
-  result.joint = joint_;
-  if (has_joint()) {
-    result.mesh.x[static_cast<std::size_t>(joint_)] = y[nodal_];
-    result.joint_rate = y[coordinates_ + nodal_];
-  }
   result.rest = rest_;
-  if (has_joint() && result.curved_at_rest()) {
-    const auto at_joint = model_.rest->derivatives(y[nodal_]);
-    position<D>(result.rest.data(), joint_) = at_joint[0];
-    slope<D>(result.rest.data(), joint_) = at_joint[1];
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
+    auto& joint = result.joints.emplace_back();
+    joint = {.node = place.node, .rate = y[coordinates_ + place.mark], .index = index_[i]};
+    if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates_ + place.behind)};
+    if (!result.curved_at_rest()) continue;
+    const auto at_joint = model_.rest->derivatives(y[place.mark]);
+    position<D>(result.rest.data(), place.node) = at_joint[0];
+    slope<D>(result.rest.data(), place.node) = at_joint[1];
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    const Eigen::Index at = departed_at(i);
+    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates_ + at)});
   }
   if (rider_) result.rider = {rider_->element, y[nodal_], y[coordinates_ + nodal_], rider_->held};
-  if (kinked()) result.kink = {y.segment<D>(behind_), y.segment<D>(coordinates_ + behind_)};
   return result;
 }
 
 template <int D>
-std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y) const {
-  if (!model_.joint || !(mass_on_beam() || free_mass_)) return std::nullopt;
-  if (rider_) {
-    const auto at = rider_motion(y.data(), y.data() + coordinates_);
-    return MassMotion{at.r, at.v};
+std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y,
+                                                                             int index) const {
+  const auto at = [&](Eigen::Index place) {
+    return MassMotion{y.segment<D>(place), y.segment<D>(coordinates_ + place)};
+  };
+  if (rider_ && index == 0) {
+    const auto motion = rider_motion(y.data(), y.data() + coordinates_);
+    return MassMotion{motion.r, motion.v};
   }
-  const Eigen::Index at = has_joint() ? Eigen::Index{node_size<D> * joint_} : nodal_;
-  return MassMotion{y.segment<D>(at), y.segment<D>(coordinates_ + at)};
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (index_[i] == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    if (departed_[i] == index) return at(departed_at(i));
+  }
+  return std::nullopt;
 }
 
 template <int D>
-NodalCubic<double, D> BeamSystem<D>::element_of(const double* q, int k) const {
-  auto nodes = element_nodes<D>(q, k);
-  if (k == joint_) nodes.s_a = Eigen::Map<const Vector>(q + behind_);
-  return nodes;
-}
-
-template <int D>
-JointMotion<D> BeamSystem<D>::joint_motion(const double* q, const double* rate, double t) const {
-  return {joint_slopes(q), joint_slopes(rate), rate[nodal_], gravity(t)};
+JointMotion<D> BeamSystem<D>::joint_motion(std::size_t which, const double* q, const double* rate, double t) const {
+  const auto guide = guided(which, t);
+  return {joint_slopes(which, q), joint_slopes(which, rate), rate[places_[which].mark], gravity(t),
+          guide ? std::optional(guide->acceleration) : std::nullopt};
 }
 
 template <int D>
 ConstraintResidual BeamSystem<D>::slope_residual(const Eigen::VectorXd& y) const {
   ConstraintResidual largest;
-  if (!kinked()) return largest;
-  const auto slopes = joint_slopes(y.data()), rates = joint_slopes(y.data() + coordinates_);
-  const SlopeConditions<D> conditions(model_.joint->slopes, longest_axis<D>(slopes.template head<D>()));
-  for (int i = 0; i < conditions.count(); ++i) {
-    largest.position = std::max(largest.position, std::abs(conditions.value(i, slopes)));
-    largest.velocity = std::max(largest.velocity, std::abs(conditions.rate(i, slopes, rates)));
+  for (std::size_t j = 0; j < places_.size(); ++j) {
+    if (places_[j].behind < 0) continue;
+    const auto slopes = joint_slopes(j, y.data()), rates = joint_slopes(j, y.data() + coordinates_);
+    const SlopeConditions<D> conditions(joint(j).law.slopes, longest_axis<D>(slopes.template head<D>()));
+    for (int i = 0; i < conditions.count(); ++i) {
+      largest.position = std::max(largest.position, std::abs(conditions.value(i, slopes)));
+      largest.velocity = std::max(largest.velocity, std::abs(conditions.rate(i, slopes, rates)));
+    }
   }
   return largest;
 }
 
 template <int D>
-std::optional<typename BeamSystem<D>::JointRest> BeamSystem<D>::joint_rest(double x) const {
+std::optional<RestElement<D>> BeamSystem<D>::rest_of(const MovingPart& part, const double* q,
+                                                     std::span<const JointPlace> places) const {
   if (!model_.rest) return std::nullopt;
-  const RestEnd<D> moving{x, model_.rest->derivatives(x)};
-  const auto fixed = [&](int node) -> RestEnd<D> {
+  const auto end = [&](int node, int joint) -> RestEnd<D> {
+    if (joint >= 0) {
+      const double x = q[places[static_cast<std::size_t>(joint)].mark];
+      return {x, model_.rest->derivatives(x)};
+    }
     return {mesh_.x[static_cast<std::size_t>(node)],
             {position<D>(rest_.data(), node), slope<D>(rest_.data(), node), Vector::Zero(), Vector::Zero()}};
   };
-  return JointRest{{fixed(joint_ - 1), moving}, {moving, fixed(joint_ + 1)}};
+  return RestElement<D>{end(part.element, part.a), end(part.element + 1, part.b)};
 }
 
 template <int D>
-typename BeamSystem<D>::JointElements BeamSystem<D>::joint_elements(const double* q, const double* rate,
-                                                                    double t) const {
-  const auto j = static_cast<std::size_t>(joint_);
-  const double x = q[nodal_], x_rate = rate[nodal_];
-  MovingLaw<D> left = moving_law(t), right = left;
-  const auto rest = joint_rest(x);
-  if (rest) {
-    left.rest = &rest->left;
-    right.rest = &rest->right;
+void BeamSystem<D>::fill_elements(const double* q, const double* rate, double t, JointElements& elements) const {
+  elements.clear();
+  const ChainView<D> beam = view(q, rate);
+  MovingLaw<D> law = moving_law(t);
+  for (const MovingPart& part : parts_) {
+    const int k = part.element;
+    const auto rest = rest_of(part, q, places_);
+    law.rest = rest ? &*rest : nullptr;
+    const auto at = beam.coordinates(k), rates = beam.rates(k);
+    const WeightFunction& weights = beam.weights(k);
+    switch (part.ends) {
+      case MovingEnds::a:
+        elements.push_back(moving_equations<double, D, MovingEnds::a>(at, rates, weights, part.table, law));
+        break;
+      case MovingEnds::b:
+        elements.push_back(moving_equations<double, D, MovingEnds::b>(at, rates, weights, part.table, law));
+        break;
+      case MovingEnds::both:
+        elements.push_back(moving_equations<double, D, MovingEnds::both>(at, rates, weights, part.table, law));
+        break;
+    }
+    if (model_.masses.present()) model_.masses.add_to(beam, k, gravity(t), elements.back());
   }
-  JointElements at_joint{moving_equations<double, D, MovingEnds::b>({element_of(q, joint_ - 1), mesh_.x[j - 1], x},
-                                                                    {element_of(rate, joint_ - 1), 0, x_rate},
-                                                                    mesh_.weights[j - 1], left_table_, left),
-                         moving_equations<double, D, MovingEnds::a>({element_of(q, joint_), x, mesh_.x[j + 1]},
-                                                                    {element_of(rate, joint_), x_rate, 0},
-                                                                    mesh_.weights[j], right_table_, right)};
-  if (model_.masses.present()) {
-    const ChainView<D> beam = view(q, rate);
-    model_.masses.add_to(beam, joint_ - 1, gravity(t), at_joint.left);
-    model_.masses.add_to(beam, joint_, gravity(t), at_joint.right);
-  }
-  return at_joint;
+}
+
+template <int D>
+std::optional<JointPower> BeamSystem<D>::solve_joints(const JointElements& elements,
+                                                      const std::vector<JointMotion<D>>& motions, double* force) const {
+  if (chained()) return joint_chain_.solve(elements, motions, force);
+  const auto lost = solve_with_joint(*left_, *right_, elements[0], elements[1], joint(0).law, motions[0], held(0),
+                                     force, force + places_[0].mark);
+  return lost ? std::optional(JointPower{.dissipated = *lost}) : std::nullopt;
 }
 
 template <int D>
 void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
   if (!model_.driven()) return;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto guide = guided(i, t);
+    if (!guide) continue;
+    y[places_[i].mark] = guide->value;
+    y[coordinates_ + places_[i].mark] = guide->rate;
+  }
   const auto points = driven_points(t);
+  const auto standing = supports(points);
   for (const std::size_t end : {0, 1}) {
-    if (!(end == 0 ? model_.start_motion : model_.end_motion)) continue;
-    const Support<D>& support = end == 0 ? model_.start : model_.end;
+    const SupportMotion<D>& motion = end == 0 ? model_.start_motion : model_.end_motion;
+    if (!motion) continue;
+    const Support<D>& support = standing[end];
     const int node = end == 0 ? 0 : mesh_.last();
-    auto set = [&](auto part, const Vector& value) {
-      const auto& free = support.free_position;
+    auto set = [&](auto part, const Vector& value, const typename Support<D>::Components& free) {
       part = support.out_of_frame(
           (support.into_frame(part).array() * free + support.into_frame(value).array() * (1 - free)).matrix());
     };
-    set(position<D>(y.data(), node), anchors_[end].template head<D>() + points[end].value);
-    set(position<D>(y.data() + coordinates_, node), points[end].rate);
+    set(position<D>(y.data(), node), anchors_[end].template head<D>() + points[end].value, support.free_position);
+    set(position<D>(y.data() + coordinates_, node), points[end].rate, support.free_position);
+    if (!motion.turns()) continue;
+    set(slope<D>(y.data(), node), points[end].turned(anchors_[end].template tail<D>()), support.free_slope);
+    set(slope<D>(y.data() + coordinates_, node), points[end].slope_rate(slope<D>(y.data(), node)), support.free_slope);
   }
+}
+
+template <int D>
+void BeamSystem<D>::orient(double t) const {
+  if (!model_.turns()) return;
+  const auto standing = supports(driven_points(t));
+  left_->stand_by(standing[0]);
+  right_->stand_by(standing[1]);
+  if (rider_) rider_->mass.update(*left_, *right_);
 }
 
 template <int D>
@@ -252,7 +349,8 @@ void BeamSystem<D>::sample(const Eigen::VectorXd& y, double t) {
 template <int D>
 std::array<double*, 4> BeamSystem<D>::vectors_of(double* q, int k) const {
   double* first = q + Eigen::Index{node_size<D>} * k;
-  return {first, k == joint_ ? q + behind_ : first + D, first + 2 * D, first + 3 * D};
+  const JointPlace* const joint = view(q, q).joint_at(k);
+  return {first, joint != nullptr && joint->behind >= 0 ? q + joint->behind : first + D, first + 2 * D, first + 3 * D};
 }
 
 /// M a = F with some accelerations a_s given: the others follow from M a = F - M a_s, and what holds a_s is M a - F.
@@ -260,70 +358,98 @@ std::array<double*, 4> BeamSystem<D>::vectors_of(double* q, int k) const {
 template <int D>
 class BeamSystem<D>::Pull {
  public:
-  /// Takes the inertia of the given accelerations from the forces. `at_joint` is null without a joint.
-  Pull(const BeamSystem& system, const JointElements* at_joint, double* force, double t)
-      : system_(&system), points_(system.driven_points(t)) {
-    for (const int end : {0, 1}) ends_[static_cast<std::size_t>(end)] = end_element(end, at_joint);
-    for (End& end : ends_) end.force = Eigen::Map<const Vector>(system_->vectors_of(force, end.element)[end.held]);
-    for (std::size_t e = 0; e < 2; ++e) {
-      const End& end = ends_[e];
+  /// Takes the inertia of the given accelerations from the forces. `at_joints` holds the elements at the joints; q and
+  /// its rates are as the supports have them.
+  Pull(const BeamSystem& system, const JointElements& at_joints, const double* q, const double* rate, double* force,
+       double t)
+      : system_(&system) {
+    const auto points = system.driven_points(t);
+    const auto standing = system.supports(points);
+    for (const std::size_t e : {0, 1}) {
+      End& end = ends_[e] = end_element(static_cast<int>(e), at_joints);
       const auto parts = system_->vectors_of(force, end.element);
-      for (std::size_t i = 0; i < 4; ++i) {
-        Eigen::Map<Vector>(parts[i]) -= end.mass[i][end.held] * points_[e].acceleration;
+      end.parts[0] = {Eigen::Map<const Vector>(parts[end.held]), points[e].rate, points[e].acceleration};
+      if (!(e == 0 ? system.model_.start_motion : system.model_.end_motion).turns()) continue;
+      const int node = end.element + (end.held == 0 ? 0 : 1);
+      const Vector s = slope<D>(q, node), s_rate = slope<D>(rate, node);
+      end.parts[1] = {Eigen::Map<const Vector>(parts[end.held + 1]),
+                      DrivenPoint<D>::held(standing[e], points[e].slope_rate(s)),
+                      DrivenPoint<D>::held(standing[e], points[e].slope_acceleration(s, s_rate))};
+      end.driven = 2;
+    }
+    for (const End& end : ends_) {
+      const auto parts = system_->vectors_of(force, end.element);
+      for (std::size_t k = 0; k < end.driven; ++k) {
+        for (std::size_t i = 0; i < 4; ++i) {
+          Eigen::Map<Vector>(parts[i]) -= end.mass[i][end.held + k] * end.parts[k].acceleration;
+        }
+        if (end.mark >= 0) force[end.mark] -= end.by_joint[end.held + k].dot(end.parts[k].acceleration);
       }
-      if (at_joint != nullptr) force[system_->nodal_] -= end.by_joint[end.held].dot(points_[e].acceleration);
     }
   }
 
   /// Completes the accelerations `a`.
   void complete(double* a) const {
-    for (std::size_t e = 0; e < 2; ++e) {
-      Eigen::Map<Vector>(system_->vectors_of(a, ends_[e].element)[ends_[e].held]) += points_[e].acceleration;
+    for (const End& end : ends_) {
+      const auto parts = system_->vectors_of(a, end.element);
+      for (std::size_t k = 0; k < end.driven; ++k) {
+        Eigen::Map<Vector>(parts[end.held + k]) += end.parts[k].acceleration;
+      }
     }
   }
 
   /// `on_rider` acts on the rider, whose shape functions are `s`, and its opposite on the beam.
   void add_rider(const Vector& on_rider, const std::array<double, 4>& s) {
     for (End& end : ends_) {
-      if (end.element == system_->rider_->element) end.force -= s[end.held] * on_rider;
+      if (end.element != system_->rider_->element) continue;
+      for (std::size_t k = 0; k < end.driven; ++k) end.parts[k].force -= s[end.held + k] * on_rider;
     }
   }
 
   /// Power of the supports at the accelerations `a` [W].
   double power(double* a) const {
     double sum = 0;
-    for (std::size_t e = 0; e < 2; ++e) {
-      const End& end = ends_[e];
+    for (const End& end : ends_) {
       const auto parts = system_->vectors_of(a, end.element);
-      Vector reaction = -end.force;
-      if (system_->has_joint()) reaction += end.by_joint[end.held] * a[system_->nodal_];
-      for (std::size_t i = 0; i < 4; ++i) reaction += end.mass[end.held][i] * Eigen::Map<const Vector>(parts[i]);
-      sum += reaction.dot(points_[e].rate);
+      for (std::size_t k = 0; k < end.driven; ++k) {
+        const std::size_t row = end.held + k;
+        Vector reaction = -end.parts[k].force;
+        if (end.mark >= 0) reaction += end.by_joint[row] * a[end.mark];
+        for (std::size_t i = 0; i < 4; ++i) reaction += end.mass[row][i] * Eigen::Map<const Vector>(parts[i]);
+        sum += reaction.dot(end.parts[k].rate);
+      }
     }
     return sum;
   }
 
  private:
+  /// What is given of a nodal vector, and the force on it.
+  struct Part {
+    Vector force = Vector::Zero(), rate = Vector::Zero(), acceleration = Vector::Zero();
+  };
   /// The element at a support, by its mass matrix (order r_A, s_A, r_B, s_B) and its coupling to x_i.
   struct End {
     int element = 0;
     std::size_t held = 0;                         ///< row of the support's point
     std::array<std::array<double, 4>, 4> mass{};  ///< [kg m^k]
-    std::array<Vector, 4> by_joint;               ///< zero away from the joint
-    Vector force;                                 ///< on the support's point
+    std::array<Vector, 4> by_joint;               ///< zero away from joints
+    Eigen::Index mark = -1;                       ///< where the x of its joint stands, if it has one
+    std::size_t driven = 1;                       ///< 2 where it drives the slope, too
+    std::array<Part, 2> parts;                    ///< position and slope
   };
 
-  End end_element(int end, const JointElements* at_joint) const {
+  End end_element(int end, const JointElements& at_joints) const {
     End result;
     result.element = end == 0 ? 0 : system_->mesh_.elements() - 1;
     result.held = end == 0 ? 0 : 2;
     result.by_joint.fill(Vector::Zero());
-    if (system_->has_joint() && result.element + 1 == system_->joint_) {
-      result.mass = at_joint->left.mass;
-      result.by_joint = at_joint->left.mass_b;
-    } else if (system_->has_joint() && result.element == system_->joint_) {
-      result.mass = at_joint->right.mass;
-      result.by_joint = at_joint->right.mass_a;
+    const auto& parts = system_->parts_;
+    const std::size_t at = end == 0 ? 0 : parts.size() - 1;
+    if (!parts.empty() && parts[at].element == result.element) {
+      const bool by_a = parts[at].a >= 0;
+      result.mass = at_joints[at].mass;
+      result.by_joint = by_a ? at_joints[at].mass_a : at_joints[at].mass_b;
+      result.mark = system_->places_[static_cast<std::size_t>(by_a ? parts[at].a : parts[at].b)].mark;
     } else {
       result.mass = system_->end_inertia_[static_cast<std::size_t>(end)].mass;
       for (auto& row : result.mass) {
@@ -335,14 +461,14 @@ class BeamSystem<D>::Pull {
   }
 
   const BeamSystem* system_;
-  std::array<DrivenPoint<D>, 2> points_;
   std::array<End, 2> ends_;
 };
 
 template <int D>
-std::optional<typename BeamSystem<D>::Pull> BeamSystem<D>::solve_apart(double t, double* force) const {
+std::optional<typename BeamSystem<D>::Pull> BeamSystem<D>::solve_apart(const double* q, const double* rate, double t,
+                                                                       double* force) const {
   std::optional<Pull> pull;
-  if (model_.driven()) pull.emplace(*this, nullptr, force, t);
+  if (model_.driven()) pull.emplace(*this, JointElements{}, q, rate, force, t);
   solve_without_joint(*left_, *right_, force);
   if (pull) pull->complete(force);
   return pull;
@@ -352,14 +478,16 @@ template <int D>
 double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
   Eigen::VectorXd exact = y;
   impose(exact, t);
+  orient(t);
   const double *q = exact.data(), *rate = q + coordinates_;
   const Vector on_beam = beam_gravity(t);
   Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
   left_->add_forces(q, rate, on_beam, a.data());
   right_->add_forces(q, rate, on_beam, a.data());
   model_.loads.add_forces(view(q, rate), t, a.data());
+  if (model_.drag.present()) model_.drag.add_forces(view(q, rate), a.data());
   model_.masses.add_weight(view(q, rate), gravity(t), a.data());
-  solve_apart(t, a.data());
+  solve_apart(q, rate, t, a.data());
   const auto solved = solve_rider(rider_motion(q, rate), gravity(t), a.data());
   return solved ? solved->contact : 0;
 }
@@ -371,6 +499,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   if (driven) {
     imposed_ = y;
     impose(imposed_, t);
+    orient(t);
   }
   const double* q = driven ? imposed_.data() : y.data();
   const double* rate = q + coordinates_;
@@ -380,40 +509,44 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   const Vector g = gravity(t), on_beam = beam_gravity(t);
   Tally power;
   power.dissipated = left_->add_forces(q, rate, on_beam, force) + right_->add_forces(q, rate, on_beam, force);
+  for (const SpanBetween<D>& span : between_) power.dissipated += span.span().add_forces(q, rate, on_beam, force);
   if (model_.loads.present()) {
     const ChainView<D> beam = view(q, rate);
     power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
   }
+  if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
   if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
   std::optional<Pull> pull;  // of moving supports
 
   if (has_joint()) {
-    const JointElements at_joint = joint_elements(q, rate, t);
-    const auto &before = at_joint.left, &behind = at_joint.right;
-    position<D>(force, joint_ - 1) += before.force[0];
-    slope<D>(force, joint_ - 1) += before.force[1];
-    position<D>(force, joint_) += before.force[2] + behind.force[0] + model_.joint->mass * g;
-    if (kinked()) {
-      slope<D>(force, joint_) += before.force[3];
-      Eigen::Map<Vector>(force + behind_) += behind.force[1];
-    } else {
-      slope<D>(force, joint_) += before.force[3] + behind.force[1];
+    fill_elements(q, rate, t, elements_);
+    double lost = 0;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const MovingPart& part = parts_[p];
+      const auto& eq = elements_[p];
+      const auto at = vectors_of(force, part.element);
+      for (std::size_t i = 0; i < 4; ++i) Eigen::Map<Vector>(at[i]) += eq.force[i];
+      if (part.a >= 0) force[places_[static_cast<std::size_t>(part.a)].mark] += eq.force_a;
+      if (part.b >= 0) force[places_[static_cast<std::size_t>(part.b)].mark] += eq.force_b;
+      lost += eq.dissipation;
     }
-    position<D>(force, joint_ + 1) += behind.force[2];
-    slope<D>(force, joint_ + 1) += behind.force[3];
-    force[nodal_] += before.force_b + behind.force_a;
-    power.dissipated += before.dissipation + behind.dissipation;
-    if (driven) pull.emplace(*this, &at_joint, force, t);
-    const auto friction = solve_with_joint(*left_, *right_, before, behind, *model_.joint, joint_motion(q, rate, t),
-                                           held_joint(), force, force + nodal_);
-    if (!friction) {
+    power.dissipated += lost;
+    motions_.clear();
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      position<D>(force, places_[i].node) += joint(i).law.mass * g;
+      motions_.push_back(joint_motion(i, q, rate, t));
+    }
+    if (driven) pull.emplace(*this, elements_, q, rate, force, t);
+    const auto at_joints = solve_joints(elements_, motions_, force);
+    if (!at_joints) {
       dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
       return;
     }
-    power.dissipated += *friction;
+    power.dissipated += at_joints->dissipated;
+    power.supports += at_joints->guided;
     if (driven) pull->complete(force);
   } else {
-    pull = solve_apart(t, force);
+    pull = solve_apart(q, rate, t, force);
     if (rider_) {
       const auto at = rider_motion(q, rate);
       const auto solved = solve_rider(at, g, force);
@@ -425,8 +558,8 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       power.dissipated += solved->dissipation;
       if (driven) pull->add_rider(solved->force, at.s);
     }
-    if (free_mass_) dydt.segment<D>(coordinates_ + nodal_) = g;
   }
+  for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates_ + departed_at(i)) = g;
   if (spin_) {
     if (!spin_->accelerate(q + nodal_, rate + nodal_, t, force + nodal_, power.dissipated)) {
       dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -434,7 +567,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     }
     if (model_.spin->supplied()) power = power + spin_->power(q + nodal_, rate + nodal_, force + nodal_, t);
   }
-  if (driven) power.supports = pull->power(force);
+  if (driven) power.supports += pull->power(force);
   model_.tallies().add(power, dydt);
 }
 
@@ -469,9 +602,8 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
                                      Observation<D>& seen) const {
   const Observer<D> observer(model_.section, gravity(t), points);
   for (int k = first; k < last; ++k) {
-    const bool at_joint = chain.joint != no_joint && (k == chain.joint || k + 1 == chain.joint);
     const MovingKinematics<double, D> element(chain.coordinates(k), chain.rates(k),
-                                              at_joint ? model_.transport : WeightTransport::frozen,
+                                              chain.moves(k) ? model_.transport : WeightTransport::frozen,
                                               chain.mesh.weights[static_cast<std::size_t>(k)]);
     if (chain.curved_at_rest()) {
       const NodalCubic<double, D> rest = chain.rest_nodes(k);
@@ -491,14 +623,16 @@ void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int 
 template <int D>
 double BeamSystem<D>::line_power(const ChainView<D>& beam, double t) const {
   if (!model_.loads.line_force) return 0;
-  const Eigen::Index shift = beam.cut ? node_size<D> : 0;
   const double rhoA = model_.section.rhoA;
-  Vector sum = (left_->first_moment(beam.rate) + right_->first_moment(beam.rate + shift)) / rhoA;
-  if (has_joint()) {
-    for (const int k : {joint_ - 1, joint_}) {
-      const bool reshaped = model_.transport == WeightTransport::transported && beam.weights(k).w != unit_weights;
-      sum += swept(beam.kinematics(k), k < joint_ ? left_table_ : right_table_, reshaped, model_.formulation);
-    }
+  const auto shift = [&](int node) { return Eigen::Index{node_size<D>} * (beam.first_node(node) - node); };
+  Vector sum = (left_->first_moment(beam.rate) + right_->first_moment(beam.rate + shift(mesh_.last()))) / rhoA;
+  for (const SpanBetween<D>& span : between_) {
+    sum += span.span().first_moment(beam.rate + shift(span.low())) / rhoA;
+  }
+  for (const MovingPart& part : parts_) {
+    const bool reshaped =
+        model_.transport == WeightTransport::transported && beam.weights(part.element).w != unit_weights;
+    sum += swept(beam.kinematics(part.element), part.table, reshaped, model_.formulation);
   }
   return model_.loads.line_force(t).dot(sum);
 }
@@ -508,8 +642,9 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
   Observation<D> seen;
   if (strains) seen.extremes.emplace();
   observe_elements(chain(y), 0, mesh_.elements(), t, points, seen);
-  if (const auto mass = mass_motion(y)) {
-    seen.add_mass(model_.joint->mass, mass->r, mass->v, gravity(t));
+  for (std::size_t i = 0; i < model_.joints.size(); ++i) {
+    const auto mass = mass_motion(y, static_cast<int>(i));
+    if (mass) seen.add_mass(model_.joints[i].law.mass, mass->r, mass->v, gravity(t));
   }
   if (spin_) {
     const Spin::Seen turning = spin_->observe(y.data() + nodal_, y.data() + coordinates_ + nodal_, points);

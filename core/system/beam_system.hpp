@@ -1,17 +1,22 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "core/beam/span_between.hpp"
 #include "core/beam/support_motion.hpp"
 #include "core/dynamics/integrate.hpp"
 #include "core/dynamics/tallies.hpp"
 #include "core/geometry/axis.hpp"
 #include "core/joint/at_support.hpp"
+#include "core/joint/joint_chain.hpp"
 #include "core/joint/rider.hpp"
 #include "core/length_control/event_type.hpp"
 #include "core/length_control/length_control.hpp"
+#include "core/parts/drag.hpp"
 #include "core/parts/loads.hpp"
 #include "core/parts/point_masses.hpp"
 #include "core/parts/spin.hpp"
@@ -20,6 +25,17 @@
 #include "core/system/ramp_work.hpp"
 
 namespace vlbeam {
+
+/// Something that slides along the beam.
+template <int D>
+struct ModelJoint {
+  SlidingJoint law;
+  /// What holds the place of its node in space: of a ring, a pin; of a sleeve, a clamp of the direction.
+  std::optional<Support<D>> support = std::nullopt;
+  double separation_distance = 0;  ///< [m]
+  Impact at_support = {};          ///< where it may not leave
+  TimeFunction x = {};             ///< its material coordinate, where a guide prescribes it [m]
+};
 
 /// What a beam system is made of and which choices its equations follow.
 template <int D>
@@ -33,15 +49,12 @@ struct BeamModel {
   bool time_is_load_factor = false;                 ///< gravity is t times what it says, as loads may be: statics
   Support<D> start, end;
   SupportMotion<D> start_motion, end_motion;
-  bool start_releases = false, end_releases = false;  ///< the sliding mass may leave the beam there
+  bool start_releases = false, end_releases = false;  ///< joints may leave the beam there
   Loads<D> loads;
-  std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no sliding mass
+  Drag<D> drag;
+  std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no joint
   PointMasses<D> masses;
-  std::optional<SlidingJoint> joint;
-  /// What holds the place of the joint's node in space: of a ring, a pin; of a sleeve, a clamp of the direction.
-  std::optional<Support<D>> joint_support;
-  double separation_distance = 0;  ///< [m]
-  Impact at_support;               ///< where the mass may not leave
+  std::vector<ModelJoint<D>> joints;  ///< in the order of the chain
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
   /// What a moving node follows in the rest shape, by arc length, where the chain's `rest` has the nodes; null for a
@@ -50,10 +63,20 @@ struct BeamModel {
 
   /// Whether energy is lost.
   bool dissipates() const {
-    return section.damped() || (joint && joint->friction) || (spin && spin->section.damping != 0);
+    return section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
   }
-  /// Whether supports move, and so do work.
-  bool driven() const { return start_motion || end_motion; }
+  /// Whether there is friction at a joint.
+  bool rubs() const {
+    return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.law.friction.has_value(); });
+  }
+  /// Whether material coordinates of joints are prescribed.
+  bool guides() const {
+    return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return static_cast<bool>(joint.x); });
+  }
+  bool supports_move() const { return start_motion || end_motion; }
+  /// Whether something moves as prescribed, and so does work.
+  bool driven() const { return supports_move() || guides(); }
+  bool turns() const { return start_motion.turns() || end_motion.turns(); }
   /// The energies that the state counts.
   Tallies tallies() const {
     return {dissipates(), loads.present() || (spin && spin->torques.present()), spin && !spin->drives.empty(),
@@ -66,6 +89,7 @@ template <int D>
 struct EventRecord {
   double t;
   EventType type;
+  int joint;  ///< which of the model's
   double joint_position;
   MergedWeights merged;
   Energy jump;           ///< by a 25-point rule
@@ -80,18 +104,19 @@ struct EventRecord {
 template <int D>
 class ImplicitBeam;
 
-/// One beam with, possibly, a mass that slides on it and may leave it: the equations of motion in minimal coordinates.
+/// One beam with, possibly, joints that slide on it and may leave it: the equations of motion in minimal coordinates.
 /// State y = (q, q', tallies): q holds the nodes (position and slope each) and then the angles of a section that spins,
-/// or x_i of the joint and, where the joint is kinked, the slope behind it, or x of a mass that rides inside an end
-/// element, or the free mass's position once it has left; the tallies are those of BeamModel::tallies(). What a support
-/// drives stands in the state too, but is read from its motion, wherever it counts.
+/// or x_i of the joints, the slopes behind those that are kinked, and the positions of masses that have left; or x of a
+/// mass that rides inside an end element. The tallies are those of BeamModel::tallies(). What a support drives stands
+/// in the state too, but is read from its motion, wherever it counts.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
   using Vector = Vec<double, D>;
 
-  /// `chain` is the initial state, but for the velocity of driven supports; its joint must be an interior node where
-  /// the model has a sliding mass. Throws InvalidInput for moving supports with conservative velocities at events.
+  /// `chain` is the initial state, but for the velocity of driven supports; its joints, inner nodes, must be those of
+  /// the model. A single mass may ride inside an end element instead. Throws InvalidInput for moving supports with
+  /// conservative velocities at events.
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
   ~BeamSystem() override;
 
@@ -122,9 +147,7 @@ class BeamSystem final : public EventedOde {
     return sum;
   }
   /// The beam with coordinates q and their rates, arrays like those of the state.
-  ChainView<D> view(const double* q, const double* rate) const {
-    return {mesh_, model_.transport, q, rate, joint_, nodal_, kinked() ? behind_ : -1};
-  }
+  ChainView<D> view(const double* q, const double* rate) const { return {mesh_, model_.transport, q, rate, places_}; }
   /// Power of the load along the beam [W].
   double line_power(const ChainView<D>& beam, double t) const;
   Eigen::VectorXd initial_state() const { return initial_; }
@@ -144,7 +167,12 @@ class BeamSystem final : public EventedOde {
 
   /// Mesh and motion at state y.
   ChainState<D> chain(const Eigen::VectorXd& y) const;
-  bool has_joint() const { return joint_ != no_joint; }
+  bool has_joint() const { return !places_.empty(); }
+  /// Where the coordinates of the joints stand that are on the beam, in the order of the chain.
+  const std::vector<JointPlace>& places() const { return places_; }
+  /// The same joints in the model.
+  const ModelJoint<D>& joint(std::size_t which) const { return model_.joints[static_cast<std::size_t>(index_[which])]; }
+  int joint_index(std::size_t which) const { return index_[which]; }
   /// A mass inside the first or the last element.
   struct Riding {
     int element;
@@ -157,14 +185,21 @@ class BeamSystem final : public EventedOde {
   };
   /// Empty unless the mass rides inside an element.
   const std::optional<Riding>& rider() const { return rider_; }
-  /// What holds the joint's node, or null.
-  const Support<D>* held_joint() const {
-    return has_joint() && model_.joint_support ? &*model_.joint_support : nullptr;
+  /// What holds a joint's node, or null.
+  const Support<D>* held(std::size_t which) const {
+    const auto& support = joint(which).support;
+    return support ? &*support : nullptr;
   }
-  /// The mass has left the beam, and is in the state.
-  bool has_free_mass() const { return free_mass_; }
-  /// The mass is on the beam.
-  bool mass_on_beam() const { return has_joint() || rider_; }
+  /// Masses that have left the beam are in the state: which of the model's joints they were.
+  const std::vector<int>& departed() const { return departed_; }
+  /// Where the position of one of them stands.
+  Eigen::Index departed_at(std::size_t i) const {
+    return coordinates_ - D * static_cast<Eigen::Index>(departed_.size() - i);
+  }
+  /// Whether joint `index` of the model is on the beam.
+  bool on_beam(int index) const {
+    return rider_ ? index == 0 : std::find(index_.begin(), index_.end(), index) != index_.end();
+  }
   /// Motion of the rider, of arrays like q and q' with x behind the nodes.
   RiderMotion<double, D> rider_motion(const double* q, const double* rate) const {
     const bool held = rider_->held;
@@ -172,7 +207,6 @@ class BeamSystem final : public EventedOde {
                                            element_nodes<D>(rate, rider_->element), held ? rider_->end : q[nodal_],
                                            held ? 0 : rate[nodal_]);
   }
-  int joint() const { return joint_; }
   /// How the section turns; null if it does not. Its angles stand behind the nodes.
   Spin* spin() { return spin_ ? &*spin_ : nullptr; }
   const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
@@ -182,74 +216,108 @@ class BeamSystem final : public EventedOde {
   std::vector<Vector> load_places(const Eigen::VectorXd& y, double t) const {
     return model_.loads.places(view(y.data(), y.data() + coordinates_), t);
   }
-  /// The beam has two slopes at the joint.
-  bool kinked() const { return has_joint() && model_.joint->kinked(); }
-  /// Slopes at the joint, before and behind it, of an array of coordinates or rates.
-  Eigen::Matrix<double, 2 * D, 1> joint_slopes(const double* q) const {
+  /// The beam has two slopes at that joint.
+  bool kinked(std::size_t which) const { return joint(which).law.kinked(); }
+  bool kinked() const {
+    return std::any_of(places_.begin(), places_.end(), [](const JointPlace& place) { return place.behind >= 0; });
+  }
+  /// Slopes at a joint, before and behind it, of an array of coordinates or rates.
+  Eigen::Matrix<double, 2 * D, 1> joint_slopes(std::size_t which, const double* q) const {
+    const JointPlace& place = places_[which];
     Eigen::Matrix<double, 2 * D, 1> slopes;
-    slopes << slope<D>(q, joint_), Eigen::Map<const Vector>(q + behind_);
+    slopes << slope<D>(q, place.node),
+        Eigen::Map<const Vector>(q + (place.behind < 0 ? Eigen::Index{node_size<D>} * place.node + D : place.behind));
     return slopes;
   }
-  /// How far the slopes at the joint are from their conditions [-], [1/s].
+  /// How far the slopes at joints are from their conditions [-], [1/s].
   ConstraintResidual slope_residual(const Eigen::VectorXd& y) const;
   const Mesh& mesh() const { return mesh_; }
   Eigen::Index coordinates() const { return coordinates_; }
   /// Counts the meshes there have been.
   std::size_t revision() const { return revision_; }
-  /// Shape functions of the two elements at the joint.
-  const ShapeTabulation& left_table() const { return left_table_; }
-  const ShapeTabulation& right_table() const { return right_table_; }
+  /// The elements at the joints, in the order of the chain.
+  const std::vector<MovingPart>& moving_parts() const { return parts_; }
   MovingLaw<D> moving_law(double t) const {
     return {model_.section, model_.formulation, model_.transport, beam_gravity(t)};
   }
-  /// The rest shape of the two elements at the joint, which is at x; nothing if it is straight.
-  struct JointRest {
-    RestElement<D> left, right;
-  };
-  std::optional<JointRest> joint_rest(double x) const;
-  /// The fixed elements before and behind the joint, or the middle of the beam.
+  /// The rest shape of an element at joints whose marks stand where `places` says in `q`; nothing if it is straight.
+  std::optional<RestElement<D>> rest_of(const MovingPart& part, const double* q,
+                                        std::span<const JointPlace> places) const;
+  /// The fixed elements before the first and behind the last joint, or before and behind the middle of the beam.
   const Span<D>& left() const { return *left_; }
   const Span<D>& right() const { return *right_; }
+  /// Those between joints, and how many joints are before each.
+  const std::vector<SpanBetween<D>>& between() const { return between_; }
+  int joints_before(const SpanBetween<D>& span) const {
+    return static_cast<int>(std::count_if(places_.begin(), places_.end(),
+                                          [&](const JointPlace& place) { return place.node < span.low(); }));
+  }
   /// What the supports hold: position and slope of the first and of the last node at the start.
   const std::array<Eigen::Matrix<double, node_size<D>, 1>, 2>& anchors() const { return anchors_; }
-  /// Where the joint's node was at the start: what a ring or a sleeve holds.
-  const Eigen::Matrix<double, node_size<D>, 1>& joint_anchor() const { return joint_anchor_; }
+  /// Where a joint's node was at the start: what a ring or a sleeve holds.
+  const Eigen::Matrix<double, node_size<D>, 1>& joint_anchor(std::size_t which) const {
+    return joint_anchors_[static_cast<std::size_t>(index_[which])];
+  }
   /// What the supports at start and end prescribe at time t.
   std::array<DrivenPoint<D>, 2> driven_points(double t) const {
     return {model_.start_motion.at(model_.start, t), model_.end_motion.at(model_.end, t)};
   }
-  /// Puts what the supports drive where it is at time t.
+  /// The supports at start and end as they stand then.
+  std::array<Support<D>, 2> supports(const std::array<DrivenPoint<D>, 2>& at) const {
+    return {model_.start.turned(at[0].angle.value), model_.end.turned(at[1].angle.value)};
+  }
+  /// What a guide prescribes of a joint's material coordinate; nothing where there is none.
+  std::optional<Prescribed> guided(std::size_t which, double t) const {
+    const TimeFunction& x = joint(which).x;
+    return x ? std::optional(x(t)) : std::nullopt;
+  }
+  /// Puts what supports and guides drive where it is at time t.
   void impose(Eigen::VectorXd& y, double t) const;
-  /// Where the sliding mass is, on the beam or off it, and how it moves.
+  /// Where a sliding mass is, on the beam or off it, and how it moves.
   struct MassMotion {
     Vector r, v;
   };
-  /// Empty without one.
-  std::optional<MassMotion> mass_motion(const Eigen::VectorXd& y) const;
+  /// Of joint `index` of the model; empty once a beam has run out of its ring or sleeve.
+  std::optional<MassMotion> mass_motion(const Eigen::VectorXd& y, int index = 0) const;
   /// Energies, momenta and length, summed with `points` Gauss points an element; strains only where they are asked for.
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
-  struct JointElements {
-    MovingEquations<double, D> left, right;
-  };
+  using JointElements = std::vector<MovingEquations<double, D>>;  ///< of the moving parts
 
   /// What moving supports do to the equations of motion.
   class Pull;
+  /// Lets the supports of the spans stand as they do at time t.
+  void orient(double t) const;
   /// Where the four nodal vectors of element k are in an array like q.
   std::array<double*, 4> vectors_of(double* q, int k) const;
 
   void adopt(const ChainState<D>& chain);
+  /// The joints are solved for as a chain.
+  bool chained() const { return places_.size() > 1 || (has_joint() && joint(0).x); }
   /// Lengths of the last and the first element below which an end-merge is due [m]; 0 where none will be.
   void set_end_limits();
-  /// Gives elements at the joint whose transported weights are about to be lost new ones, by the least change.
-  MergedWeights renew_weights(ChainState<D>& chain, double t) const;
+  /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
+  MergedWeights renew_weights(ChainState<D>& chain, std::size_t which, double t) const;
   /// What is due where a guard is positive.
   struct Due {
     EventType type;
     Direction direction;
+    std::size_t which;    ///< of the joints on the beam
+    Remeshing remeshing;  ///< of the mesh at a joint
   };
-  Due due(int guard) const;
+  Due due(const Guard& guard, const Eigen::VectorXd& y) const;
+  /// That, and whatever else of the mesh is due at the same instant, the first one first.
+  std::vector<Due> all_due(int index, const Eigen::VectorXd& y, double t) const;
+  /// What a joint, moving in a direction, asks for of the mesh: a cut behind it, a merge ahead.
+  Remeshing wanted(std::size_t which, Direction direction, const Eigen::VectorXd& y) const;
+  /// Material coordinate of a node of the mesh [m].
+  double mark_of(int node, const double* q) const { return view(q, q).mark_of(node); }
+  /// The joint leaves the beam where it may; throws ComputationFailed where it may not.
+  void check_leaving(const Due& due, double t) const;
+  /// What an event makes of the chain, and of `y` where it is an impact.
+  MergedWeights change(const Due& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
+  bool at_joint(int node) const { return view(nullptr, nullptr).joint_at(node) != nullptr; }
   Guards rider_guards(const Eigen::VectorXd& y, double t) const;
   /// Generalized force of the support on the x of a held rider [N].
   double contact_force(const Eigen::VectorXd& y, double t) const;
@@ -259,26 +327,30 @@ class BeamSystem final : public EventedOde {
   /// Where a mass is that has just left a support [m].
   double clear_of_end() const;
   /// Solves M a = f of the nodes of a beam without a joint, in place; what moving supports do is in what it returns.
-  std::optional<Pull> solve_apart(double t, double* force) const;
+  std::optional<Pull> solve_apart(const double* q, const double* rate, double t, double* force) const;
+  /// The law of the mass that rides.
+  const SlidingJoint& rider_law() const { return model_.joints.front().law; }
   /// What the rider does to a beam that would have the accelerations `a` without it; completes them.
   std::optional<RiderSolution<D>> solve_rider(const RiderMotion<double, D>& at, const Vector& gravity,
                                               double* a) const {
-    return solve_with_rider<D>(rider_->mass, *model_.joint, at, element_nodes<D>(a, rider_->element),
+    return solve_with_rider<D>(rider_->mass, rider_law(), at, element_nodes<D>(a, rider_->element),
                                at.remainder - gravity, 0, rider_->held, true, a);
   }
-  /// The elements at the joint, if there is one.
-  std::optional<JointElements> elements_at(const Eigen::VectorXd& y, double t) const {
-    if (!has_joint()) return std::nullopt;
-    return joint_elements(y.data(), y.data() + coordinates_, t);
+  JointElements elements_at(const Eigen::VectorXd& y, double t) const {
+    JointElements elements;
+    fill_elements(y.data(), y.data() + coordinates_, t, elements);
+    return elements;
   }
-  JointElements joint_elements(const double* q, const double* rate, double t) const;
-  JointMotion<D> joint_motion(const double* q, const double* rate, double t) const;
-  /// Coordinates (or rates, or forces) of element k in an array like q.
-  NodalCubic<double, D> element_of(const double* q, int k) const;
+  void fill_elements(const double* q, const double* rate, double t, JointElements& elements) const;
+  JointMotion<D> joint_motion(std::size_t which, const double* q, const double* rate, double t) const;
+  /// Solves M a = f, friction included, in place; nothing is returned where there is no solution. `motions` holds an
+  /// entry a joint.
+  std::optional<JointPower> solve_joints(const JointElements& elements, const std::vector<JointMotion<D>>& motions,
+                                         double* force) const;
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
-  /// matrix is singular. `elements` is null without a joint.
-  bool solve_mass(const JointElements* elements, const double* q, double* p) const;
-  void multiply_mass(const JointElements* elements, const double* q, const double* rate, double* out) const;
+  /// matrix is singular.
+  bool solve_mass(const JointElements& elements, const double* q, double* p) const;
+  void multiply_mass(const JointElements& elements, const double* q, const double* rate, double* out) const;
   /// Adds what a force (or momentum) on the rider is of its element's nodes and of x.
   void push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const;
   /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
@@ -286,7 +358,7 @@ class BeamSystem final : public EventedOde {
   /// Replaces the rates in `y`, a state of the mesh made from `before`, by the projection of the old velocity field.
   void project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t) const;
   /// M phi of the rigid motions phi at the positions `y`: translations, then rotations about the origin.
-  Eigen::MatrixXd rigid_momenta(const JointElements* elements, const Eigen::VectorXd& y) const;
+  Eigen::MatrixXd rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const;
   /// Linear and angular momentum of beam and mass, by the model's own points.
   Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t) const;
   /// Gives the rates in `y` these momenta, by the least change, and this total energy, by scaling the velocity
@@ -302,17 +374,22 @@ class BeamSystem final : public EventedOde {
 
   BeamModel<D> model_;
   Mesh mesh_;
-  std::vector<double> rest_;  ///< nodes of the rest shape, but for the moving one; empty if it is straight
-  int joint_ = no_joint;
-  std::optional<Riding> rider_;
+  std::vector<double> rest_;        ///< nodes of the rest shape, but for the moving one; empty if it is straight
+  std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain
+  std::vector<int> index_;          ///< which of the model's they are
+  std::vector<int> departed_;       ///< the same of masses that have left
+  std::vector<int> passed_;         ///< of the model's joints: how many point masses are behind it
+  mutable std::optional<Riding> rider_;
   std::array<double, 2> end_limit_{};  ///< [m], of the last and of the first element
   double cut_limit_ = 0;               ///< distance of a rider from the end at which it gets a node [m]
-  bool free_mass_ = false;
-  Eigen::Matrix<double, node_size<D>, 1> joint_anchor_ = Eigen::Matrix<double, node_size<D>, 1>::Zero();
+  std::vector<Eigen::Matrix<double, node_size<D>, 1>> joint_anchors_;  ///< of the model's joints
   Eigen::Index nodal_ = 0, coordinates_ = 0;
-  Eigen::Index behind_ = 0;  ///< where q holds the slope behind the joint: the node's own, unless the joint is kinked
-  std::optional<Span<D>> left_, right_;
-  ShapeTabulation left_table_, right_table_;
+  mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
+  std::vector<SpanBetween<D>> between_;
+  std::vector<MovingPart> parts_;
+  JointElements elements_;                   ///< of the right-hand side
+  std::vector<JointMotion<D>> motions_;      ///< the same
+  mutable JointChain<D> joint_chain_;        ///< of several joints, or one that is guided
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;

@@ -28,10 +28,10 @@ void ConservingStep<D>::refresh() {
   revision_ = system_.revision();
   const auto& mesh = system_.mesh();
   const auto& rule = gauss_legendre(system_.model().quadrature_points);
-  const int joint = system_.joint();
+  const int joint = system_.has_joint() ? system_.places().front().node : -2;
   fixed_.clear();
   for (int k = 0; k < mesh.elements(); ++k) {
-    if (system_.has_joint() && (k == joint || k + 1 == joint)) continue;
+    if (k == joint || k + 1 == joint) continue;
     const auto i = static_cast<std::size_t>(k);
     const double l = mesh.x[i + 1] - mesh.x[i];
     fixed_.push_back({k, fixed_basis(l, mesh.weights[i].w, rule), fixed_inertia(l, mesh.weights[i].w, rule)});
@@ -71,7 +71,7 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
 
   const Eigen::Index extra = node_size<D> * Eigen::Index{mesh.last() + 1};
   if (system_.has_joint()) {
-    const int j = system_.joint();
+    const int j = system_.places().front().node;
     auto coordinates = [&](const Eigen::VectorXd& c, int k, double left, double right) {
       return MovingCoordinates<double, D>{element_nodes<D>(c.data(), k), left, right};
     };
@@ -88,26 +88,27 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     add(j - 1, conserving_residual<MovingEnds::b, D>(
                    {coordinates(q0, j - 1, start, q0[extra]), coordinates(q1, j - 1, start, q1[extra])},
                    {coordinates(v0, j - 1, 0, v0[extra]), coordinates(v1, j - 1, 0, v1[extra])}, h,
-                   mesh.weights[ju - 1], system_.left_table(), law));
+                   mesh.weights[ju - 1], system_.moving_parts()[0].table, law));
     add(j,
         conserving_residual<MovingEnds::a, D>({coordinates(q0, j, q0[extra], end), coordinates(q1, j, q1[extra], end)},
                                               {coordinates(v0, j, v0[extra], 0), coordinates(v1, j, v1[extra], 0)}, h,
-                                              mesh.weights[ju], system_.right_table(), law));
+                                              mesh.weights[ju], system_.moving_parts()[1].table, law));
     position<D>(out, j) +=
-        model.joint->mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
+        system_.joint(0).law.mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
   } else if (const auto& rider = system_.rider()) {
     const int k = rider->element;
     const auto part =
         conserving_rider<D>(rider->curve, {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)},
                             {element_nodes<D>(v0.data(), k), element_nodes<D>(v1.data(), k)}, {q0[extra], q1[extra]},
-                            {v0[extra], v1[extra]}, h, model.joint->mass, law.gravity, rider->held);
+                            {v0[extra], v1[extra]}, h, model.joints.front().law.mass, law.gravity, rider->held);
     position<D>(out, k) += part.nodes[0];
     slope<D>(out, k) += part.nodes[1];
     position<D>(out, k + 1) += part.nodes[2];
     slope<D>(out, k + 1) += part.nodes[3];
     r[extra] = part.x;
-  } else if (model.joint) {
-    r.segment<D>(extra) = model.joint->mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
+  } else if (!system_.departed().empty()) {
+    r.segment<D>(extra) =
+        model.joints.front().law.mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
   }
   project<D>(model.start, out, 0);
   project<D>(model.end, out, mesh.last());

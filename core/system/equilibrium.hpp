@@ -8,20 +8,25 @@
 
 namespace vlbeam {
 
-// Equilibria of a beam without a sliding mass whose loads and displacements of supports grow evenly with a load factor,
-// which is the model's time: r(q, f) = -Q(q, f) = 0, with r linear in f at given q.
+// Equilibria of a beam whose loads and displacements of supports grow evenly with a load factor, which is the model's
+// time: r(q, f) = -Q(q, f) = 0, with r linear in f at given q. What slides on it keeps its material coordinate while
+// the load factor grows, and may then be released.
 
 struct EquilibriumOptions {
   int steps = 10;           ///< of the load factor, from 0 to 1
   bool arc_length = false;  /// steps along the path instead, the first of that size
   double tolerance = 1e-12;
+  bool release = true;  ///< what slides is free in the last equilibrium
 };
 
 /// A point on the path of equilibria.
 struct Equilibrium {
   double factor = 0;
-  Eigen::VectorXd y;        ///< a state at rest
-  int negative_pivots = 0;  ///< of the tangent: directions in which the potential energy falls
+  Eigen::VectorXd y;                 ///< a state at rest
+  int negative_pivots = 0;           ///< of the tangent: directions in which the potential energy falls
+  Eigen::VectorXd multipliers = {};  ///< of the conditions on the slopes of a kinked joint
+  bool joint_held = true;            ///< the joint's material coordinate stays what it is
+  double holding_force = 0;          ///< what it takes for that, along the beam [N]
 
   bool stable() const { return negative_pivots == 0; }
 };
@@ -31,12 +36,15 @@ struct Equilibrium {
 /// solve are halved. A start that holds no load (a slack cable) is first relaxed: steps (K + mu M) dq = -r, mu falling,
 /// go down the potential energy to a stable equilibrium. Throws ComputationFailed, at the factor reached, where there
 /// is none, naming the direction in which the beam moves freely.
+/// At load factor 1 a joint is released by moving its material coordinate x: the force that holds it there is a
+/// function of x, followed in steps from where the joint is, downhill, to where it vanishes, through the system's
+/// length control. Each step is a point of the path; the last one solves for x, too.
 template <int D>
 void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
                       const std::function<bool(const Equilibrium&)>& on_point, SolverCounters& counters);
 
 /// The lowest natural frequencies about an equilibrium [Hz], in increasing order; of a direction in which the energy
-/// falls minus the rate of growth over 2 pi. Dense: O(n^3).
+/// falls minus the rate of growth over 2 pi. What slides on the beam does so in them unless it is held. Dense: O(n^3).
 template <int D>
 std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium& at, int count);
 

@@ -14,105 +14,186 @@ constexpr double restored_energy = 1e-9;   // of the energies there are
 constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
 constexpr double clearance = 1e-11;        // of L_std: by which a mass leaves a support, so that the guard is negative
 constexpr double least_bounce = 1e-9;      // of L_std: a lower one is the last
+constexpr double meeting_distance = 0.1;   // of L_std: joints this near each other have met; all_due() says so
+constexpr double same_instant = 1e-9;      // of L_std: what is this near is due at once
+constexpr double merge_slack = 1e-6;       // of the length below which is merged: a cut comes first
 
 /// How far the weights of an element are below the smallest share of each other that is allowed; positive is too far.
 double lost_weight(const Weights<double>& w) {
   return smallest_weight - *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
 }
 
-ComputationFailed ran_into_support(Direction direction, double t) {
-  return {std::string("the sliding mass ran into the support at the beam's ") +
+/// Guards of one joint, or of the mass that rides.
+enum class Kind {
+  forward,
+  backward,
+  end,
+  start,
+  weights,
+  near_end,
+  near_start,
+  away,
+  lift_off,
+  merge_ahead,
+  merge_behind,
+  meeting,
+  pass_forward,
+  pass_backward
+};
+
+constexpr int number(Kind kind) { return static_cast<int>(kind); }
+
+ComputationFailed ran_into_support(bool held, Direction direction, double t) {
+  return {std::string(held ? "the joint" : "the sliding mass") + " ran into the support at the beam's " +
               (direction == Direction::forward ? "end" : "start"),
           t};
 }
-
-/// Places of the guard functions.
-enum class Guard { forward, backward, end, start, weights, near_end, near_start, away, lift_off };
-
-constexpr std::size_t at(Guard guard) { return static_cast<std::size_t>(guard); }
-static_assert(at(Guard::lift_off) + 1 == max_guards);
 
 }  // namespace
 
 template <int D>
 Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
   if (rider_) return rider_guards(y, t);
-  Guards value;
-  value.fill(-1);
-  if (!has_joint()) return value;
+  Guards guards;
   const auto& control = model_.length_control;
-  const auto j = static_cast<std::size_t>(joint_);
-  const double x = y[nodal_], unit = control.standard_length;
-  const double behind = x - mesh_.x[j - 1], ahead = mesh_.x[j + 1] - x;
-  const bool to_end = joint_ + 1 == mesh_.last(), to_start = joint_ == 1;
-  if (control.enabled) {
-    if (!to_end) value[at(Guard::forward)] = (behind - control.trigger_length()) / unit;
-    if (!to_start) value[at(Guard::backward)] = (ahead - control.trigger_length()) / unit;
+  const double unit = control.standard_length;
+  const bool several = places_.size() > 1;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const int part = static_cast<int>(i), node = places_[i].node;
+    const auto add = [&](Kind kind, double value) { guards.push_back({number(kind), part, value}); };
+    const double x = y[places_[i].mark];
+    const double low = mark_of(node - 1, y.data()), high = mark_of(node + 1, y.data());
+    const double behind = x - low, ahead = high - x;
+    const bool to_end = node + 1 == mesh_.last(), to_start = node == 1;
+    const bool joint_ahead = at_joint(node + 1), joint_behind = at_joint(node - 1);
+    if (control.enabled) {
+      if (!to_end) add(Kind::forward, (behind - control.trigger_length()) / unit);
+      if (!to_start) add(Kind::backward, (ahead - control.trigger_length()) / unit);
+    }
+    auto reach = [&](bool releases, bool at_last) {
+      return releases && at_last ? joint(i).separation_distance / unit : contact_distance;
+    };
+    if (!joint_ahead) add(Kind::end, reach(model_.end_releases, to_end) - ahead / unit);
+    if (!joint_behind) add(Kind::start, reach(model_.start_releases, to_start) - behind / unit);
+    if (joint_ahead) add(Kind::meeting, meeting_distance - ahead / unit);
+    if (model_.transport == WeightTransport::transported) {
+      const auto j = static_cast<std::size_t>(node);
+      add(Kind::weights,
+          std::max(lost_weight(mesh_.weights[j - 1].on(low, x)), lost_weight(mesh_.weights[j].on(x, high))));
+    }
+    if (!several && end_limit_[0] > 0) add(Kind::near_end, (end_limit_[0] - ahead) / unit);
+    if (!several && end_limit_[1] > 0) add(Kind::near_start, (end_limit_[1] - behind) / unit);
+    const auto& masses = model_.masses.points;
+    const auto passed = static_cast<std::size_t>(places_[i].passed);
+    if (passed < masses.size()) add(Kind::pass_forward, (x - masses[passed].x) / unit);
+    if (passed > 0) add(Kind::pass_backward, (masses[passed - 1].x - x) / unit);
+    if (control.enabled && control.lower > 0) {
+      const double least = control.merge_length() * (1 - merge_slack);
+      if (!to_end && !joint_ahead) add(Kind::merge_ahead, (least - ahead) / unit);
+      if (!to_start && !joint_behind) add(Kind::merge_behind, (least - behind) / unit);
+    }
   }
-  auto reach = [&](bool releases, bool at_last) {
-    return releases && at_last ? model_.separation_distance / unit : contact_distance;
-  };
-  value[at(Guard::end)] = reach(model_.end_releases, to_end) - ahead / unit;
-  value[at(Guard::start)] = reach(model_.start_releases, to_start) - behind / unit;
-  if (model_.transport == WeightTransport::transported) {
-    value[at(Guard::weights)] = std::max(lost_weight(mesh_.weights[j - 1].on(mesh_.x[j - 1], x)),
-                                         lost_weight(mesh_.weights[j].on(x, mesh_.x[j + 1])));
-  }
-  if (end_limit_[0] > 0) value[at(Guard::near_end)] = (end_limit_[0] - ahead) / unit;
-  if (end_limit_[1] > 0) value[at(Guard::near_start)] = (end_limit_[1] - behind) / unit;
-  return value;
+  return guards;
 }
 
 template <int D>
 Guards BeamSystem<D>::rider_guards(const Eigen::VectorXd& y, double t) const {
-  Guards value;
-  value.fill(-1);
   const bool at_end = rider_->at_end();
   const double unit = model_.length_control.standard_length;
   if (rider_->held) {
     const double stiffness = model_.section.stiffness.EA;
-    value[at(Guard::lift_off)] = (at_end ? 1 : -1) * contact_force(y, t) / stiffness;
-    return value;
+    return {{number(Kind::lift_off), 0, (at_end ? 1 : -1) * contact_force(y, t) / stiffness}};
   }
   const double distance = at_end ? rider_->end - y[nodal_] : y[nodal_] - rider_->end;
   const bool releases = at_end ? model_.end_releases : model_.start_releases;
-  value[at(at_end ? Guard::end : Guard::start)] = ((releases ? model_.separation_distance : 0) - distance) / unit;
-  value[at(Guard::away)] = (distance - cut_limit_) / unit;
-  return value;
+  const double least = releases ? model_.joints.front().separation_distance : 0;
+  return {{number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit},
+          {number(Kind::away), 0, (distance - cut_limit_) / unit}};
 }
 
 template <int D>
-typename BeamSystem<D>::Due BeamSystem<D>::due(int guard) const {
-  const auto which = static_cast<Guard>(guard);
-  const bool backward =
-      which == Guard::backward || which == Guard::start || which == Guard::near_start || (rider_ && !rider_->at_end());
+Remeshing BeamSystem<D>::wanted(std::size_t which, Direction direction, const Eigen::VectorXd& y) const {
+  const auto& control = model_.length_control;
+  if (control.lower == 0) return {};  // the event of the paper: both
+  const bool forward = direction == Direction::forward;
+  const int node = places_[which].node, far = forward ? node - 1 : node + 1, next = forward ? node + 1 : node - 1;
+  const double x = y[places_[which].mark];
+  const double behind = std::abs(x - mark_of(far, y.data())), ahead = std::abs(mark_of(next, y.data()) - x);
+  const bool may_merge = next != 0 && next != mesh_.last() && !at_joint(next);
+  return {behind > control.trigger_length() - same_instant * control.standard_length,
+          may_merge && ahead < control.merge_length() * (1 + merge_slack)};
+}
+
+template <int D>
+typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::VectorXd& y) const {
+  const auto kind = static_cast<Kind>(guard.kind);
+  const auto which = static_cast<std::size_t>(guard.part);
+  const bool backward = kind == Kind::backward || kind == Kind::start || kind == Kind::near_start ||
+                        kind == Kind::merge_behind || kind == Kind::pass_backward || (rider_ && !rider_->at_end());
   const Direction direction = backward ? Direction::backward : Direction::forward;
-  switch (which) {
-    case Guard::forward:
-    case Guard::backward:
-      return {EventType::segment_merge, direction};
-    case Guard::weights:
-      return {EventType::reweighting, direction};
-    case Guard::near_end:
-    case Guard::near_start:
-      return {EventType::end_merge, direction};
-    case Guard::away:
-      return {EventType::end_cut, direction};
-    case Guard::lift_off:
-      return {EventType::lift_off, direction};
-    case Guard::end:
-    case Guard::start:
+  switch (kind) {
+    case Kind::forward:
+    case Kind::backward:
+    case Kind::merge_ahead:
+    case Kind::merge_behind: {
+      const Remeshing what = wanted(which, direction, y);
+      const EventType type = what.cut && what.merge ? EventType::segment_merge
+                             : what.cut             ? EventType::segmentation
+                                                    : EventType::merging;
+      return {type, direction, which, what};
+    }
+    case Kind::weights:
+      return {EventType::reweighting, direction, which, {}};
+    case Kind::near_end:
+    case Kind::near_start:
+      return {EventType::end_merge, direction, which, {}};
+    case Kind::away:
+      return {EventType::end_cut, direction, which, {}};
+    case Kind::lift_off:
+      return {EventType::lift_off, direction, which, {}};
+    case Kind::pass_forward:
+    case Kind::pass_backward:
+      return {EventType::passage, direction, which, {}};
+    case Kind::meeting:
+    case Kind::end:
+    case Kind::start:
       break;
   }
   const bool releases = backward ? model_.start_releases : model_.end_releases;
-  return {rider_ && !releases ? EventType::contact : EventType::separation, direction};
+  return {rider_ && !releases ? EventType::contact : EventType::separation, direction, which, {}};
 }
 
 template <int D>
-MergedWeights BeamSystem<D>::renew_weights(ChainState<D>& chain, double t) const {
+std::vector<typename BeamSystem<D>::Due> BeamSystem<D>::all_due(int index, const Eigen::VectorXd& y, double t) const {
+  const Guards now = guards(y, t);
+  const Guard& first = now[static_cast<std::size_t>(index)];
+  if (static_cast<Kind>(first.kind) == Kind::meeting) {
+    throw ComputationFailed("the sliding joints " + std::to_string(index_[static_cast<std::size_t>(first.part)]) +
+                                " and " + std::to_string(index_[static_cast<std::size_t>(first.part) + 1]) +
+                                " met: they are as near each other as a tenth of a standard element",
+                            t);
+  }
+  const auto remeshes = [](int kind) {
+    const auto of = static_cast<Kind>(kind);
+    return of == Kind::forward || of == Kind::backward || of == Kind::merge_ahead || of == Kind::merge_behind;
+  };
+  std::vector<Due> result{due(first, y)};
+  if (places_.size() < 2 || !remeshes(first.kind)) return result;
+  for (const Guard& guard : now) {
+    const auto which = static_cast<std::size_t>(guard.part);
+    if (!remeshes(guard.kind) || guard.value < -same_instant) continue;
+    if (std::any_of(result.begin(), result.end(), [&](const Due& other) { return other.which == which; })) continue;
+    result.push_back(due(guard, y));
+  }
+  return result;
+}
+
+template <int D>
+MergedWeights BeamSystem<D>::renew_weights(ChainState<D>& chain, std::size_t which, double t) const {
   const ChainState<D> before = chain;
+  const int node = places_[which].node;
   MergedWeights renewed;
-  for (const int k : {joint_ - 1, joint_}) {
+  for (const int k : {node - 1, node}) {
     const auto i = static_cast<std::size_t>(k);
     const auto& x = chain.mesh.x;
     if (lost_weight(chain.mesh.weights[i].on(x[i], x[i + 1])) < -0.5 * smallest_weight) continue;
@@ -128,14 +209,16 @@ double BeamSystem<D>::clear_of_end() const {
 
 template <int D>
 void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
-  const Impact& impact = model_.at_support;
+  const Impact& impact = model_.joints.front().at_support;
   const int outwards = rider_->at_end() ? 1 : -1;
-  if (impact.law == AtSupport::stop) throw ran_into_support(outwards > 0 ? Direction::forward : Direction::backward, t);
+  if (impact.law == AtSupport::stop) {
+    throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);
+  }
   // a momentum J on x changes velocities by J M^-1 e_x
   const Eigen::Index x = coordinates_ + nodal_;
   Eigen::VectorXd answer = Eigen::VectorXd::Unit(coordinates_, nodal_), momentum(coordinates_);
-  if (!solve_mass(nullptr, y.data(), answer.data())) throw ran_into_support(Direction::forward, t);
-  multiply_mass(nullptr, y.data(), answer.data(), momentum.data());
+  if (!solve_mass({}, y.data(), answer.data())) throw ran_into_support(false, Direction::forward, t);
+  multiply_mass({}, y.data(), answer.data(), momentum.data());
   auto strike = [&](double restitution) {
     auto rate = y.segment(coordinates_, coordinates_);
     const double change = -(1 + restitution) * rate[nodal_] / answer[nodal_];
@@ -158,39 +241,104 @@ void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
+void BeamSystem<D>::check_leaving(const Due& due, double t) const {
+  const bool forward = due.direction == Direction::forward;
+  const int node = places_[due.which].node;
+  if (!(forward ? node + 1 == mesh_.last() : node == 1)) {
+    throw ComputationFailed("tangled mesh: the sliding mass ran into a node; switch length control on", t);
+  }
+  if (!(forward ? model_.end_releases : model_.start_releases)) {
+    throw ran_into_support(joint(due.which).support.has_value(), due.direction, t);
+  }
+}
+
+template <int D>
+MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen::VectorXd& y, double t) {
+  const auto& control = model_.length_control;
+  switch (due.type) {
+    case EventType::separation: {
+      const int index = rider_ ? 0 : index_[due.which];
+      const auto mass = mass_motion(y, index);
+      if (rider_) {
+        chain.rider.reset();
+      } else {
+        separate(chain, due.direction, control, model_.transport);
+      }
+      const ModelJoint<D>& left = model_.joints[static_cast<std::size_t>(index)];
+      if (!left.support && left.law.mass > 0) chain.departed.push_back({index, mass->r, mass->v});
+      return {};
+    }
+    case EventType::segment_merge:
+    case EventType::segmentation:
+    case EventType::merging:
+      return segment_and_merge(chain, due.which, due.direction, due.remeshing, control, moving_law(t));
+    case EventType::reweighting:
+      return renew_weights(chain, due.which, t);
+    case EventType::end_merge:
+      return merge_at_end(chain, due.direction, control, moving_law(t));
+    case EventType::end_cut: {
+      const auto rest = model_.rest ? model_.rest->derivatives(chain.rider->x) : std::array<Vector, 4>{};
+      const MergedWeights merged = cut_at_end(chain, control, moving_law(t), model_.rest ? &rest : nullptr);
+      if (rider_law().kinked()) {
+        auto& node = chain.joints.front();
+        node.kink = {slope<D>(chain.q.data(), node.node), slope<D>(chain.rate.data(), node.node)};
+      }
+      return merged;
+    }
+    case EventType::contact:
+      hit(chain, y, t);
+      return {};
+    case EventType::lift_off:
+      chain.rider->held = false;
+      chain.rider->x = clear_of_end();
+      return {};
+    case EventType::passage:
+      passed_[static_cast<std::size_t>(index_[due.which])] += due.direction == Direction::forward ? 1 : -1;
+      return {};
+  }
+  return {};
+}
+
+template <int D>
 void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
   impose(y, t);
+  orient(t);
   const bool ramped = ramp_.due(model_.gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
-  const auto [type, direction] = due(index);
+  const std::vector<Due> dues = all_due(index, y, t);
+  const EventType type = dues.front().type;
   const bool leaving = type == EventType::separation;
-  if (leaving && has_joint()) {
-    const bool forward = direction == Direction::forward;
-    const bool at_last = forward ? joint_ + 1 == mesh_.last() : joint_ == 1;
-    if (!at_last)
-      throw ComputationFailed("tangled mesh: the sliding mass ran into a node; switch length control on", t);
-    if (!(forward ? model_.end_releases : model_.start_releases)) throw ran_into_support(direction, t);
+  if (leaving && has_joint()) check_leaving(dues.front(), t);
+  std::vector<EventRecord<D>> records(dues.size());
+  for (std::size_t i = 0; i < dues.size(); ++i) {
+    records[i].t = t;
+    records[i].type = dues[i].type;
+    records[i].joint = rider_ ? 0 : index_[dues[i].which];
+    records[i].joint_position = y[rider_ ? nodal_ : places_[dues[i].which].mark];
+    records[i].restored = true;
   }
-  EventRecord<D> record;
-  record.t = t;
-  record.type = type;
+  EventRecord<D>& record = records.front();
   record.before = chain(y);
-  record.joint_position = y[nodal_];
   record.after = record.before;
-  record.restored = true;
   // an event of the mesh changes the two elements on either side, or, where slopes change too, one more
   const bool reshapes = type == EventType::reweighting || model_.length_control.merge == MergePolicy::least_change;
   const int reach = reshapes ? 3 : 2;
-  const int middle = rider_ ? rider_->element : joint_;
-  const int lowest = std::max(0, middle - reach), highest = std::min(mesh_.elements(), middle + reach);
+  int lowest = mesh_.elements(), highest = 0;
+  for (const Due& due : dues) {
+    const int middle = rider_ ? rider_->element : places_[due.which].node;
+    lowest = std::min(lowest, std::max(0, middle - reach));
+    highest = std::max(highest, std::min(mesh_.elements(), middle + reach));
+  }
   auto energies = [&](const ChainState<D>& state, int points) {
     Observation<D> seen;
-    observe_elements(state, lowest, highest, t, points, seen);
+    const int more = state.mesh.elements() - record.before.mesh.elements();
+    observe_elements(state, lowest, highest + more, t, points, seen);
     return seen.energy;
   };
-  const bool remeshes = type == EventType::segment_merge || type == EventType::reweighting ||
-                        type == EventType::end_merge || type == EventType::end_cut;
+  const bool remeshes = type == EventType::segment_merge || type == EventType::segmentation ||
+                        type == EventType::merging || type == EventType::reweighting || type == EventType::end_merge ||
+                        type == EventType::end_cut;
   const bool transfers = remeshes && model_.length_control.velocities != VelocityTransfer::nodal;
   // a projection or an impact changes velocities everywhere, and a rider's is not a node's
   const bool everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider_;
@@ -202,50 +350,14 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const Eigen::VectorXd momenta_before = momenta(y, t);
   const double work_before = model_.tallies().of(y).supports;
 
-  const auto mass = mass_motion(y);
-  switch (type) {
-    case EventType::separation:
-      if (rider_) {
-        record.after.rider.reset();
-      } else {
-        separate(record.after, direction, model_.length_control, model_.transport);
-      }
-      break;
-    case EventType::segment_merge:
-      record.merged = segment_and_merge(record.after, direction, model_.length_control, moving_law(t));
-      break;
-    case EventType::reweighting:
-      record.merged = renew_weights(record.after, t);
-      break;
-    case EventType::end_merge:
-      record.merged = merge_at_end(record.after, direction, model_.length_control, moving_law(t));
-      break;
-    case EventType::end_cut: {
-      const auto rest = model_.rest ? model_.rest->derivatives(record.after.rider->x) : std::array<Vector, 4>{};
-      record.merged = cut_at_end(record.after, model_.length_control, moving_law(t), model_.rest ? &rest : nullptr);
-      if (model_.joint->kinked()) {
-        record.after.kink = {slope<D>(record.after.q.data(), record.after.joint),
-                             slope<D>(record.after.rate.data(), record.after.joint)};
-      }
-      break;
-    }
-    case EventType::contact:
-      hit(record.after, y, t);
-      break;
-    case EventType::lift_off:
-      record.after.rider->held = false;
-      record.after.rider->x = clear_of_end();
-      break;
-  }
+  for (std::size_t i = 0; i < dues.size(); ++i) records[i].merged = change(dues[i], record.after, y, t);
   const Eigen::VectorXd old = y;
   adopt(record.after);
+  orient(t);
   y = state_of(record.after, old);
-  if (free_mass_ && leaving) {
-    y.segment<D>(nodal_) = mass->r;
-    y.segment<D>(coordinates_ + nodal_) = mass->v;
-  }
+  const int highest_after = highest + record.after.mesh.elements() - record.before.mesh.elements();
   if (transfers) {
-    project_velocities(record.before, lowest, highest, y, t);
+    project_velocities(record.before, lowest, highest_after, y, t);
     if (model_.length_control.velocities == VelocityTransfer::conservative) {
       restore(momenta_before, own_before, y, t);
     }
@@ -276,21 +388,35 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (!leaving) record.momentum_jump = momenta(y, t) - momenta_before;
   if (ramped) ramp_.restart(t, moment(y, t));
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (on_event) on_event(record);
+  if (!on_event) return;
+  on_event(record);
+  for (std::size_t i = 1; i < records.size(); ++i) {  // what happened with it is in the first one
+    records[i].before = records[i].after = record.after;
+    records[i].momentum_jump = Eigen::VectorXd::Zero(record.momentum_jump.size());
+    on_event(records[i]);
+  }
 }
 
 template Guards BeamSystem<2>::guards(const Eigen::VectorXd&, double) const;
 template Guards BeamSystem<2>::rider_guards(const Eigen::VectorXd&, double) const;
-template BeamSystem<2>::Due BeamSystem<2>::due(int) const;
+template Remeshing BeamSystem<2>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
+template BeamSystem<2>::Due BeamSystem<2>::due(const Guard&, const Eigen::VectorXd&) const;
+template std::vector<BeamSystem<2>::Due> BeamSystem<2>::all_due(int, const Eigen::VectorXd&, double) const;
 template double BeamSystem<2>::clear_of_end() const;
-template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, double) const;
+template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
+template void BeamSystem<2>::check_leaving(const Due&, double) const;
+template MergedWeights BeamSystem<2>::change(const Due&, ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template Guards BeamSystem<3>::guards(const Eigen::VectorXd&, double) const;
 template Guards BeamSystem<3>::rider_guards(const Eigen::VectorXd&, double) const;
-template BeamSystem<3>::Due BeamSystem<3>::due(int) const;
+template Remeshing BeamSystem<3>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
+template BeamSystem<3>::Due BeamSystem<3>::due(const Guard&, const Eigen::VectorXd&) const;
+template std::vector<BeamSystem<3>::Due> BeamSystem<3>::all_due(int, const Eigen::VectorXd&, double) const;
 template double BeamSystem<3>::clear_of_end() const;
-template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, double) const;
+template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
+template void BeamSystem<3>::check_leaving(const Due&, double) const;
+template MergedWeights BeamSystem<3>::change(const Due&, ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::hit(ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

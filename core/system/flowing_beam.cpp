@@ -416,21 +416,20 @@ std::unique_ptr<SecondOrderSystem> FlowingBeam<D>::new_second_order() {
 
 template <int D>
 Guards FlowingBeam<D>::guards(const Eigen::VectorXd& /*y*/, double t) const {
-  Guards value;
-  value.fill(-1);
+  Guards guards{{0, 0, -1}, {1, 0, -1}};
   const std::vector<Prescribed> nodes = nodes_at(t);
   double least = nodes[1].value - nodes[0].value;
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k) least = std::min(least, nodes[k + 1].value - nodes[k].value);
-  value[0] = shortest - least / reference_length_;
+  guards[0].value = shortest - least / reference_length_;
   if (model_.transport == WeightTransport::transported) {
     for (int k = 0; k < elements(); ++k) {
       const auto i = static_cast<std::size_t>(k);
       const Weights<double> w = weights_at(i, nodes);
       const double ratio = *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
-      value[1] = std::max(value[1], smallest_weight - ratio);
+      guards[1].value = std::max(guards[1].value, smallest_weight - ratio);
     }
   }
-  return value;
+  return guards;
 }
 
 template <int D>

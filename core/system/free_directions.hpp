@@ -4,7 +4,7 @@
 
 namespace vlbeam {
 
-/// Columns, orthonormal: the directions in which supports let the coordinates move.
+/// Columns, orthonormal: the directions in which supports, a ring or a sleeve let the coordinates move.
 template <int D>
 Eigen::MatrixXd free_directions(const BeamSystem<D>& system) {
   const Eigen::Index n = system.coordinates();
@@ -18,6 +18,15 @@ Eigen::MatrixXd free_directions(const BeamSystem<D>& system) {
   };
   hold(0, system.model().start);
   hold(Eigen::Index{node_size<D>} * system.mesh().last(), system.model().end);
+  for (std::size_t i = 0; i < system.places().size(); ++i) {
+    const Support<D>* held = system.held(i);
+    if (held == nullptr) continue;
+    const JointPlace& place = system.places()[i];
+    hold(Eigen::Index{node_size<D>} * place.node, *held);
+    if (place.behind < 0) continue;
+    directions.template block<D, D>(place.behind, place.behind) = held->frame;
+    free.template segment<D>(place.behind) = held->free_slope;
+  }
   Eigen::Index kept = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (free[k] > 0) directions.col(kept++) = directions.col(k);

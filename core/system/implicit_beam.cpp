@@ -4,17 +4,6 @@
 #include "core/error.hpp"
 
 namespace vlbeam {
-namespace {
-
-/// Coordinates of one of the two elements at the joint, from the nodal array and the joint's entry.
-template <MovingEnds Ends, int D>
-MovingCoordinates<double, D> element_of(const double* nodes, int k, double joint, double other) {
-  return Ends == MovingEnds::a ? MovingCoordinates<double, D>{element_nodes<D>(nodes, k), joint, other}
-                               : MovingCoordinates<double, D>{element_nodes<D>(nodes, k), other, joint};
-}
-
-}  // namespace
-
 template <int D>
 double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const {
   const Eigen::Map<const NodeVector> here(q + Eigen::Index{B} * node), next(q + Eigen::Index{B} * (node + 1));
@@ -24,57 +13,90 @@ double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<Driv
 }
 
 template <int D>
-double ImplicitBeam<D>::Constraint::rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const {
+double ImplicitBeam<D>::Constraint::rate(const double* q, const double* v,
+                                         const std::array<DrivenPoint<D>, 2>& driven) const {
   const Eigen::Map<const NodeVector> here(v + Eigen::Index{B} * node), next(v + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
   const double off = direction.dot(here);
-  return end < 0 ? off : off - direction.template head<D>().dot(driven[static_cast<std::size_t>(end)].rate);
+  if (end < 0) return off;
+  const DrivenPoint<D>& by = driven[static_cast<std::size_t>(end)];
+  if (slope >= 0) return off - direction.template tail<D>().dot(by.slope_rate(vlbeam::slope<D>(q, node)));
+  return off - direction.template head<D>().dot(by.rate);
 }
 
 template <int D>
-void ImplicitBeam<D>::refresh() const {
-  if (revision_ == system_.revision()) return;
+void ImplicitBeam<D>::stand(double t) const {
+  refresh();
+  if (!system_.model().turns()) return;
+  const auto driven = system_.driven_points(t);
+  standing_ = system_.supports(driven);
+  for (Constraint& constraint : constraints_) {
+    if (constraint.end < 0 || constraint.slope < 0) continue;
+    const auto end = static_cast<std::size_t>(constraint.end);
+    constraint.direction.template tail<D>() = standing_[end].frame.col(constraint.slope);
+    constraint.anchor.template tail<D>() = driven[end].turned(system_.anchors()[end].template tail<D>());
+  }
+}
+
+template <int D>
+void ImplicitBeam<D>::rebuild() const {
   revision_ = system_.revision();
   constraints_.clear();
-  slope_conditions_ = {};
+  const auto old_conditions = std::move(slope_conditions_);
+  slope_conditions_.clear();
+  places_ = system_.places();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    places_[i].behind = -1;
+    places_[i].cut = with_multipliers() || system_.kinked(i);
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].mark = after_nodes() + static_cast<Eigen::Index>(i);
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
   if (!with_multipliers()) return;
-  at_held_nodes([&](int node, const Support<D>& support) {
-    const int end = node == 0 ? 0 : node == nodes() - 1 ? 1 : -1;
-    const NodeVector& anchor = end < 0 ? system_.joint_anchor() : system_.anchors()[static_cast<std::size_t>(end)];
+  at_held_nodes([&](int node, const Support<D>& support, int joint) {
+    const int end = joint >= 0 ? -1 : node == 0 ? 0 : 1;
+    const bool twice = joint >= 0;
+    const NodeVector& anchor = joint >= 0 ? system_.joint_anchor(static_cast<std::size_t>(joint))
+                                          : system_.anchors()[static_cast<std::size_t>(end)];
     for (int c = 0; c < D; ++c) {
       NodeVector direction = NodeVector::Zero();
       direction.template head<D>() = support.frame.col(c);
-      if (support.free_position[c] == 0) constraints_.push_back({node, direction, anchor, end});
+      if (support.free_position[c] == 0) constraints_.push_back({node, direction, anchor, end, false, twice});
       direction.template head<D>().setZero();
       direction.template tail<D>() = support.frame.col(c);
-      if (support.free_slope[c] == 0) constraints_.push_back({node, direction, anchor, end});
+      if (support.free_slope[c] == 0) constraints_.push_back({node, direction, anchor, end, false, twice, c});
     }
   });
-  if (!system_.has_joint()) return;
-  for (int c = 0; c < (system_.kinked() ? D : B); ++c) {
-    constraints_.push_back({system_.joint(), NodeVector::Unit(c), NodeVector::Zero(), -1, true});
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (int c = 0; c < (system_.kinked(i) ? D : B); ++c) {
+      constraints_.push_back({first_copy(i), NodeVector::Unit(c), NodeVector::Zero(), -1, true});
+    }
+    if (!system_.kinked(i)) continue;
+    Conditions& conditions = slope_conditions_.emplace_back(Conditions{i});
+    if (slope_conditions_.size() <= old_conditions.size()) {
+      conditions.omitted_axis = old_conditions[slope_conditions_.size() - 1].omitted_axis;
+    }
+    conditions.of = {system_.joint(i).law.slopes, conditions.omitted_axis};
   }
-  slope_conditions_ = {system_.model().joint->slopes, omitted_axis_};
 }
 
 template <int D>
-typename ImplicitBeam<D>::Slopes ImplicitBeam<D>::joint_slopes(const double* q) const {
+typename ImplicitBeam<D>::Slopes ImplicitBeam<D>::joint_slopes(std::size_t which, const double* q) const {
+  const int node = first_copy(which);
   Slopes slopes;
-  slopes << slope<D>(q, system_.joint()), slope<D>(q, system_.joint() + cut());
+  slopes << slope<D>(q, node), slope<D>(q, node + (places()[which].cut ? 1 : 0));
   return slopes;
 }
 
 /// In space the components of the cross product change over only where the slope has turned far away: they change the
 /// multipliers' meaning.
 template <int D>
-const SlopeConditions<D>& ImplicitBeam<D>::slope_conditions(const double* q) const {
-  if (D == 3 && slope_conditions_.count() > 0) {
-    const Vec<double, D> before = slope<D>(q, system_.joint());
-    if (std::abs(before[omitted_axis_]) < 0.4 * before.norm()) {
-      omitted_axis_ = longest_axis<D>(before);
-      slope_conditions_ = {system_.model().joint->slopes, omitted_axis_};
-    }
+auto ImplicitBeam<D>::slope_conditions(const double* q) const -> const std::vector<Conditions>& {
+  for (Conditions& conditions : slope_conditions_) {
+    if (D == 2 || conditions.of.count() == 0) continue;
+    const Vec<double, D> before = slope<D>(q, first_copy(conditions.joint));
+    if (std::abs(before[conditions.omitted_axis]) >= 0.4 * before.norm()) continue;
+    conditions.omitted_axis = longest_axis<D>(before);
+    conditions.of = {system_.joint(conditions.joint).law.slopes, conditions.omitted_axis};
   }
   return slope_conditions_;
 }
@@ -82,23 +104,22 @@ const SlopeConditions<D>& ImplicitBeam<D>::slope_conditions(const double* q) con
 template <int D>
 Eigen::Index ImplicitBeam<D>::multipliers() const {
   refresh();
-  return static_cast<Eigen::Index>(constraints_.size()) + slope_conditions_.count();
+  return static_cast<Eigen::Index>(constraints_.size()) + condition_count();
 }
 
 template <int D>
 Eigen::Index ImplicitBeam<D>::coordinates() const {
-  return system_.coordinates() + B * cut() - (system_.kinked() ? D : 0) + multipliers();
+  return system_.coordinates() + B * cuts() - kinks() + multipliers();
 }
 
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   refresh();
   auto runs = nodal_fields(D, nodes());
-  if (system_.has_joint() || system_.rider()) {
-    runs.push_back({Field::mark, after_nodes()});
-  } else if (system_.has_free_mass()) {
-    runs.push_back({Field::mass, after_nodes(), D});
-  }
+  for (const JointPlace& place : places()) runs.push_back({Field::mark, place.mark});
+  if (system_.rider()) runs.push_back({Field::mark, after_nodes()});
+  const auto left = static_cast<Eigen::Index>(system_.departed().size());
+  if (left > 0) runs.push_back({Field::mass, departed(), D * left});
   if (const Spin* spin = system_.spin()) {
     for (const FieldRun& run : spin->fields(after_nodes())) runs.push_back(run);
   }
@@ -107,44 +128,56 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
     const bool place = !constraint.direction.template head<D>().isZero(0);
     runs.push_back({place ? Field::multiplier : Field::slope_multiplier, at++});
   }
-  if (slope_conditions_.count() > 0) runs.push_back({Field::slope_multiplier, at, slope_conditions_.count()});
+  if (condition_count() > 0) runs.push_back({Field::slope_multiplier, at, condition_count()});
   return runs;
+}
+
+template <int D>
+template <class Run, class Second>
+void ImplicitBeam<D>::for_each_run(const Run& run, const Second& second) const {
+  Eigen::Index own = 0, here = 0;
+  const auto pass = [&](Eigen::Index count) {
+    run(own, here, count);
+    own += count;
+    here += count;
+  };
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const JointPlace& place = places()[i];
+    if (!place.cut) continue;
+    pass(Eigen::Index{B} * (place.node + 1) - own);
+    second(own - B, here, system_.places()[i].behind);
+    here += B;
+  }
+  pass(Eigen::Index{B} * (system_.mesh().last() + 1) - own + static_cast<Eigen::Index>(places().size()));
+  own += kinks();
+  pass(system_.coordinates() - own);
 }
 
 template <int D>
 void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
   const Eigen::Index n = coordinates(), own = system_.coordinates();
-  if (n == own) {
-    q = y.head(own);
-    v = y.segment(own, own);
-    return;
-  }
-  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1);
-  const Eigen::Index kink = system_.kinked() ? D : 0, behind = own - before - kink;
-  auto spread = [&](const auto& from, Eigen::VectorXd& to) {
-    to.setZero(n);
-    to.head(before) = from.head(before);
-    if (cut() == 0) return;
-    to.segment(before, B) = from.segment(before - B, B);
-    to.segment(before + D, kink) = from.tail(kink);
-    to.segment(before + B, behind) = from.segment(before, behind);
+  q.setZero(n);
+  v.setZero(n);
+  const auto copy = [&](Eigen::Index from, Eigen::Index to, Eigen::Index count) {
+    q.segment(to, count) = y.segment(from, count);
+    v.segment(to, count) = y.segment(own + from, count);
   };
-  spread(y.head(own), q);
-  spread(y.segment(own, own), v);
+  for_each_run(copy, [&](Eigen::Index node, Eigen::Index to, Eigen::Index behind) {
+    copy(node, to, B);
+    if (behind >= 0) copy(behind, to + D, D);
+  });
 }
 
 template <int D>
 void ImplicitBeam<D>::contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const {
   const Eigen::Index own = system_.coordinates();
-  const Eigen::Index before = cut() == 0 ? own : Eigen::Index{B} * (system_.joint() + 1);
-  const Eigen::Index kink = system_.kinked() ? D : 0, behind = own - before - kink;
-  auto gather = [&](const Eigen::VectorXd& from, auto to) {
-    to.head(before) = from.head(before);
-    to.segment(before, behind) = from.segment(before + B * cut(), behind);
-    if (kink > 0) to.tail(kink) = from.segment(before + D, kink);
+  const auto copy = [&](Eigen::Index to, Eigen::Index from, Eigen::Index count) {
+    y.segment(to, count) = q.segment(from, count);
+    y.segment(own + to, count) = v.segment(from, count);
   };
-  gather(q, y.head(own));
-  gather(v, y.segment(own, own));
+  for_each_run(copy, [&](Eigen::Index /*node*/, Eigen::Index from, Eigen::Index behind) {
+    if (behind >= 0) copy(behind, from + D, D);
+  });
 }
 
 template <int D>
@@ -158,44 +191,53 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   Eigen::VectorXd unused;
   expand(y_, a, unused);
   if (multipliers() == 0) return;
+  stand(t);
   // what the equations of motion lack is what the constraints give: their directions are orthonormal, node by node
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
+    // what holds a joint holds both of its nodes; what ties them shows at the second
+    const bool second = constraint.twice || constraint.tied;
     const auto lacks = [&](int node) {
       return constraint.direction.dot(Eigen::Map<const NodeVector>(free_.data() + Eigen::Index{B} * node));
     };
-    const bool second = constraint.node == system_.joint() && cut() > 0;  // what holds a joint holds both of its nodes
     const double lacking = (constraint.tied ? 0 : lacks(constraint.node)) + (second ? lacks(constraint.node + 1) : 0);
     a[a.size() - multipliers() + static_cast<Eigen::Index>(i)] = (constraint.tied ? 1 : -1) * lacking / reference_mass_;
   }
-  if (slope_conditions_.count() == 0) return;
-  const auto& conditions = slope_conditions(q.data());
-  Eigen::MatrixXd gradients(2 * D, conditions.count());
-  for (int i = 0; i < conditions.count(); ++i) gradients.col(i) = conditions.gradient(i, joint_slopes(q.data()));
-  a.tail(conditions.count()) =
-      -(gradients.transpose() * gradients).ldlt().solve(gradients.transpose() * joint_slopes(free_.data())) /
-      reference_mass_;
+  Eigen::Index at = first_slope_multiplier();
+  for (const Conditions& conditions : slope_conditions(q.data())) {
+    const int count = conditions.of.count();
+    const Slopes slopes = joint_slopes(conditions.joint, q.data());
+    Eigen::MatrixXd gradients(2 * D, count);
+    for (int i = 0; i < count; ++i) gradients.col(i) = conditions.of.gradient(i, slopes);
+    a.segment(at, count) = -(gradients.transpose() * gradients)
+                                .ldlt()
+                                .solve(gradients.transpose() * joint_slopes(conditions.joint, free_.data())) /
+                           reference_mass_;
+    at += count;
+  }
 }
 
 template <int D>
 template <class Function>
 void ImplicitBeam<D>::at_end_nodes(const Function& function) const {
-  function(0, system_.model().start);
-  function(nodes() - 1, system_.model().end);
+  function(0, standing_[0], -1);
+  function(nodes() - 1, standing_[1], -1);
 }
 
 template <int D>
 template <class Function>
 void ImplicitBeam<D>::at_held_nodes(const Function& function) const {
   at_end_nodes(function);
-  if (const Support<D>* held = system_.held_joint()) function(system_.joint(), *held);
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    if (const Support<D>* held = system_.held(i)) function(first_copy(i), *held, static_cast<int>(i));
+  }
 }
 
 template <int D>
 void ImplicitBeam<D>::project(double* nodes) const {
-  at_held_nodes([&](int k, const Support<D>& support) {
+  at_held_nodes([&](int k, const Support<D>& support, int /*joint*/) {
     auto keep = [&](auto part, const typename Support<D>::Components& free) {
       part = support.out_of_frame((support.into_frame(part).array() * free).matrix());
     };
@@ -209,58 +251,70 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
                                       double t, Eigen::VectorXd& r) const {
   const auto& model = system_.model();
   const Vec<double, D> gravity = system_.gravity(t), on_beam = system_.beam_gravity(t);
-  const int shift = B * cut();  // of the nodes behind the joint
   r.setZero();
-  double dissipation = system_.left().add_forces(q.data(), v.data(), on_beam, r.data()) +
-                       system_.right().add_forces(q.data() + shift, v.data() + shift, on_beam, r.data() + shift);
+  double dissipation = 0;
+  at_spans([&](const Span<D>& span, int copies) {
+    const Eigen::Index shift = Eigen::Index{B} * copies;
+    dissipation += span.add_forces(q.data() + shift, v.data() + shift, on_beam, r.data() + shift);
+  });
   model.loads.add_forces(view(q, v), t, r.data());
+  if (model.drag.present()) dissipation += model.drag.add_forces(view(q, v), r.data());
   const bool bears_masses = model.masses.present();
   if (bears_masses) model.masses.add_weight(view(q, v), gravity, r.data());
   r = -r;
   if (bears_masses) model.masses.add_residual(view(q, v), a.data(), gravity, r.data());
-  system_.left().add_inertia(a.data(), r.data());
-  system_.right().add_inertia(a.data() + shift, r.data() + shift);
+  at_spans([&](const Span<D>& span, int copies) {
+    const Eigen::Index shift = Eigen::Index{B} * copies;
+    span.add_inertia(a.data() + shift, r.data() + shift);
+  });
   const Eigen::Index extra = after_nodes();
   if (system_.has_joint()) {
-    const int j = system_.joint();
-    const auto ju = static_cast<std::size_t>(j);
-    const auto& mesh = system_.mesh();
+    const ChainView<D> beam = view(q, v), accelerations = view(q, a);
     auto law = system_.moving_law(t);
-    const auto rest = system_.joint_rest(q[extra]);
-    auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
-                                    const ShapeTabulation& table) {
-      if (rest) law.rest = Ends == MovingEnds::b ? &rest->left : &rest->right;
-      const auto part = moving_residual<Ends, double, D>(
-          element_of<Ends, D>(q.data(), node, q[extra], far_end), element_of<Ends, D>(v.data(), node, v[extra], 0),
-          element_of<Ends, D>(a.data(), node, a[extra], 0), weights, table, law, &dissipation);
-      position<D>(r.data(), node) += part.nodes[0];
-      slope<D>(r.data(), node) += part.nodes[1];
-      position<D>(r.data(), node + 1) += part.nodes[2];
-      slope<D>(r.data(), node + 1) += part.nodes[3];
-      r[extra] += part.end;
-    };
-    add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
-    add.template operator()<MovingEnds::a>(j + cut(), mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
-    const Vec<double, D> pull = position<D>(a.data(), j) - gravity;
-    position<D>(r.data(), j) += model.joint->mass * pull;
-    if (model.joint->friction) {
-      const Vec<double, D> mean = (slope<D>(q.data(), j) + slope<D>(q.data(), j + cut())) / 2;
-      const auto friction = friction_force<double, D>(*model.joint->friction, model.joint->mass, pull, mean, v[extra]);
-      r[extra] -= friction.force;
+    for (const MovingPart& part : system_.moving_parts()) {
+      const auto rest = system_.rest_of(part, q.data(), places());
+      law.rest = rest ? &*rest : nullptr;
+      auto add = [&]<MovingEnds Ends>() {
+        const int k = part.element, node = beam.first_node(k);
+        const auto of = moving_residual<Ends, double, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k),
+                                                         beam.weights(k), part.table, law, &dissipation);
+        position<D>(r.data(), node) += of.nodes[0];
+        slope<D>(r.data(), node) += of.nodes[1];
+        position<D>(r.data(), node + 1) += of.nodes[2];
+        slope<D>(r.data(), node + 1) += of.nodes[3];
+        for (int e = 0; e < moving_ends<Ends>; ++e) {
+          r[extra + (is_end_a<Ends>(e) ? part.a : part.b)] += of.ends[static_cast<std::size_t>(e)];
+        }
+      };
+      with_ends(part.ends, add);
+    }
+    for (std::size_t i = 0; i < places().size(); ++i) {
+      const SlidingJoint& joint = system_.joint(i).law;
+      const int node = first_copy(i);
+      const Vec<double, D> pull = position<D>(a.data(), node) - gravity;
+      position<D>(r.data(), node) += joint.mass * pull;
+      if (!joint.friction) continue;
+      const Slopes slopes = joint_slopes(i, q.data());
+      const Vec<double, D> mean = (slopes.template head<D>() + slopes.template tail<D>()) / 2;
+      const auto friction = friction_force<double, D>(*joint.friction, joint.mass, pull, mean, v[places()[i].mark]);
+      r[places()[i].mark] -= friction.force;
       dissipation += friction.dissipation;
     }
   } else if (const auto& rider = system_.rider()) {
     const auto part =
         rider_residual<double, D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
-                                  a[extra], *model.joint, gravity, rider->held);
+                                  a[extra], model.joints.front().law, gravity, rider->held);
     position<D>(r.data(), rider->element) += part.nodes[0];
     slope<D>(r.data(), rider->element) += part.nodes[1];
     position<D>(r.data(), rider->element + 1) += part.nodes[2];
     slope<D>(r.data(), rider->element + 1) += part.nodes[3];
     r[extra] = part.x;
     dissipation += part.dissipation;
-  } else if (system_.has_free_mass()) {
-    r.segment<D>(extra) = model.joint->mass * (a.segment<D>(extra) - gravity);
+  }
+  for (std::size_t i = 0; i < system_.departed().size(); ++i) {
+    const Eigen::Index at = departed() + D * static_cast<Eigen::Index>(i);
+    const double mass = model.joints[static_cast<std::size_t>(system_.departed()[i])].law.mass;
+    r.segment<D>(at) = mass * (a.segment<D>(at) - gravity);
   }
   if (Spin* spin = system_.spin()) {
     dissipation += spin->residual(q.data() + extra, v.data() + extra, a.data() + extra, t, r.data() + extra);
@@ -272,9 +326,11 @@ template <int D>
 double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                  Eigen::VectorXd& r) {
   system_.count_evaluation();
+  stand(t);
   const Eigen::Index first = coordinates() - multipliers();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
+  at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
   if (const Spin* spin = system_.spin()) spin->drive(a.data() + after_nodes(), t, r.data() + after_nodes());
   const auto driven = system_.driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
@@ -287,15 +343,15 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
     if (constraint.tied) next -= multiplier * constraint.direction;
     r[at] = constraint.value(q.data(), driven);
   }
-  if (slope_conditions_.count() > 0) {
-    const auto& conditions = slope_conditions(q.data());
-    const Slopes slopes = joint_slopes(q.data());
-    for (int i = 0; i < conditions.count(); ++i) {
-      const Eigen::Index at = first_slope_multiplier() + i;
-      const Slopes force = reference_mass_ * a[at] * conditions.gradient(i, slopes);
-      slope<D>(r.data(), system_.joint()) += force.template head<D>();
-      slope<D>(r.data(), system_.joint() + 1) += force.template tail<D>();
-      r[at] = conditions.value(i, slopes);
+  Eigen::Index at = first_slope_multiplier();
+  for (const Conditions& conditions : slope_conditions(q.data())) {
+    const Slopes slopes = joint_slopes(conditions.joint, q.data());
+    const int node = first_copy(conditions.joint);
+    for (int i = 0; i < conditions.of.count(); ++i, ++at) {
+      const Slopes force = reference_mass_ * a[at] * conditions.of.gradient(i, slopes);
+      slope<D>(r.data(), node) += force.template head<D>();
+      slope<D>(r.data(), node + 1) += force.template tail<D>();
+      r[at] = conditions.of.value(i, slopes);
     }
   }
   return dissipation;
@@ -304,17 +360,19 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
-  refresh();
+  stand(t);
   const auto driven = system_.driven_points(t);
   ConstraintResidual largest;
   for (const auto& constraint : constraints_) {
     largest.position = std::max(largest.position, std::abs(constraint.value(q.data(), driven)));
-    largest.velocity = std::max(largest.velocity, std::abs(constraint.rate(v.data(), driven)));
+    largest.velocity = std::max(largest.velocity, std::abs(constraint.rate(q.data(), v.data(), driven)));
   }
-  for (int i = 0; i < slope_conditions_.count(); ++i) {
-    const Slopes slopes = joint_slopes(q.data());
-    largest.position = std::max(largest.position, std::abs(slope_conditions_.value(i, slopes)));
-    largest.velocity = std::max(largest.velocity, std::abs(slope_conditions_.rate(i, slopes, joint_slopes(v.data()))));
+  for (const Conditions& conditions : slope_conditions_) {
+    const Slopes slopes = joint_slopes(conditions.joint, q.data()), rates = joint_slopes(conditions.joint, v.data());
+    for (int i = 0; i < conditions.of.count(); ++i) {
+      largest.position = std::max(largest.position, std::abs(conditions.of.value(i, slopes)));
+      largest.velocity = std::max(largest.velocity, std::abs(conditions.of.rate(i, slopes, rates)));
+    }
   }
   return largest;
 }
@@ -322,25 +380,34 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 template <int D>
 void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
+  stand(t);
   const auto driven = system_.driven_points(t);
   Eigen::Index at = rates.size() - multipliers();
-  for (const auto& constraint : constraints_) rates[at++] = constraint.rate(v.data(), driven);
-  for (int i = 0; i < slope_conditions_.count(); ++i) {
-    rates[at++] = slope_conditions_.rate(i, joint_slopes(q.data()), joint_slopes(v.data()));
+  for (const auto& constraint : constraints_) rates[at++] = constraint.rate(q.data(), v.data(), driven);
+  for (const Conditions& conditions : slope_conditions_) {
+    const Slopes slopes = joint_slopes(conditions.joint, q.data()), change = joint_slopes(conditions.joint, v.data());
+    for (int i = 0; i < conditions.of.count(); ++i) rates[at++] = conditions.of.rate(i, slopes, change);
   }
 }
 
 template <int D>
 bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const {
-  if (!driven() || with_multipliers()) return false;
+  const bool guides = system_.model().guides();
+  if (!driven() || (with_multipliers() && !guides)) return false;
   offset.setZero(q.size());
+  at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - system_.guided(i, t)->value; });
+  if (with_multipliers()) return true;
+  stand(t);
   const auto points = system_.driven_points(t);
-  at_end_nodes([&](int node, const Support<D>& support) {
+  at_end_nodes([&](int node, const Support<D>& support, int /*joint*/) {
     const std::size_t end = node == 0 ? 0 : 1;
     const Vec<double, D> off =
         position<D>(q.data(), node) - system_.anchors()[end].template head<D>() - points[end].value;
     position<D>(offset.data(), node) =
         support.out_of_frame((support.into_frame(off).array() * (1 - support.free_position)).matrix());
+    if (!(end == 0 ? system_.model().start_motion : system_.model().end_motion).turns()) return;
+    const Vec<double, D> turned = points[end].turned(system_.anchors()[end].template tail<D>());
+    slope<D>(offset.data(), node) = DrivenPoint<D>::held(support, slope<D>(q.data(), node) - turned);
   });
   return true;
 }
@@ -362,11 +429,17 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   system_.count_evaluation();
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  at_end_nodes([&](int node, const Support<D>& support) {
-    if (!(node == 0 ? system_.model().start_motion : system_.model().end_motion)) return;
-    const Vec<double, D> force = support.into_frame(position<D>(free_.data(), node)),
-                         velocity = support.into_frame(position<D>(v.data(), node));
-    power.supports += (force.array() * velocity.array() * (1 - support.free_position)).sum();
+  at_guides([&](std::size_t i) { power.supports += free_[places()[i].mark] * v[places()[i].mark]; });
+  stand(t);
+  at_end_nodes([&](int node, const Support<D>& support, int /*joint*/) {
+    const SupportMotion<D>& motion = node == 0 ? system_.model().start_motion : system_.model().end_motion;
+    if (!motion) return;
+    const auto add = [&](const auto& on, const auto& rate, const typename Support<D>::Components& free) {
+      const Vec<double, D> force = support.into_frame(on), velocity = support.into_frame(rate);
+      power.supports += (force.array() * velocity.array() * (1 - free)).sum();
+    };
+    add(position<D>(free_.data(), node), position<D>(v.data(), node), support.free_position);
+    if (motion.turns()) add(slope<D>(free_.data(), node), slope<D>(v.data(), node), support.free_slope);
   });
   return power;
 }
@@ -378,9 +451,9 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
   if (system_.model().spin) {
     throw InvalidInput("/integrator/type", "\"energy-momentum\"", "it knows no spin: take any other integrator");
   }
-  if (driven() || system_.model().loads.present()) {
+  if (driven() || system_.model().loads.present() || system_.model().drag.present()) {
     throw InvalidInput("/integrator/type", "\"energy-momentum\"",
-                       "it keeps an energy that moving supports and loads change: take any other integrator");
+                       "it keeps an energy that moving supports, loads and drag change: take any other integrator");
   }
   system_.count_evaluation();
   return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
@@ -389,70 +462,88 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
 template <int D>
 void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                double by_v, double by_a) {
-  refresh();
+  stand(t);
   const auto& model = system_.model();
-  const auto& mesh = system_.mesh();
   tangent_.reset(nodes());
-  const int shift = cut();  // of the nodes behind the joint
   auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
-  system_.left().add_tangent(q.data(), v.data(), by_v, by_a, diagonal, upper, lower);
-  system_.right().add_tangent(q.data() + Eigen::Index{B} * shift, v.data() + Eigen::Index{B} * shift, by_v, by_a,
-                              diagonal + shift, upper + shift, lower + shift);
+  at_spans([&](const Span<D>& span, int copies) {
+    const Eigen::Index shift = Eigen::Index{B} * copies;
+    span.add_tangent(q.data() + shift, v.data() + shift, by_v, by_a, diagonal + copies, upper + copies, lower + copies);
+  });
   const Eigen::Index extra = after_nodes();
-  constexpr int N = 4 * D + 1;
-  // adds the tangent of an element at `node` to blocks and to the border of x
-  auto add_blocks = [&](int node, const Eigen::Matrix<double, N, N>& matrix) {
+  constexpr int X = 4 * D;
+  auto add_blocks = [&](int node, const auto& matrix) {
     const auto k = static_cast<std::size_t>(node);
     tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
     tangent_.upper[k] += matrix.template block<B, B>(0, B);
     tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
     tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
   };
-  auto add_element = [&](auto& border, int node, const Eigen::Matrix<double, N, N>& matrix) {
-    const auto reach = static_cast<std::size_t>(node - border.first);
+  // row and column X + e of the tangent of an element at `node` belong to unknown marks[e] of the border, if to any
+  auto add_element = [&](int node, const auto& matrix, const std::array<int, 2>& marks) {
     add_blocks(node, matrix);
-    for (int end = 0; end < 2; ++end) {
-      border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, N - 1);
-      border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(N - 1, end * B).transpose();
+    for (int e = 0; e < 2; ++e) {
+      const int mark = marks[static_cast<std::size_t>(e)];
+      if (mark < 0) continue;
+      auto& border = tangent_.border[static_cast<std::size_t>(mark)];
+      const auto reach = static_cast<std::size_t>(node - border.first);
+      for (int end = 0; end < 2; ++end) {
+        border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, X + e);
+        border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(X + e, end * B).transpose();
+      }
+      for (int f = 0; f < 2; ++f) {
+        const int other = marks[static_cast<std::size_t>(f)];
+        if (other >= 0) tangent_.corner(mark, other) += matrix(X + e, X + f);
+      }
     }
-    tangent_.corner(0, 0) += matrix(N - 1, N - 1);
   };
-  if (system_.has_joint()) {
-    const int j = system_.joint();
-    const auto ju = static_cast<std::size_t>(j);
-    auto law = system_.moving_law(t);
-    const auto rest = system_.joint_rest(q[extra]);
-    auto& border = tangent_.add_border(j - 1);
-    auto add = [&]<MovingEnds Ends>(int node, const WeightFunction& weights, double far_end,
-                                    const ShapeTabulation& table) {
-      if (rest) law.rest = Ends == MovingEnds::b ? &rest->left : &rest->right;
-      add_element(
-          border, node,
-          moving_tangent<Ends, D>(element_of<Ends, D>(q.data(), node, q[extra], far_end),
-                                  element_of<Ends, D>(v.data(), node, v[extra], 0),
-                                  element_of<Ends, D>(a.data(), node, a[extra], 0), by_v, by_a, weights, table, law));
+  const ChainView<D> beam = view(q, v), accelerations = view(q, a);
+  for (std::size_t i = 0; i < places().size(); ++i) tangent_.add_border(first_copy(i) - 1);
+  auto law = system_.moving_law(t);
+  for (const MovingPart& part : system_.moving_parts()) {
+    const auto rest = system_.rest_of(part, q.data(), places());
+    law.rest = rest ? &*rest : nullptr;
+    const int k = part.element;
+    const auto add = [&]<MovingEnds Ends>() {
+      const std::array<int, 2> marks = Ends == MovingEnds::a   ? std::array{part.a, -1}
+                                       : Ends == MovingEnds::b ? std::array{part.b, -1}
+                                                               : std::array{part.a, part.b};
+      add_element(beam.first_node(k),
+                  moving_tangent<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), by_v, by_a,
+                                          beam.weights(k), part.table, law),
+                  marks);
     };
-    add.template operator()<MovingEnds::b>(j - 1, mesh.weights[ju - 1], mesh.x[ju - 1], system_.left_table());
-    add.template operator()<MovingEnds::a>(j + shift, mesh.weights[ju], mesh.x[ju + 1], system_.right_table());
-    tangent_.diagonal[ju].template topLeftCorner<D, D>().diagonal().array() += by_a * model.joint->mass;
-    if (model.joint->friction) add_friction_tangent(q, v, a, t, by_v, by_a);
-  } else if (const auto& rider = system_.rider()) {
-    add_element(tangent_.add_border(rider->element), rider->element,
-                rider_tangent<D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
-                                 a[extra], *model.joint, system_.gravity(t), rider->held, by_v, by_a));
-  } else if (system_.has_free_mass()) {
-    for (int c = 0; c < D; ++c) tangent_.add_border(0);
-    tangent_.corner.diagonal().setConstant(by_a * model.joint->mass);
+    with_ends(part.ends, add);
   }
-  const ChainView<D> beam = view(q, v);
-  const auto add_point = [&](int k, const PointMatrix<D>& matrix) {
-    if (beam.at_joint(k)) {
-      add_element(tangent_.border.front(), beam.first_node(k), matrix);
-    } else {
-      add_blocks(beam.first_node(k), matrix);
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const SlidingJoint& joint = system_.joint(i).law;
+    tangent_.diagonal[static_cast<std::size_t>(first_copy(i))].template topLeftCorner<D, D>().diagonal().array() +=
+        by_a * joint.mass;
+    if (joint.friction) add_friction_tangent(i, q, v, a, t, by_v, by_a);
+  }
+  if (const auto& rider = system_.rider()) {
+    tangent_.add_border(rider->element);
+    add_element(rider->element,
+                rider_tangent<D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
+                                 a[extra], model.joints.front().law, system_.gravity(t), rider->held, by_v, by_a),
+                {0, -1});
+  }
+  for (const int index : system_.departed()) {
+    for (int c = 0; c < D; ++c) {
+      tangent_.add_border(0);
+      const int last = tangent_.borders() - 1;
+      tangent_.corner(last, last) = by_a * model.joints[static_cast<std::size_t>(index)].law.mass;
     }
+  }
+  const auto add_point = [&](int k, const PointMatrix<D>& matrix) {
+    const auto mark = [&](int node) {
+      const JointPlace* const joint = beam.joint_at(node);
+      return joint == nullptr ? -1 : static_cast<int>(joint - places().data());
+    };
+    add_element(beam.first_node(k), matrix, {mark(k), mark(k + 1)});
   };
   model.loads.add_tangent(beam, t, add_point);
+  model.drag.add_tangent(beam, by_v, add_point);
   model.masses.add_tangent(beam, a.data(), system_.gravity(t), by_v, by_a, add_point);
 }
 
@@ -466,6 +557,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   } else {
     constrain_tangent();
   }
+  at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by_a); });
   if (const Spin* spin = system_.spin()) {
     spin->assemble({1, by_v, by_a}, spin_tangent_);
     if (!spin->factor(by_a, spin_tangent_)) return false;
@@ -473,14 +565,15 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   return tangent_.factor();
 }
 
-/// Friction acts on the joint's material coordinate, the first unknown of the border, alone.
+/// Friction acts on the joint's material coordinate alone.
 template <int D>
-void ImplicitBeam<D>::add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                           double t, double by_v, double by_a) {
+void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                           const Eigen::VectorXd& a, double t, double by_v, double by_a) {
   constexpr int N = 2 * D + 1;  // by the mass's acceleration, the mean slope and x'
   using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
-  const auto& joint = *system_.model().joint;
-  const int j = system_.joint(), far = j + cut();
+  const SlidingJoint& joint = system_.joint(which).law;
+  const JointPlace& place = places()[which];
+  const int j = first_copy(which), far = j + (place.cut ? 1 : 0);
   const Vec<double, D> pull = position<D>(a.data(), j) - system_.gravity(t);
   const Vec<double, D> mean = (slope<D>(q.data(), j) + slope<D>(q.data(), far)) / 2;
   Vec<Real, D> active_pull, active_slope;
@@ -488,21 +581,22 @@ void ImplicitBeam<D>::add_friction_tangent(const Eigen::VectorXd& q, const Eigen
     active_pull[c] = Real(pull[c], N, c);
     active_slope[c] = Real(mean[c], N, D + c);
   }
-  const Real x_rate(v[after_nodes()], N, 2 * D);
+  const Real x_rate(v[place.mark], N, 2 * D);
   const Real force = friction_force<Real, D>(*joint.friction, joint.mass, active_pull, active_slope, x_rate).force;
   if (force.derivatives().size() == 0 || force.value() == 0) return;
   const Eigen::Matrix<double, N, 1>& by = force.derivatives();
-  auto& row = tangent_.border.front().row;  // from node j - 1 on
+  auto& row = tangent_.border[which].row;  // from node j - 1 on
   row[1].template head<D>() -= by_a * by.template head<D>();
   row[1].template tail<D>() -= by.template segment<D>(D) / 2;
   row[static_cast<std::size_t>(far - j) + 1].template tail<D>() -= by.template segment<D>(D) / 2;
-  tangent_.corner(0, 0) -= by_v * by[2 * D];
+  const auto at = static_cast<Eigen::Index>(which);
+  tangent_.corner(at, at) -= by_v * by[2 * D];
 }
 
 template <int D>
 void ImplicitBeam<D>::constrain_tangent() {
   const std::size_t last = tangent_.diagonal.size() - 1;
-  at_held_nodes([&](int node, const Support<D>& support) {
+  at_held_nodes([&](int node, const Support<D>& support, int /*joint*/) {
     if ((support.free_position > 0).all() && (support.free_slope > 0).all()) return;
     Block keep = Block::Zero();
     keep.template topLeftCorner<D, D>() =
@@ -540,21 +634,22 @@ void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::Vec
     border.column[0] = border.row[0] = scale * constraint.direction;
     if (constraint.tied) border.column[1] = border.row[1] = -scale * constraint.direction;
   }
-  if (slope_conditions_.count() == 0) return;
-  const auto& conditions = slope_conditions(q.data());
-  const Slopes slopes = joint_slopes(q.data());
-  const auto j = static_cast<std::size_t>(system_.joint());
-  for (int i = 0; i < conditions.count(); ++i) {
-    const Slopes gradient = scale * conditions.gradient(i, slopes);
-    auto& border = tangent_.add_border(system_.joint());
-    border.column[0].template tail<D>() = border.row[0].template tail<D>() = gradient.template head<D>();
-    border.column[1].template tail<D>() = border.row[1].template tail<D>() = gradient.template tail<D>();
-    const typename JointSlopeConditions::Form curvature =
-        reference_mass_ * a[first_slope_multiplier() + i] * conditions.form(i);
-    tangent_.diagonal[j].template bottomRightCorner<D, D>() += curvature.template topLeftCorner<D, D>();
-    tangent_.upper[j].template bottomRightCorner<D, D>() += curvature.template topRightCorner<D, D>();
-    tangent_.lower[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomLeftCorner<D, D>();
-    tangent_.diagonal[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomRightCorner<D, D>();
+  Eigen::Index multiplier = first_slope_multiplier();
+  for (const Conditions& conditions : slope_conditions(q.data())) {
+    const Slopes slopes = joint_slopes(conditions.joint, q.data());
+    const int node = first_copy(conditions.joint);
+    const auto j = static_cast<std::size_t>(node);
+    for (int i = 0; i < conditions.of.count(); ++i, ++multiplier) {
+      const Slopes gradient = scale * conditions.of.gradient(i, slopes);
+      auto& border = tangent_.add_border(node);
+      border.column[0].template tail<D>() = border.row[0].template tail<D>() = gradient.template head<D>();
+      border.column[1].template tail<D>() = border.row[1].template tail<D>() = gradient.template tail<D>();
+      const typename JointSlopeConditions::Form curvature = reference_mass_ * a[multiplier] * conditions.of.form(i);
+      tangent_.diagonal[j].template bottomRightCorner<D, D>() += curvature.template topLeftCorner<D, D>();
+      tangent_.upper[j].template bottomRightCorner<D, D>() += curvature.template topRightCorner<D, D>();
+      tangent_.lower[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomLeftCorner<D, D>();
+      tangent_.diagonal[j + 1].template bottomRightCorner<D, D>() += curvature.template bottomRightCorner<D, D>();
+    }
   }
 }
 
@@ -570,12 +665,19 @@ void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v
 
 template <int D>
 void ImplicitBeam<D>::add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const {
-  const Eigen::Index before = Eigen::Index{B} * system_.joint() + D, behind = before + B;
-  const typename JointSlopeConditions::Form form = factor * slope_conditions_.form(static_cast<int>(i));
-  dense.block<D, D>(before, before) += form.template topLeftCorner<D, D>();
-  dense.block<D, D>(before, behind) += form.template topRightCorner<D, D>();
-  dense.block<D, D>(behind, before) += form.template bottomLeftCorner<D, D>();
-  dense.block<D, D>(behind, behind) += form.template bottomRightCorner<D, D>();
+  for (const Conditions& conditions : slope_conditions_) {
+    if (i >= conditions.of.count()) {
+      i -= conditions.of.count();
+      continue;
+    }
+    const Eigen::Index before = Eigen::Index{B} * first_copy(conditions.joint) + D, behind = before + B;
+    const typename JointSlopeConditions::Form form = factor * conditions.of.form(static_cast<int>(i));
+    dense.block<D, D>(before, before) += form.template topLeftCorner<D, D>();
+    dense.block<D, D>(before, behind) += form.template topRightCorner<D, D>();
+    dense.block<D, D>(behind, before) += form.template bottomLeftCorner<D, D>();
+    dense.block<D, D>(behind, behind) += form.template bottomRightCorner<D, D>();
+    return;
+  }
 }
 
 template <int D>
@@ -583,14 +685,17 @@ void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
   const auto& leader = dynamic_cast<const ImplicitBeam&>(other);
   leader.refresh();
   refresh();
-  omitted_axis_ = leader.omitted_axis_;
   slope_conditions_ = leader.slope_conditions_;
 }
 
 template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
+  at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
   tangent_.solve(r.data());
+  if (system_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
+    project(r.data());
+  }
   if (system_.spin() != nullptr) spin_tangent_.solve(r.data() + after_nodes());
 }
 
@@ -602,6 +707,13 @@ OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double 
   free_residual(q, v, Eigen::VectorXd::Zero(q.size()), t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
+  forces.on_masses.assign(system_.model().joints.size(), Vec<double, D>::Zero());
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const int node = first_copy(i);
+    auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
+    on_mass = -position<D>(free_.data(), node) - system_.joint(i).law.mass * system_.gravity(t);
+    if (places()[i].cut) on_mass -= position<D>(free_.data(), node + 1);
+  }
   return forces;
 }
 
@@ -615,20 +727,26 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
   if (const Spin* spin = system_.spin()) forces.drives = spin->drive_torques(free_.data() + after_nodes());
-  if (!system_.mass_on_beam()) return forces;
-  Vec<double, D> acceleration;
+  const auto& joints = system_.model().joints;
+  forces.on_masses.assign(joints.size(), Vec<double, D>::Zero());
+  forces.guiding.assign(joints.size(), 0);
+  at_guides([&](std::size_t i) {
+    forces.guiding[static_cast<std::size_t>(system_.joint_index(i))] = free_[places()[i].mark];
+  });
   if (const auto& rider = system_.rider()) {
     const auto at = system_.rider_motion(q.data(), v.data());
-    acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
-                   at.r_x * a[after_nodes()] + at.remainder;
-  } else {
-    acceleration = position<D>(a.data(), system_.joint());  // its node moves with the mass
+    const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
+                                        at.r_x * a[after_nodes()] + at.remainder;
+    forces.on_masses.front() = joints.front().law.mass * (acceleration - system_.gravity(t));
   }
-  forces.on_mass = system_.model().joint->mass * (acceleration - system_.gravity(t));
-  if (system_.held_joint() != nullptr) {  // what holds it does the rest
-    const int j = system_.joint();
-    forces.on_mass -= position<D>(free_.data(), j);
-    if (cut() > 0) forces.on_mass -= position<D>(free_.data(), j + 1);
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const int node = first_copy(i);  // it moves with the mass
+    const Vec<double, D> acceleration = position<D>(a.data(), node);
+    auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
+    on_mass = system_.joint(i).law.mass * (acceleration - system_.gravity(t));
+    if (system_.held(i) == nullptr) continue;  // else what holds it does the rest
+    on_mass -= position<D>(free_.data(), node);
+    if (places()[i].cut) on_mass -= position<D>(free_.data(), node + 1);
   }
   return forces;
 }

@@ -11,19 +11,20 @@ namespace vlbeam {
 
 /// A beam system as an implicit method sees it: residual M a - Q and its exact tangent. The tangent is block
 /// tridiagonal in the nodes with a border; fixed elements contribute the second derivative of their strain energy, the
-/// two elements at the joint the derivative of their whole residual (inertia, velocity terms and configurational force
+/// elements at joints the derivative of their whole residual (inertia, velocity terms and configurational force
 /// included).
 ///
-/// With eliminated constraints the coordinates are those of BeamSystem's state. With multipliers the joint is cut: its
+/// With eliminated constraints the coordinates are those of BeamSystem's state. With multipliers joints are cut: such a
 /// node is there twice, behind each other, tied by 2 D constraints (where the beam is kinked there, by D and the
 /// conditions on the slopes); supports are constraints too, and the reactions stand at the end of the coordinates. The
-/// border then holds the joint's material coordinate (or the free mass's position) and the multipliers.
+/// border then holds the joints' material coordinates, the positions of masses that have left, and the multipliers.
 /// A kinked joint is always cut; with eliminated constraints only residuals, hence forces, are then to be had.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system), conserving_step_(system) {}
+  explicit ImplicitBeam(BeamSystem<D>& system)
+      : system_(system), conserving_step_(system), standing_{system.model().start, system.model().end} {}
 
   Eigen::Index coordinates() const override;
   Eigen::Index multipliers() const override;
@@ -48,7 +49,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   int negative_pivots(double zero) const { return tangent_.negative_pivots(zero); }
   void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                double by_a, Eigen::MatrixXd& dense) override;
-  Eigen::Index curved_constraints() const override { return slope_conditions_.count(); }
+  Eigen::Index curved_constraints() const override { return condition_count(); }
   void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
   double multiplier_unit() const override { return reference_mass_; }
   void follow(const SecondOrderSystem& other) override;
@@ -58,7 +59,7 @@ class ImplicitBeam final : public SecondOrderSystem {
 
   /// By the accelerations that belong to a state y at time t.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
-  /// Without accelerations, of a beam without a sliding mass.
+  /// Without accelerations.
   OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
 
  private:
@@ -74,30 +75,105 @@ class ImplicitBeam final : public SecondOrderSystem {
     NodeVector anchor;
     int end;  ///< of the beam, 0 or 1, whose support holds it; -1 for another
     bool tied = false;
+    bool twice = false;  ///< what it holds is there twice
+    int slope = -1;      ///< component, in the frame of a support, of the slope that it holds
 
     double value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const;
-    double rate(const double* v, const std::array<DrivenPoint<D>, 2>& driven) const;
+    double rate(const double* q, const double* v, const std::array<DrivenPoint<D>, 2>& driven) const;
   };
 
   using JointSlopeConditions = SlopeConditions<D>;
   using Slopes = typename JointSlopeConditions::Slopes;
 
-  void refresh() const;
-  /// Slopes on the two sides of the joint; with one copy of its node they are the same.
-  Slopes joint_slopes(const double* q) const;
-  /// The conditions on the slopes of a kinked joint at the coordinates q.
-  const JointSlopeConditions& slope_conditions(const double* q) const;
+  /// What depends on the mesh.
+  void refresh() const {
+    if (revision_ != system_.revision()) rebuild();
+  }
+  void rebuild() const;
+  /// Calls run(where it stands in the state, where here, how many) for the coordinates that both have, and
+  /// second(node in the state, second copy here, slope behind it in the state or -1) for nodes that are there twice.
+  template <class Run, class Second>
+  void for_each_run(const Run& run, const Second& second) const;
+  /// The supports as they stand at time t, and the constraints by them.
+  void stand(double t) const;
+  /// Slopes on the two sides of a joint; with one copy of its node they are the same.
+  Slopes joint_slopes(std::size_t which, const double* q) const;
+  /// The conditions on the slopes of a kinked joint.
+  struct Conditions {
+    std::size_t joint;     ///< of those on the beam
+    int omitted_axis = 0;  ///< of tangent slopes in space
+    JointSlopeConditions of = {};
+  };
+  /// Those at the coordinates q.
+  const std::vector<Conditions>& slope_conditions(const double* q) const;
+  int condition_count() const {
+    int count = 0;
+    for (const Conditions& conditions : slope_conditions_) count += conditions.of.count();
+    return count;
+  }
   /// Where the multiplier of the first of them stands.
-  Eigen::Index first_slope_multiplier() const { return coordinates() - slope_conditions_.count(); }
+  Eigen::Index first_slope_multiplier() const { return coordinates() - condition_count(); }
   bool with_multipliers() const { return system_.model().constraints == Constraints::multipliers; }
-  /// 1 where the joint's node is there twice.
-  int cut() const { return system_.has_joint() && (with_multipliers() || system_.kinked()) ? 1 : 0; }
-  int nodes() const { return system_.mesh().last() + 1 + cut(); }
-  /// Where what follows the nodes stands: the joint's material coordinate or the free mass.
+  /// Where the coordinates of the joints stand here.
+  const std::vector<JointPlace>& places() const {
+    refresh();
+    return places_;
+  }
+  /// Calls function.operator()<ends>().
+  template <class Function>
+  static void with_ends(MovingEnds ends, const Function& function) {
+    switch (ends) {
+      case MovingEnds::a:
+        return function.template operator()<MovingEnds::a>();
+      case MovingEnds::b:
+        return function.template operator()<MovingEnds::b>();
+      case MovingEnds::both:
+        return function.template operator()<MovingEnds::both>();
+    }
+  }
+  /// Calls function(which) for the joints on the beam whose material coordinate is prescribed: it has no equation.
+  template <class Function>
+  void at_guides(const Function& function) const {
+    for (std::size_t i = 0; i < places().size(); ++i) {
+      if (system_.joint(i).x) function(i);
+    }
+  }
+  /// How many joints have their node twice.
+  int cuts() const {
+    int count = 0;
+    for (const JointPlace& place : places()) count += place.cut ? 1 : 0;
+    return count;
+  }
+  /// Of the state: slopes behind joints.
+  Eigen::Index kinks() const {
+    Eigen::Index count = 0;
+    for (std::size_t i = 0; i < places().size(); ++i) count += system_.kinked(i) ? D : 0;
+    return count;
+  }
+  int nodes() const { return system_.mesh().last() + 1 + cuts(); }
+  /// Where what follows the nodes stands: the joints' material coordinates, the masses that have left.
   Eigen::Index after_nodes() const { return Eigen::Index{B} * nodes(); }
-  ChainView<D> view(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const {
-    return {system_.mesh(), system_.model().transport, q.data(), v.data(), system_.joint(), after_nodes(), -1,
-            cut() > 0};
+  /// Where the masses that have left stand.
+  Eigen::Index departed() const { return after_nodes() + static_cast<Eigen::Index>(places().size()); }
+  ChainView<D> view(const double* q, const double* v) const {
+    return {system_.mesh(), system_.model().transport, q, v, places()};
+  }
+  ChainView<D> view(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const { return view(q.data(), v.data()); }
+  /// The first copy of a joint's node.
+  int first_copy(std::size_t which) const { return places()[which].node + copies_before(which); }
+  int copies_before(std::size_t which) const {
+    int count = 0;
+    for (std::size_t i = 0; i < which; ++i) count += places()[i].cut ? 1 : 0;
+    return count;
+  }
+  /// Calls function(span, nodes that are there twice before it) for the runs of fixed elements.
+  template <class Function>
+  void at_spans(const Function& function) const {
+    function(system_.left(), 0);
+    function(system_.right(), cuts());
+    for (const SpanBetween<D>& span : system_.between()) {
+      function(span.span(), copies_before(static_cast<std::size_t>(system_.joints_before(span))));
+    }
   }
   /// Residual without constraints.
   double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
@@ -110,27 +186,29 @@ class ImplicitBeam final : public SecondOrderSystem {
   void constrain_tangent();
   /// Rows and columns of the constraints, times `scale`, and what their forces add to the tangent.
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
-  void add_friction_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                            double by_v, double by_a);
+  void add_friction_tangent(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                            const Eigen::VectorXd& a, double t, double by_v, double by_a);
   void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
+  void rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size, Eigen::VectorXd& result);
   /// What moving supports change of the Jacobian.
   void add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
   double element_length() const;  ///< mean of the mesh [m]
   double wave_time() const;       ///< of an axial wave through such an element [s]
   template <class Function>
   void at_end_nodes(const Function& function) const;
-  /// The nodes at the ends, and one at a joint that is held.
+  /// The nodes at the ends, and those at joints that are held.
   template <class Function>
   void at_held_nodes(const Function& function) const;
 
   BeamSystem<D>& system_;
   ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
+  mutable std::array<Support<D>, 2> standing_;  ///< the supports, at the time that was looked at last
+  mutable std::vector<JointPlace> places_;      ///< of the joints in these coordinates
   mutable std::vector<Constraint> constraints_;
-  mutable SlopeConditions<D> slope_conditions_;  ///< behind them
-  mutable int omitted_axis_ = 0;                 ///< of tangent slopes in space
-  mutable double reference_mass_ = 1;            ///< [kg], makes an acceleration of a multiplier
-  double constraint_scale_ = 1;                  ///< of the constraints' equations, that of the last tangent
+  mutable std::vector<Conditions> slope_conditions_;  ///< behind them
+  mutable double reference_mass_ = 1;                 ///< [kg], makes an acceleration of a multiplier
+  double constraint_scale_ = 1;                       ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
   SpinTangent spin_tangent_;
   Eigen::VectorXd y_, dydt_, free_;

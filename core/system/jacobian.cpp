@@ -1,5 +1,6 @@
 // Jacobian of the equations of motion in first order, from the exact tangent of their residual r = M a - Q:
 //   d(q')/dt = a(q, q'),   da/dq = -M^-1 dr/dq,   da/dq' = -M^-1 dr/dq'.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -53,7 +54,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
 
   dfdt.setZero();
   const auto& model = system_.model();
-  const bool rubs = model.joint && model.joint->friction;
+  const bool rubs = model.rubs();
   if (driven() || model.loads.present() || (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
   } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that
@@ -70,23 +71,34 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
 template <int D>
 void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy) {
   const Eigen::Index n = coordinates(), tallies = y.size() - 2 * n;
-  const auto& joint = system_.model().joint;
-  Eigen::VectorXd at = y, more(y.size()), less(y.size());
+  double sliding = std::numeric_limits<double>::infinity();  // velocity at which friction fades
+  for (const auto& joint : system_.model().joints) {
+    if (joint.law.friction) sliding = std::min(sliding, joint.law.friction->velocity);
+  }
+  Eigen::VectorXd more(y.size());
   auto difference = [&](Eigen::Index k, double size) {
-    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * size;
-    at[k] = y[k] + step;
-    const double above = at[k];
-    system_.rhs(at, more, t);
-    at[k] = y[k] - step;
-    system_.rhs(at, less, t);
-    dfdy.col(k).tail(tallies) = (more - less).tail(tallies) / (above - at[k]);
-    at[k] = y[k];
+    rhs_difference(y, t, k, size, more);
+    dfdy.col(k).tail(tallies) = more.tail(tallies);
   };
   for_each_coordinate(system_.fields(), [&](Field field, Eigen::Index k) {
     const double size = field == Field::slope ? 1 : element_length();
     difference(k, size);
-    difference(n + k, field == Field::mark && joint->friction ? joint->friction->velocity : size / wave_time());
+    difference(n + k, field == Field::mark && std::isfinite(sliding) ? sliding : size / wave_time());
   });
+}
+
+/// Central, of the right-hand side by the entry k of y, which is of the given size.
+template <int D>
+void ImplicitBeam<D>::rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size,
+                                     Eigen::VectorXd& result) {
+  const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * size;
+  Eigen::VectorXd at = y, less(y.size());
+  at[k] = y[k] + step;
+  const double above = at[k];
+  system_.rhs(at, result, t);
+  at[k] = y[k] - step;
+  system_.rhs(at, less, t);
+  result = (result - less) / (above - at[k]);
 }
 
 template <int D>
@@ -105,14 +117,26 @@ double ImplicitBeam<D>::wave_time() const {
 template <int D>
 void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
   const auto& model = system_.model();
+  at_guides([&](std::size_t i) {
+    dfdy.col(places()[i].mark).setZero();
+    dfdy.col(coordinates() + places()[i].mark).setZero();
+  });
   for (const bool start : {true, false}) {
     if (!(start ? model.start_motion : model.end_motion)) continue;
-    const Support<D>& support = start ? model.start : model.end;
+    const Support<D>& support = start ? model.start : model.end;  // its frame does not matter for its point
     const Eigen::Matrix<double, D, D> keep =
         support.frame * support.free_position.matrix().asDiagonal() * support.frame.transpose();
     const Eigen::Index position = start ? 0 : Eigen::Index{B} * (nodes() - 1);
     for (const Eigen::Index first : {position, coordinates() + position}) {
       dfdy.middleCols<D>(first) = (dfdy.middleCols<D>(first) * keep).eval();
+    }
+    if (!(start ? model.start_motion : model.end_motion).turns()) continue;
+    Eigen::VectorXd column(y.size());  // what turns depends on the slope that it turns
+    for (Eigen::Index k = position + D; k < position + 2 * D; ++k) {
+      rhs_difference(y, t, k, 1, column);
+      dfdy.col(k) = column;
+      rhs_difference(y, t, coordinates() + k, 1 / wave_time(), column);
+      dfdy.col(coordinates() + k) = column;
     }
   }
   const double instant = 1e-3 * wave_time();  // far below the period of anything that the mesh follows
@@ -135,8 +159,10 @@ template void ImplicitBeam<2>::add_drive(const Eigen::VectorXd&, double, Eigen::
 template double ImplicitBeam<3>::element_length() const;
 template double ImplicitBeam<3>::wave_time() const;
 template void ImplicitBeam<3>::add_drive(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
+template void ImplicitBeam<2>::rhs_difference(const Eigen::VectorXd&, double, Eigen::Index, double, Eigen::VectorXd&);
 template void ImplicitBeam<2>::add_tallies(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
 template void ImplicitBeam<2>::jacobian(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
+template void ImplicitBeam<3>::rhs_difference(const Eigen::VectorXd&, double, Eigen::Index, double, Eigen::VectorXd&);
 template void ImplicitBeam<3>::add_tallies(const Eigen::VectorXd&, double, Eigen::MatrixXd&);
 template void ImplicitBeam<3>::jacobian(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&);
 

@@ -48,9 +48,10 @@ struct OuterForces {
 
   std::array<OnNode, 2> supports{OnNode::Zero(), OnNode::Zero()};  ///< on the first and the last node
   std::vector<OnNode> guides;                                      ///< on inner nodes that supports hold
-  /// With which the beam acts on the sliding mass [N]; zero off the beam and without one.
-  Vec<double, D> on_mass = Vec<double, D>::Zero();
-  std::vector<double> drives;  ///< about the axis, of what drives angles on the beam [N m]
+  /// With which the beam acts on the sliding masses [N], one of the model's joints each; zero off the beam.
+  std::vector<Vec<double, D>> on_masses;
+  std::vector<double> guiding;  ///< of what guides the model's joints, on their material coordinates [N]
+  std::vector<double> drives;   ///< about the axis, of what drives angles on the beam [N m]
 };
 
 /// Sums energies, momenta and length of a beam's axis, element by element, by a rule of one's own.

@@ -15,52 +15,59 @@ constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 }  // namespace
 
 template <int D>
-bool BeamSystem<D>::solve_mass(const JointElements* elements, const double* q, double* p) const {
-  if (elements == nullptr) {
+bool BeamSystem<D>::solve_mass(const JointElements& elements, const double* q, double* p) const {
+  if (elements.empty()) {
     solve_without_joint(*left_, *right_, p);
     if (!rider_) return true;
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(coordinates_);
     const auto solved =
-        solve_with_rider<D>(rider_->mass, *model_.joint, rider_motion(q, at_rest.data()),
+        solve_with_rider<D>(rider_->mass, rider_law(), rider_motion(q, at_rest.data()),
                             element_nodes<D>(p, rider_->element), Vector::Zero(), p[nodal_], rider_->held, false, p);
     if (solved) p[nodal_] = solved->x;
     return solved.has_value();
   }
-  const JointMotion<D> at_rest{joint_slopes(q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero()};
-  return solve_with_joint(*left_, *right_, elements->left, elements->right, *model_.joint, at_rest, held_joint(), p,
-                          p + nodal_)
-      .has_value();
+  std::vector<JointMotion<D>> at_rest;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto kept = joint(i).x ? std::optional(0.0) : std::nullopt;
+    at_rest.push_back({joint_slopes(i, q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero(), kept});
+  }
+  return solve_joints(elements, at_rest, p).has_value();
 }
 
 template <int D>
-void BeamSystem<D>::multiply_mass(const JointElements* elements, const double* q, const double* rate,
+void BeamSystem<D>::multiply_mass(const JointElements& elements, const double* q, const double* rate,
                                   double* out) const {
   std::fill(out, out + coordinates_, 0.0);
   left_->add_inertia(rate, out);
   right_->add_inertia(rate, out);
+  for (const SpanBetween<D>& span : between_) span.span().add_inertia(rate, out);
   if (rider_) {
     const auto at = rider_motion(q, rate);
-    push_rider(at, model_.joint->mass * at.v, out);
+    push_rider(at, rider_law().mass * at.v, out);
   }
-  if (elements == nullptr) return;
-  auto add = [&](const MovingEquations<double, D>& eq, const std::array<Vector, 4>& border, double corner, int k) {
-    const auto e = element_of(rate, k);
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const MovingPart& part = parts_[p];
+    const auto& eq = elements[p];
+    const auto e = view(rate, rate).coordinates(part.element).e;
     const std::array<Vector, 4> nodal{e.r_a, e.s_a, e.r_b, e.s_b};
-    std::array<Vector, 4> sum;
+    const Eigen::Index a = part.a < 0 ? -1 : places_[static_cast<std::size_t>(part.a)].mark,
+                       b = part.b < 0 ? -1 : places_[static_cast<std::size_t>(part.b)].mark;
+    const double x_a = a < 0 ? 0 : rate[a], x_b = b < 0 ? 0 : rate[b];
+    const auto to = vectors_of(out, part.element);
+    double on_a = eq.mass_aa * x_a + eq.mass_ab * x_b, on_b = eq.mass_ab * x_a + eq.mass_bb * x_b;
     for (std::size_t i = 0; i < 4; ++i) {
-      sum[i] = border[i] * rate[nodal_];
-      for (std::size_t j = 0; j < 4; ++j) sum[i] += eq.mass[i][j] * nodal[j];
-      out[nodal_] += border[i].dot(nodal[i]);
+      Vector sum = eq.mass_a[i] * x_a + eq.mass_b[i] * x_b;
+      for (std::size_t j = 0; j < 4; ++j) sum += eq.mass[i][j] * nodal[j];
+      Eigen::Map<Vector>(to[i]) += sum;
+      on_a += eq.mass_a[i].dot(nodal[i]);
+      on_b += eq.mass_b[i].dot(nodal[i]);
     }
-    out[nodal_] += corner * rate[nodal_];
-    position<D>(out, k) += sum[0];
-    (k == joint_ ? Eigen::Map<Vector>(out + behind_) : slope<D>(out, k)) += sum[1];
-    position<D>(out, k + 1) += sum[2];
-    slope<D>(out, k + 1) += sum[3];
-  };
-  add(elements->left, elements->left.mass_b, elements->left.mass_bb, joint_ - 1);
-  add(elements->right, elements->right.mass_a, elements->right.mass_aa, joint_);
-  position<D>(out, joint_) += model_.joint->mass * position<D>(rate, joint_);
+    if (a >= 0) out[a] += on_a;
+    if (b >= 0) out[b] += on_b;
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    position<D>(out, places_[i].node) += joint(i).law.mass * position<D>(rate, places_[i].node);
+  }
 }
 
 template <int D>
@@ -81,13 +88,13 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
+  const ChainView<D> places = view(nullptr, nullptr);
   const auto add = [&](int to, const PointMotion<double, D>& is, const Vector& excess) {
     for (int i = 0; i < 4; ++i) {
-      const Eigen::Index at = to == joint_ && i == 1 ? behind_ : Eigen::Index{node_size<D>} * to + Eigen::Index{D} * i;
-      momentum.segment<D>(at) += is.s[static_cast<std::size_t>(i)] * excess;
+      momentum.segment<D>(places.vector(to, i)) += is.s[static_cast<std::size_t>(i)] * excess;
     }
-    if (to + 1 == joint_) momentum[nodal_] += is.y_b.dot(excess);
-    if (to == joint_) momentum[nodal_] += is.y_a.dot(excess);
+    if (const JointPlace* b = places.joint_at(to + 1)) momentum[b->mark] += is.y_b.dot(excess);
+    if (const JointPlace* a = places.joint_at(to)) momentum[a->mark] += is.y_a.dot(excess);
   };
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     const double a = pieces[piece], length = pieces[piece + 1] - a;
@@ -112,19 +119,18 @@ template <int D>
 void BeamSystem<D>::project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y,
                                        double t) const {
   Eigen::VectorXd correction = excess_momentum(before, chain(y), first, last);
-  if (rider_ && before.joint != no_joint) {  // a node moves as its element does not
+  if (rider_ && !before.joints.empty()) {  // a node moves as its element does not
     const auto at = rider_motion(y.data(), y.data() + coordinates_);
-    const Vector was = position<D>(before.rate.data(), before.joint);
-    push_rider(at, model_.joint->mass * (was - at.v), correction.data());
+    const Vector was = position<D>(before.rate.data(), before.joints.front().node);
+    push_rider(at, rider_law().mass * (was - at.v), correction.data());
   }
-  const auto elements = elements_at(y, t);
-  if (solve_mass(elements ? &*elements : nullptr, y.data(), correction.data())) {
+  if (solve_mass(elements_at(y, t), y.data(), correction.data())) {
     y.segment(coordinates_, coordinates_) += correction;
   }
 }
 
 template <int D>
-Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements* elements, const Eigen::VectorXd& y) const {
+Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const {
   constexpr int rotations = D == 2 ? 1 : 3;
   Eigen::MatrixXd momenta(coordinates_, D + rotations);
   Eigen::VectorXd rigid(coordinates_);
@@ -143,7 +149,9 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements* elements, cons
         rotate(node + D);
       }
     }
-    if (mode >= D && kinked()) rotate(behind_);
+    for (const JointPlace& place : places_) {
+      if (mode >= D && place.behind >= 0) rotate(place.behind);
+    }
     multiply_mass(elements, y.data(), rigid.data(), momenta.col(mode).data());
   }
   return momenta;
@@ -151,14 +159,12 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements* elements, cons
 
 template <int D>
 Eigen::VectorXd BeamSystem<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  const auto elements = elements_at(y, t);
-  return rigid_momenta(elements ? &*elements : nullptr, y).transpose() * y.segment(coordinates_, coordinates_);
+  return rigid_momenta(elements_at(y, t), y).transpose() * y.segment(coordinates_, coordinates_);
 }
 
 template <int D>
 void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const {
-  const auto at_joint = elements_at(y, t);
-  const JointElements* elements = at_joint ? &*at_joint : nullptr;
+  const JointElements elements = elements_at(y, t);
   auto rate = y.segment(coordinates_, coordinates_);
   // momenta of the rigid motions, and of these motions what the supports leave
   const Eigen::MatrixXd rigid = rigid_momenta(elements, y);
@@ -187,20 +193,20 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
   rate += scaling * fluctuation;
 }
 
-template bool BeamSystem<2>::solve_mass(const JointElements*, const double*, double*) const;
-template void BeamSystem<2>::multiply_mass(const JointElements*, const double*, const double*, double*) const;
+template bool BeamSystem<2>::solve_mass(const JointElements&, const double*, double*) const;
+template void BeamSystem<2>::multiply_mass(const JointElements&, const double*, const double*, double*) const;
 template void BeamSystem<2>::push_rider(const RiderMotion<double, 2>&, const Vec<double, 2>&, double*) const;
 template Eigen::VectorXd BeamSystem<2>::excess_momentum(const ChainState<2>&, const ChainState<2>&, int, int) const;
 template void BeamSystem<2>::project_velocities(const ChainState<2>&, int, int, Eigen::VectorXd&, double) const;
-template Eigen::MatrixXd BeamSystem<2>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;
+template Eigen::MatrixXd BeamSystem<2>::rigid_momenta(const JointElements&, const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<2>::momenta(const Eigen::VectorXd&, double) const;
 template void BeamSystem<2>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
-template bool BeamSystem<3>::solve_mass(const JointElements*, const double*, double*) const;
-template void BeamSystem<3>::multiply_mass(const JointElements*, const double*, const double*, double*) const;
+template bool BeamSystem<3>::solve_mass(const JointElements&, const double*, double*) const;
+template void BeamSystem<3>::multiply_mass(const JointElements&, const double*, const double*, double*) const;
 template void BeamSystem<3>::push_rider(const RiderMotion<double, 3>&, const Vec<double, 3>&, double*) const;
 template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, const ChainState<3>&, int, int) const;
 template void BeamSystem<3>::project_velocities(const ChainState<3>&, int, int, Eigen::VectorXd&, double) const;
-template Eigen::MatrixXd BeamSystem<3>::rigid_momenta(const JointElements*, const Eigen::VectorXd&) const;
+template Eigen::MatrixXd BeamSystem<3>::rigid_momenta(const JointElements&, const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<3>::momenta(const Eigen::VectorXd&, double) const;
 template void BeamSystem<3>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 

@@ -62,9 +62,9 @@ double condition_of(const Scene& scene, const Configuration& shape, const std::o
   for (std::size_t k = 0; k < shape.x.size(); ++k) {
     chain.q.insert(chain.q.end(), {shape.r[k][0], shape.r[k][1], shape.r_x[k][0], shape.r_x[k][1]});
     if (k > 0) chain.mesh.weights.push_back({shape.weights[k - 1], shape.x[k - 1], shape.x[k]});
-    if (joint_position && shape.x[k] == *joint_position) chain.joint = static_cast<int>(k);
+    if (joint_position && shape.x[k] == *joint_position) chain.joints = {{.node = static_cast<int>(k)}};
   }
-  if (joint_position && chain.joint == no_joint) {  // it rides inside an element
+  if (joint_position && chain.joints.empty()) {  // it rides inside an element
     chain.rider = {chain.mesh.element_at(*joint_position), *joint_position, 0, false};
   }
   chain.rate.assign(chain.q.size(), 0);

@@ -161,6 +161,8 @@ std::string read_text(const std::filesystem::path& path) {
   std::istream& in = path == "-" ? std::cin : file;
   std::string text;
   constexpr std::size_t piece = 1 << 16;
+  const auto expected = path != "-" ? fs::file_size(path, error) : 0;
+  if (!error && expected < longest_input) text.reserve(expected + piece);
   for (std::size_t size = 0; in; size = text.size()) {
     text.resize(size + piece);
     in.read(text.data() + size, piece);

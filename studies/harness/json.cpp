@@ -109,6 +109,7 @@ class Builder : public nlohmann::json_sax<Json> {
                          "no file here is deeper than ten");
     }
     Json* const value = place(std::move(empty));
+    if (value->is_object()) value->get_ref<Json::object_t&>().reserve(few_keys);  // as it grows it copies what it holds
     open_.push_back({value});
     return true;
   }
@@ -116,6 +117,8 @@ class Builder : public nlohmann::json_sax<Json> {
     open_.pop_back();
     return true;
   }
+
+  static constexpr std::size_t few_keys = 8;
 
   std::string_view text_;
   Json root_;

@@ -120,7 +120,8 @@ std::array<double, 2> point_at(const Configuration& shape, double x) {
   const auto next = std::upper_bound(shape.x.begin() + 1, shape.x.end() - 1, x);
   const auto k = static_cast<std::size_t>(next - shape.x.begin()) - 1;
   const double l = shape.x[k + 1] - shape.x[k];
-  const Point& r_x = shape.kink && shape.kink->node == k ? shape.kink->r_x : shape.r_x[k];
+  const auto* const kink = shape.kink_at(k);
+  const Point& r_x = kink != nullptr ? kink->r_x : shape.r_x[k];
   const NodalCubic<double, 2> e{planar(shape.r[k]), planar(r_x), planar(shape.r[k + 1]), planar(shape.r_x[k + 1])};
   const auto curve = RationalCubic<double, 2>::from_nodal(e, l, shape.weights[k]);
   const auto r = curve.evaluate((x - shape.x[k]) / l)[0];

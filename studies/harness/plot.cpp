@@ -174,18 +174,22 @@ bool comparable(const Diagram& diagram) {
 const char* time_label(const RunFile& run) { return run.scene.analysis == Analysis::statics ? "equilibrium" : "t (s)"; }
 
 /// Where the sliding mass is at the times of the shapes that are times of samples, too; NaN at others.
-Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, std::size_t across, std::size_t up) {
-  constexpr std::array names{"mass_position.x", "mass_position.y", "mass_position.z"};
+Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, std::size_t across, std::size_t up,
+                 std::size_t which) {
   constexpr double same_time = 1e-9, nan = std::numeric_limits<double>::quiet_NaN();  // of the duration
-  const auto x = run.column(find_quantity(run.scene, names[across]));
-  const auto y = run.column(find_quantity(run.scene, names[up]));
-  const SupportType held = joint_support(run.scene);
-  Series masses{held == SupportType::pin     ? "ring"
-                : held == SupportType::clamp ? "sleeve"
-                                             : "mass",
-                {},
-                {},
-                Series::Style::points};
+  const auto joints = sliding_joints(run.scene);
+  constexpr std::array axes{"x", "y", "z"};
+  const auto column = [&](std::size_t axis) {
+    const bool several = joints.size() > 1;
+    const std::string name = several ? "joint" + std::to_string(which) + "_mass_position_" + axes[axis]
+                                     : std::string("mass_position.") + axes[axis];
+    return run.column(find_quantity(run.scene, name));
+  };
+  const auto x = column(across), y = column(up);
+  const SupportType held = joints[which].support;
+  const std::string kind = held == SupportType::pin ? "ring" : held == SupportType::clamp ? "sleeve" : "mass";
+  const std::string number = joints.size() > 1 ? " " + std::to_string(which) : "";
+  Series masses{kind + number, {}, {}, Series::Style::points};
   for (const Configuration& shape : shapes) {
     const auto sample =
         std::ranges::find_if(run.t, [&](double t) { return std::abs(t - shape.t) <= same_time * run.scene.duration; });
@@ -218,7 +222,9 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
     diagram.series.push_back(std::move(series));
   }
   diagram.equal_scales = comparable(diagram);
-  if (sliding_joint(run.scene)) diagram.series.push_back(masses_at(run, shapes, across, up));
+  for (std::size_t i = 0; i < sliding_joints(run.scene).size(); ++i) {
+    diagram.series.push_back(masses_at(run, shapes, across, up, i));
+  }
   return diagram;
 }
 
@@ -271,9 +277,9 @@ void draw_animation(const RunFile& run, const std::filesystem::path& figure) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     script += "set title " + text_of(diagram.title + ", t = " + diagram.series[i].title + " s") + "\nplot data index " +
               std::to_string(i) + " using 1:2 with lines linewidth 3 linecolor rgb '#08306b'";
-    if (sliding_joint(run.scene)) {
+    for (std::size_t joint = 0; joint < sliding_joints(run.scene).size(); ++joint) {
       const std::string frame = std::to_string(i);
-      script += ", data index " + std::to_string(shapes.size()) + " every ::" + frame + "::" + frame +
+      script += ", data index " + std::to_string(shapes.size() + joint) + " every ::" + frame + "::" + frame +
                 " using 1:2 with points pointtype 7 pointsize 2 linecolor rgb '#a63603'";
     }
     script += "\n";
@@ -321,7 +327,12 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
     diagram = history_diagram(run, tip, "position of the beam's end (m)");
   } else if (what == "joint") {
     if (!sliding_joint(run.scene)) throw InvalidInput("--what", "\"joint\"", "this scene has no sliding mass");
-    diagram = history_diagram(run, {"joint_position"}, "material coordinate of the mass (m)");
+    std::vector<std::string> marks;
+    const std::size_t count = sliding_joints(run.scene).size();
+    for (std::size_t i = 0; i < count; ++i) marks.push_back("joint" + std::to_string(i) + "_position");
+    if (count == 1) marks = {"joint_position"};
+    diagram =
+        history_diagram(run, marks, count == 1 ? "material coordinate of the mass (m)" : "material coordinates (m)");
   } else if (what == "strain") {
     diagram = along_diagram(run, &ShapePoint::strain, "axial strain (-)");
   } else if (what == "tension") {

@@ -31,9 +31,13 @@ Configuration configuration_from(const Json& json) {
   if (json.contains("rest")) {
     shape.rest = {points_from(json.at("rest").at("r")), points_from(json.at("rest").at("r_x"))};
   }
-  if (json.contains("kink")) {
-    const Json& kink = json.at("kink");
-    shape.kink = {kink.at("node").get<std::size_t>(), point_from(kink.at("r_x")), point_from(kink.at("r_x_rate"))};
+  const auto add_kink = [&shape](const Json& kink) {
+    shape.kinks.push_back(
+        {kink.at("node").get<std::size_t>(), point_from(kink.at("r_x")), point_from(kink.at("r_x_rate"))});
+  };
+  if (json.contains("kink")) add_kink(json.at("kink"));
+  if (json.contains("kinks")) {
+    for (const Json& kink : json.at("kinks")) add_kink(kink);
   }
   return shape;
 }

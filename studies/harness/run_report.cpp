@@ -177,11 +177,13 @@ Json configuration(const Configuration& shape, const Scene& scene) {
   json["r_x_rate"] = points(shape.rates.r_x);
   if (!shape.angles.empty()) json["spins"] = shape.rates.spins;
   if (!shape.rest.r.empty()) json["rest"] = {{"r", points(shape.rest.r)}, {"r_x", points(shape.rest.r_x)}};
-  if (shape.kink) {
-    json["kink"] = {{"node", shape.kink->node},
-                    {"r_x", components(shape.kink->r_x, d)},
-                    {"r_x_rate", components(shape.kink->r_x_rate, d)}};
+  Json kinks = Json::array();
+  for (const auto& kink : shape.kinks) {
+    kinks.push_back(
+        {{"node", kink.node}, {"r_x", components(kink.r_x, d)}, {"r_x_rate", components(kink.r_x_rate, d)}});
   }
+  if (kinks.size() == 1) json["kink"] = kinks.front();
+  if (kinks.size() > 1) json["kinks"] = kinks;
   if (scene.output.points > 0) json["axis"] = axis(points_along(scene, shape, scene.output.points), d);
   return json;
 }
@@ -189,6 +191,7 @@ Json configuration(const Configuration& shape, const Scene& scene) {
 Json event(const Event& e) {
   return {{"t", e.t},
           {"type", to_string(e.type)},
+          {"joint", e.joint},
           {"joint_position", e.joint_position},
           {"weights", e.weights},
           {"unit_fallback", e.unit_fallback},
@@ -251,11 +254,10 @@ std::string point_text(const Point& point, int dimension) {
 std::string beam_text(const Scene& scene) {
   std::string text = std::to_string(scene.beam.elements) + " elements " + std::string(to_string(scene.beam.element)) +
                      ", " + std::string(to_string(scene.formulation)) + ", " + short_number(beam_length(scene)) + " m";
-  if (const SlidingMassSpec* joint = sliding_joint(scene)) {
-    const SupportType held = joint_support(scene);
-    text += held == SupportType::pin     ? "; runs through a ring"
-            : held == SupportType::clamp ? "; runs through a sleeve"
-                                         : "; " + short_number(joint->mass) + " kg slides on it";
+  for (const SlidingJointSpec& joint : sliding_joints(scene)) {
+    text += joint.support == SupportType::pin     ? "; runs through a ring"
+            : joint.support == SupportType::clamp ? "; runs through a sleeve"
+                                                  : "; " + short_number(joint.mass) + " kg slides on it";
   }
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";
@@ -400,6 +402,11 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
     const Sample& last = result.samples.back();
     line("last", equilibrium_text(last));
     line("end of beam", point_text(last.end, scene.dimension));
+    if (last.joint_position) {
+      const double holding = last.equilibrium->holding_force;
+      line("joint", "at " + short_number(*last.joint_position, 10) + " m along the beam" +
+                        (holding == 0 ? ", free" : ", held by " + short_number(holding, 8) + " N"));
+    }
     line("energy", short_number(last.energy.total(), 8) + " J");
   }
   for (const double frequency : result.frequencies) line("frequency", short_number(frequency, 8) + " Hz");

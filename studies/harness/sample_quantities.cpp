@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -98,8 +99,8 @@ void add_energy(Quantities& q, const Scene& scene) {
   energy("gravity", "potential energy of gravity as it is then", [](const Sample& s) { return s.energy.gravity; });
   energy("dissipated", "taken by damping and friction since t = 0",
          [](const Sample& s) { return s.energy.dissipated; });
-  if (scene.start.motion || scene.end.motion || scene.gravity_ramp > 0) {
-    energy("supplied", "work since t = 0 of supports that move and of gravity while it grows",
+  if (scene.start.motion || scene.end.motion || guided(scene) || scene.gravity_ramp > 0) {
+    energy("supplied", "work since t = 0 of supports that move, of guides, and of gravity while it grows",
            [](const Sample& s) { return s.energy.supplied; });
   }
   energy("total", "sum of these but `supplied`; total - supplied is what is conserved",
@@ -108,7 +109,7 @@ void add_energy(Quantities& q, const Scene& scene) {
          [](const Sample& s) { return s.discrete_total; });
 }
 
-void add_joint(Quantities& q) {
+void add_joint(Quantities& q, bool guided) {
   using Joint = const std::optional<JointSample>&;
   const auto number = [&q](const char* path, const char* column, const char* unit, const char* description,
                            double JointSample::*member) {
@@ -127,6 +128,58 @@ void add_joint(Quantities& q) {
          "leaves of it",
          &JointSample::tangential);
   number("contact/normal", "contact_normal", "N", "of it: across the beam, its magnitude", &JointSample::normal);
+  if (guided)
+    number("contact/guiding", "contact_guiding", "N", "of what guides it: its power over joint_velocity",
+           &JointSample::guiding);
+}
+
+/// Lists in the order of the scene, with no number for what is not there.
+void add_joints(Quantities& q, std::size_t count, bool guided) {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto columns = [count](const std::string& stem, const std::vector<std::string>& axes) {
+    Columns names;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const std::string& axis : axes) names.push_back("joint" + std::to_string(i) + "_" + stem + axis);
+    }
+    return names;
+  };
+  const auto numbers = [&](const char* name, const char* unit, const char* description, const auto& of) {
+    q.list(std::string("sliding_joints/") + name, columns(name, {""}), unit, description, SampleShape::vector,
+           [of](const Sample& s, double* out) {
+             for (const SlidingSample& joint : s.joints) *out++ = of(joint);
+           });
+  };
+  const auto vectors = [&](const char* name, const char* unit, const char* description, const auto& of) {
+    std::vector<std::string> axes{"_x", "_y", "_z"};
+    axes.resize(q.dimension());
+    q.list(std::string("sliding_joints/") + name, columns(name, axes), unit, description, SampleShape::vectors,
+           [of, d = q.dimension()](const Sample& s, double* out) {
+             for (const SlidingSample& joint : s.joints) {
+               const std::optional<Point> point = of(joint);
+               if (point) {
+                 std::copy_n(point->begin(), d, out);
+               } else {
+                 std::fill_n(out, d, nan);
+               }
+               out += d;
+             }
+           });
+  };
+  const auto of_contact = [](double JointSample::*member) {
+    return [member](const SlidingSample& joint) { return joint.on_beam ? (*joint.on_beam).*member : nan; };
+  };
+  q.part("sliding_joints");
+  numbers("position", "m", "material coordinates, null of one that has left the beam",
+          [](const SlidingSample& joint) { return joint.position.value_or(nan); });
+  numbers("velocity", "m/s", "their rates", of_contact(&JointSample::velocity));
+  vectors("mass_position", "m", "where they are", [](const SlidingSample& joint) { return joint.mass_position; });
+  vectors("force", "N", "forces of the beam on them, while they are on it", [](const SlidingSample& joint) {
+    return joint.on_beam ? std::optional(joint.on_beam->force) : std::nullopt;
+  });
+  numbers("tangential", "N", "of these: along the beam, towards its end", of_contact(&JointSample::tangential));
+  numbers("normal", "N", "of these: across the beam, the magnitudes", of_contact(&JointSample::normal));
+  if (guided)
+    numbers("guiding", "N", "of what guides them: their power over velocity", of_contact(&JointSample::guiding));
 }
 
 void add_strains(Quantities& q) {
@@ -217,6 +270,11 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
     q.number("negative_pivots", "negative_pivots", "-",
              "directions in which the potential energy falls; 0 is a stable equilibrium",
              [](const Sample& s) { return static_cast<double>(s.equilibrium->negative_pivots); });
+    if (sliding_joint(scene) != nullptr) {
+      q.number("holding_force", "holding_force", "N",
+               "along the beam, of what holds a joint at its material coordinate; 0 once it is released",
+               [](const Sample& s) { return s.equilibrium->holding_force; });
+    }
   }
   q.number("joint_position", "joint_position", "m",
            "material coordinate x_i of the sliding mass; null once it has left the beam, or without one",
@@ -241,7 +299,8 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
     q.vector("angular_momentum", "angular_momentum", "kg m^2/s", angular,
              [](const Sample& s) -> Point { return s.angular_momentum; });
   }
-  if (sliding_joint(scene)) add_joint(q);
+  if (sliding_joint(scene)) add_joint(q, guided(scene));
+  if (scene.sliding_joints.size() > 1) add_joints(q, scene.sliding_joints.size(), guided(scene));
   add_strains(q);
   add_reactions(q, scene);
   if (has_flow_sample(scene)) add_flow(q, scene);

@@ -72,7 +72,8 @@ std::string unknown_key_hint(const std::string& key, const Json& node, const std
 /// everything. Refuses keys the table does not know. Remembers where things stood in the file, for error messages.
 class Canonical {
  public:
-  explicit Canonical(const Json& file) : json_(object(file, KeyTree().tree(), "", "", "")) {}
+  /// Takes the values out of the file: one may hold millions of numbers.
+  explicit Canonical(Json file) : json_(object(file, KeyTree().tree(), "", "", "")) {}
 
   const Json* find(std::string_view at) const {
     const auto where = pointer(at);
@@ -91,13 +92,14 @@ class Canonical {
 
  private:
   /// `here` is where we are by the table's pointers, `shown` by the file's.
-  Json object(const Json& file, const Json& node, const std::string& here, const std::string& shown,
+  Json object(Json& file, const Json& node, const std::string& here, const std::string& shown,
               const std::string& discriminator) {
     if (!file.is_object()) {
       throw InvalidInput(shown.empty() ? "the top level" : shown, excerpt(file), "it must be an object");
     }
     Json result = Json::object();
-    for (const auto& item : file.items()) {
+    result.get_ref<Json::object_t&>().reserve(file.size());  // as it grows it copies what it holds
+    for (auto& item : file.items()) {
       const std::string& key = item.key();
       const std::string at = here + "/" + escaped(key);
       const std::string at_shown = shown + "/" + escaped(key);
@@ -118,13 +120,13 @@ class Canonical {
       } else if (child.is_object() && !(child.contains("") && !item.value().is_object())) {
         result[key] = object(item.value(), child, at, at_shown, "");
       } else {
-        result[key] = item.value();
+        result[key] = std::move(item.value());
       }
     }
     return result;
   }
 
-  Json list(const Json& file, const Json& node, const std::string& here, const std::string& shown) {
+  Json list(Json& file, const Json& node, const std::string& here, const std::string& shown) {
     if (!file.is_array()) throw InvalidInput(shown, excerpt(file), "it must be an array of objects");
     const std::string discriminator = list_key(node);
     std::vector<std::string> choices;
@@ -133,7 +135,7 @@ class Canonical {
 
     Json result = Json::object();
     for (std::size_t i = 0; i < file.size(); ++i) {
-      const Json& entry = file[i];
+      Json& entry = file[i];
       const std::string entry_shown = shown + "/" + std::to_string(i);
       if (!entry.is_object()) throw InvalidInput(entry_shown, excerpt(entry), "it must be an object");
 
@@ -158,7 +160,7 @@ class Canonical {
 /// Fills a scene from a file, option by option.
 class Reader {
  public:
-  explicit Reader(const Json& file) : file_(file) {}
+  explicit Reader(Json file) : file_(std::move(file)) {}
 
   std::string in_file(std::string_view at) const { return file_.in_file(at); }
 
@@ -261,11 +263,14 @@ class Reader {
   Canonical file_;
 };
 
-/// Writes every option that applies.
+/// Writes every option that applies and is not left open.
 class Writer {
  public:
   template <class T>
   void operator()(const Option& option, const T& member) {
+    if constexpr (std::same_as<T, std::optional<double>>) {
+      if (!member) return;
+    }
     if (option.when.holds) json_[pointer(option.pointer)] = value(option, member);
   }
   template <class T>
@@ -336,24 +341,24 @@ Scene scene_with_every_part() {
   scene.sliding_mass.emplace().friction.emplace();
   scene.sliding_joints.emplace_back().support = SupportType::pin;  // one that needs no mass
   scene.sliding_joints.back().friction.emplace();
-  scene.start.motion.emplace();
-  scene.end.motion.emplace();
+  scene.sliding_joints.back().x.emplace();
+  for (SupportSpec* support : {&scene.start, &scene.end}) support->motion.emplace().angle.emplace();
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();
   scene.point_masses.emplace_back();
   scene.initial_velocity.emplace();
+  scene.drag.emplace();
   scene.integrator.atol_by_kind.emplace();
   return scene;
 }
 
-Scene scene_from_json(const Json& json) {
+Scene scene_from_json(Json json) {
   const bool in_time = !json.is_object() || !json.contains("analysis") || json.at("analysis") != "statics";
   const bool automatic =
       in_time && json.is_object() && (!json.contains("integrator") || json.at("integrator") == "auto");
-  Json file = json;
-  if (automatic) file.erase("integrator");
-  const Reader reader(file);
+  if (automatic) json.erase("integrator");
+  const Reader reader(std::move(json));
   Scene scene;
   visit_options(reader, scene);
   if (scene.setting != SceneSetting::standard) {  // the same keys, and others for those left out
@@ -382,9 +387,10 @@ Scene read_scene(const std::filesystem::path& file) {
 Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
   filled.beam.quadrature_points = quadrature_points(scene);
-  if (filled.sliding_mass) filled.sliding_mass->separation_distance = separation_distance(scene);
-  for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene);
+  if (auto& mass = filled.sliding_mass) mass->separation_distance = separation_distance(scene, *mass);
+  for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene, joint);
   filled.length_control.end_merge = end_merge(scene);
+  filled.length_control.lower = merge_below(scene);
   if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);
   filled.length_control.merge = merge_policy(scene);
   filled.weights = weight_transport(scene);

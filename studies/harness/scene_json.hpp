@@ -10,7 +10,7 @@ namespace vlbeam {
 
 /// Reads a scene and checks it. Throws InvalidInput naming the key by JSON pointer, its value and what is allowed;
 /// an unknown key comes with the nearest known one.
-Scene scene_from_json(const Json& json);
+Scene scene_from_json(Json json);
 Scene parse_scene(std::string_view text);
 /// Of a file, which its errors name; "-" is standard input.
 Scene read_scene(const std::filesystem::path& file);

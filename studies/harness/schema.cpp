@@ -109,6 +109,9 @@ class SceneSchemaBuilder {
     }
     if (!option.when.pointer.empty()) {
       conditional(option, path);
+    } else if (!option.instead.empty()) {
+      const auto needs = [](const std::string& key) { return Json{{"required", Json::array({key})}}; };
+      parent["anyOf"] = Json::array({needs(path.back()), needs(std::string(option.instead))});
     } else if (option.required) {
       Json& required = parent["required"];
       if (std::find(required.begin(), required.end(), path.back()) == required.end()) required.push_back(path.back());
@@ -415,8 +418,9 @@ Json run_schema() {
                           "nodes of the rest shape of these elements, from which strains are measured; "
                           "where it is not a straight beam")},
        {"kink", described(kink, "where the beam may be kinked, at the sliding mass")},
+       {"kinks", described(array_of(kink), "the same where there are several, at sliding joints")},
        {"axis", described(axis, "points along the axis, those at nodes once for each element; with output.points")}},
-      {"kink", "rest", "angles", "spins", "axis"});
+      {"kink", "kinks", "rest", "angles", "spins", "axis"});
   const Json jumps = record(
       {{"kinetic", described(number_or_null, "of kinetic energy", "J")},
        {"axial", described(number_or_null, "of the strain energy of stretching", "J")},
@@ -426,7 +430,8 @@ Json run_schema() {
   const Json event =
       record({{"t", described(number, "time", "s")},
               {"type", described(choice_of<EventType>(), "what happened to the mesh")},
-              {"joint_position", described(number, "material coordinate of the sliding mass", "m")},
+              {"joint", described(whole, "which of the scene's sliding joints, from 0", "-")},
+              {"joint_position", described(number, "its material coordinate", "m")},
               {"weights", described(array_of(number), "k_0, k_1, k_2 of the merged element, over the last", "-")},
               {"unit_fallback", described(flag, "whether the fit found a weight <= 0 and unit weights were taken")},
               {"energy_jumps", described(jumps, "after minus before, by a 25-point rule")},

@@ -12,7 +12,7 @@ set ylabel "Y (m)"
 set palette defined (0 "#08306b", 0.25 "#2171b5", 0.5 "#6baed6", 0.75 "#fdae6b", 1 "#a63603")
 unset colorbox
 last = real(word(times, words(times)))
-set key top center horizontal maxrows 2 title "t (s)" samplen 1.5
+set key top center horizontal maxrows 2 title "t (s)" samplen 1 width -1
 plot for [t in times] csv(shape) using run."_".t."_x":run."_".t."_y" with lines linewidth 2 linecolor palette frac (real(t)/last) title t, \
      csv(node) using (strcol("run") eq run && column("joint") == 1 ? column("x") : NaN):"y":(column("t")/last) with points pointtype 7 pointsize 1.1 linecolor palette
 set size noratio

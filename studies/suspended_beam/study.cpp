@@ -128,7 +128,7 @@ struct SlopesAtMass {
 
 SlopesAtMass slopes_at_mass(const Configuration& shape, double joint) {
   const auto node = static_cast<std::size_t>(std::ranges::lower_bound(shape.x, joint - 1e-9) - shape.x.begin());
-  const Point before = shape.r_x[node], behind = shape.kink ? shape.kink->r_x : before;
+  const Point before = shape.r_x[node], behind = shape.kinks.empty() ? before : shape.kinks.front().r_x;
   const double turn =
       std::atan2(before[0] * behind[1] - before[1] * behind[0], before[0] * behind[0] + before[1] * behind[1]);
   return {std::hypot(before[0], before[1]), std::hypot(behind[0], behind[1]), turn * 180 / std::acos(-1.0)};

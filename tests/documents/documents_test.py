@@ -177,7 +177,7 @@ class Documents(unittest.TestCase):
         def library(name):
             return json.loads((SOURCES / f"scenes/{name}.json").read_text(encoding="utf-8"))
 
-        scenes = {"one sliding mass": falling(), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
+        scenes = {"sliding masses": falling(), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
                   "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
                   "loads": library("moving_force"), "spin": library("torsion"), "flow": library("moving_string")}
         self.assertEqual(len(scenes), len(rows) - 2)

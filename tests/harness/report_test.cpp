@@ -44,7 +44,7 @@ RunResult small_run() {
   on_beam.joint_position = 0.25;
   on_beam.mass_position = Point{0.25, 0, 0};
   on_beam.end = {1, -0.5, 0};
-  on_beam.joint = {3, {0.5, 2, 0}, 0.5, 2};
+  on_beam.joint = {3, {0.5, 2, 0}, 0.5, 2, 0};
   on_beam.energy = {.kinetic = 1, .axial = 2, .bending = 3, .gravity = -4, .dissipated = 0.5};
   Sample left = on_beam;
   left.t = 0.005;

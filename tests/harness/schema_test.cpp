@@ -11,7 +11,9 @@ namespace {
 
 /// Counts the keys of an echoed scene that the schema does not describe.
 std::size_t undescribed(const Json& value, const Json& schema, const std::string& at) {
-  if (schema.contains("anyOf")) return undescribed(value, schema.at("anyOf").back(), at);
+  if (schema.contains("anyOf") && !schema.contains("properties")) {
+    return undescribed(value, schema.at("anyOf").back(), at);
+  }
   std::size_t count = 0;
   for (const auto& item : value.items()) {
     if (value.is_array()) {

@@ -73,6 +73,7 @@ expect(scene, changed(supports=[{"at": "middle", "type": "pin"}]), False, "a sup
 motion = {"direction": [0, 1], "amplitude": 0.1, "frequency": 3, "ramp": 0.01}
 expect(scene, changed(supports=[{"at": "end", "type": "pin", "motion": motion}]), True, "a support that moves")
 expect(scene, changed(supports=[{"at": "end", "type": "pin", "motion": {"rate": 1}}]), False, "a motion without direction")
+expect(scene, changed(supports=[{"at": "end", "type": "clamp", "motion": {"angle": {"value": 1, "ramp": 1}}}]), True, "a clamp that turns")
 expect(scene, changed(sliding_mass={"mass": 1}), False, "a mass without position")
 expect(scene, changed(beam__elemnts=4), False, "an unknown key")
 expect(scene, changed(duration=0), False, "no duration")

@@ -72,6 +72,24 @@ TEST(SupportMotionScene, AcceptsWhatStartsFromRest) {
   EXPECT_NO_THROW(scene_from_json(json));
 }
 
+/// Without a direction; with one it moves, too.
+TEST(SupportMotionScene, TurnsTheClamp) {
+  Json json = shaken();
+  json["output"]["configurations"] = {0.3};
+  json["supports"][1]["motion"] = parse_json(R"({"angle": {"value": 0.6, "ramp": 0.1, "until": 0.2}})");
+  const Json echo = scene_to_json(scene_from_json(json));
+  EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo);
+  for (const bool moves : {false, true}) {
+    if (moves) json["supports"][1]["motion"].update(parse_json(R"({"direction": [0, 1], "value": 0.1, "ramp": 0.1})"));
+    const RunResult result = simulate(scene_from_json(json));
+    ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+    const Point &r = result.configurations.front().r.front(), &r_x = result.configurations.front().r_x.front();
+    EXPECT_NEAR(std::atan2(r_x[1], r_x[0]), 0.6, 1e-14);
+    EXPECT_NEAR(r[1], moves ? 0.1 : 0, 1e-14);
+    EXPECT_LE(result.max_energy_drift, 1e-9 * result.max_kinetic);
+  }
+}
+
 struct Bad {
   const char* pointer;
   const char* value;  ///< JSON
@@ -104,6 +122,10 @@ const Bad bad[] = {
     {"/supports/0/motion", R"({"direction": [0, 1], "acceleration": 1})", "/supports/0/motion"},  // a free end
     {"/supports/1", R"({"at": "start", "type": "slide", "motion": {"direction": [0, 1], "acceleration": 1}})",
      "/supports/1/motion"},
+    {"/supports/1/motion", R"({"angle": {"rate": 1}})", "/supports/1/motion/angle"},
+    {"/supports/1/motion", R"({"rate": 1, "angle": {"value": 1, "ramp": 1}})", "/supports/1/motion/direction"},
+    {"/supports/1", R"({"at": "start", "type": "pin", "motion": {"angle": {"value": 1, "ramp": 1}}})",
+     "/supports/1/motion/angle"},
     {"/integrator", R"({"type": "energy-momentum"})", "/integrator/type"},
     {"/length_control", R"({"velocities": "conservative"})", "/length_control/velocities"},
 };

@@ -27,6 +27,20 @@ TEST(MeshMotion, NodesBetweenGuidesDivideTheirDistance) {
   }
 }
 
+TEST(SmoothRamp, IsZeroBeforeAndOneBehind) {
+  for (const double duration : {0.0, 0.5}) {
+    for (const double t : {-1.0, -1e-9}) {
+      const Prescribed before = smooth_ramp(t, duration);
+      EXPECT_EQ(before.value, 0) << t;
+      EXPECT_EQ(before.rate, 0) << t;
+      EXPECT_EQ(before.acceleration, 0) << t;
+    }
+    EXPECT_EQ(smooth_ramp(0.5, duration).value, 1);
+  }
+  EXPECT_EQ(smooth_ramp(0, 0).value, 1);
+  EXPECT_NEAR(smooth_ramp(0.25, 0.5).value, 0.5, 1e-15);
+}
+
 TEST(MeshMotion, FindsWhenNodesTangle) {
   // node 1 overtakes node 2 at t = 0.25
   const MeshMotion motion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});

@@ -24,31 +24,32 @@ constexpr std::array<Choice, 6> choices{{{Formulation::variational, WeightTransp
 
 /// moving_residual as a column, its coordinates (r_A, s_A, r_B, s_B, x_A, x_B) moving along columns of rates.
 template <MovingEnds Ends, int D>
-Eigen::Matrix<double, 4 * D + 1, 1> rate_of_residual(const std::array<ElementColumn<double, D>, 3>& state,
-                                                     const std::array<ElementColumn<double, D>, 3>& rate,
-                                                     const WeightFunction& weights, const ShapeTabulation& table,
-                                                     const MovingLaw<D>& law) {
+Eigen::Matrix<double, 4 * D + moving_ends<Ends>, 1> rate_of_residual(
+    const std::array<ElementColumn<double, D>, 3>& state, const std::array<ElementColumn<double, D>, 3>& rate,
+    const WeightFunction& weights, const ShapeTabulation& table, const MovingLaw<D>& law) {
   using Real = Dual<double>;
   auto moving = [&](std::size_t i) {
     return coordinates<Real, D>(in_motion<double, element_size<D>>(state[i], rate[i]));
   };
   const auto r = moving_residual<Ends, Real, D>(moving(0), moving(1), moving(2), weights, table, law);
-  Eigen::Matrix<double, 4 * D + 1, 1> result;
+  Eigen::Matrix<double, 4 * D + moving_ends<Ends>, 1> result;
   for (int i = 0; i < 4; ++i) {
     result.template segment<D>(i * D) = rate_of<double, D>(r.nodes[static_cast<std::size_t>(i)]);
   }
-  result[4 * D] = r.end.rate;
+  for (int e = 0; e < moving_ends<Ends>; ++e) result[4 * D + e] = r.ends[static_cast<std::size_t>(e)].rate;
   return result;
 }
 
 template <MovingEnds Ends, int D>
 void expect_derivative(const Choice& choice, Random& random, StrainLaw strain_law, bool bends) {
-  constexpr bool at_a = Ends == MovingEnds::a;
-  constexpr int N = 4 * D + 1;
+  constexpr int N = 4 * D + moving_ends<Ends>;
   const double by_v = 30, by_a = 900;
   std::array<ElementColumn<double, D>, 3> state{random_element<D>(random), random_rates<D>(random),
                                                 random_rates<D>(random)};
-  for (std::size_t i = 1; i < 3; ++i) state[i][at_a ? 4 * D + 1 : 4 * D] = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (Ends == MovingEnds::a) state[i][4 * D + 1] = 0;
+    if (Ends == MovingEnds::b) state[i][4 * D] = 0;
+  }
   const auto q = coordinates<double, D>(state[0]);
   const WeightFunction weights{choice.rational ? random.weights(3) : unit_weights, q.x_a - 0.1, q.x_b + 0.05};
   const ShapeTabulation table(gauss_legendre(4), weights.w);
@@ -64,7 +65,7 @@ void expect_derivative(const Choice& choice, Random& random, StrainLaw strain_la
   const auto tangent = moving_tangent<Ends, D>(q, coordinates<double, D>(state[1]), coordinates<double, D>(state[2]),
                                                by_v, by_a, weights, table, law);
   for (int j = 0; j < N; ++j) {
-    const int direction = j < 4 * D ? j : at_a ? 4 * D : 4 * D + 1;
+    const int direction = j < 4 * D ? j : is_end_a<Ends>(j - 4 * D) ? 4 * D : 4 * D + 1;
     const ElementColumn<double, D> unit = ElementColumn<double, D>::Unit(direction);
     const auto expected = rate_of_residual<Ends, D>(state, {unit, by_v * unit, by_a * unit}, weights, table, law);
     EXPECT_LE((tangent.col(j) - expected).norm(), 1e-12 * tangent.norm()) << "column " << j;
@@ -79,6 +80,8 @@ void expect_for_all_choices(unsigned seed) {
     expect_derivative<MovingEnds::b, D>(choice, random, StrainLaw::green, true);
     expect_derivative<MovingEnds::a, D>(choice, random, StrainLaw::engineering, true);
     expect_derivative<MovingEnds::b, D>(choice, random, StrainLaw::green, false);
+    expect_derivative<MovingEnds::both, D>(choice, random, StrainLaw::green, true);
+    expect_derivative<MovingEnds::both, D>(choice, random, StrainLaw::engineering, false);
   }
 }
 

@@ -112,7 +112,7 @@ TYPED_TEST(RestElements, TangentIsTheDerivativeOfTheResidual) {
         for (int i = 0; i < 4; ++i) {
           expected.template segment<D>(i * D) = rate_of<double, D>(r.nodes[static_cast<std::size_t>(i)]);
         }
-        expected[4 * D] = r.end.rate;
+        expected[4 * D] = r.ends[0].rate;
         EXPECT_LE((tangent.col(j) - expected).norm(), tolerance * tangent.norm()) << "column " << j;
       }
     }

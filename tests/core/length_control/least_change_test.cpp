@@ -57,8 +57,8 @@ TYPED_TEST(LeastChange, KeepsTheStrainEnergy) {
     const auto before = smooth_chain<D>(shape, 1.5, this->random_);
     auto after = before, fitted = before;
     const auto merged =
-        segment_and_merge(after, Direction::forward, control(MergePolicy::least_change, 0.2, rational), law);
-    segment_and_merge(fitted, Direction::forward, control(MergePolicy::point_fit, 0.2, rational), law);
+        segment_and_merge(after, 0, Direction::forward, {}, control(MergePolicy::least_change, 0.2, rational), law);
+    segment_and_merge(fitted, 0, Direction::forward, {}, control(MergePolicy::point_fit, 0.2, rational), law);
     ASSERT_FALSE(merged.unit_fallback);
     const double was = strain_energy(before, law), is = strain_energy(after, law), paper = strain_energy(fitted, law);
     EXPECT_LE(std::abs(is - was), 1e-7 * was);
@@ -80,8 +80,8 @@ TYPED_TEST(LeastChange, IsTheMirrorImageOfItself) {
   auto forward = smooth_chain<D>(shape, 1.5, this->random_);
   auto backward = reversed(forward);
   const auto policy = control(MergePolicy::least_change, 0.2, true);
-  segment_and_merge(forward, Direction::forward, policy, law);
-  segment_and_merge(backward, Direction::backward, policy, law);
+  segment_and_merge(forward, 0, Direction::forward, {}, policy, law);
+  segment_and_merge(backward, 0, Direction::backward, {}, policy, law);
   const auto mirror = reversed(backward);
   for (std::size_t i = 0; i < forward.q.size(); ++i) EXPECT_NEAR(mirror.q[i], forward.q[i], 1e-7);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -103,7 +103,8 @@ TYPED_TEST(LeastChange, LeavesAPolynomialAsItIs) {
   position<D>(before.q.data(), 3) = curve[0];
   slope<D>(before.q.data(), 3) = curve[1] / (x_b - x_a);
   auto after = before;
-  const auto merged = segment_and_merge(after, Direction::forward, control(MergePolicy::least_change, 0.2, true), law);
+  const auto merged =
+      segment_and_merge(after, 0, Direction::forward, {}, control(MergePolicy::least_change, 0.2, true), law);
   for (const double k : merged.k) EXPECT_NEAR(k, 1, 1e-8);
   EXPECT_LE((Vec<double, D>(slope<D>(after.q.data(), 3)) - Vec<double, D>(slope<D>(before.q.data(), 2))).norm(), 1e-8);
 }

@@ -15,7 +15,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// Element `joint - 1` of a chain, cut at x, as a chain of two elements; its outer nodes keep their motion.
 template <int D>
 ChainState<D> cut_before_joint(const ChainState<D>& chain, double x, WeightTransport transport) {
-  const int k = chain.joint - 1;
+  const int k = chain.joints.front().node - 1;
   const auto node = segment(chain, k, x, transport);
   ChainState<D> parts;
   parts.mesh.x = {chain.mesh.x[static_cast<std::size_t>(k)], node.x, chain.mesh.x[static_cast<std::size_t>(k) + 1]};
@@ -27,9 +27,8 @@ ChainState<D> cut_before_joint(const ChainState<D>& chain, double x, WeightTrans
   slope<D>(parts.q.data(), 1) = node.r_x;
   position<D>(parts.rate.data(), 1) = node.v;
   slope<D>(parts.rate.data(), 1) = node.v_x;
-  parts.copy_node(2, chain, chain.joint);
-  parts.joint = 2;
-  parts.joint_rate = chain.joint_rate;
+  parts.copy_node(2, chain, chain.joints.front().node);
+  parts.joints = {{.node = 2, .rate = chain.joints.front().rate}};
   return parts;
 }
 

@@ -46,6 +46,9 @@ void held(Scene& scene, SupportType support) {
   SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
   joint.support = support;
   joint.position = 0.45;
+  if (!scene.initial_velocity) return;
+  scene.start.type = SupportType::free;  // the beam runs through it
+  scene.initial_velocity = {.translation = {0.3, 0, 0}};
 }
 
 const std::vector<Feature>& features() {
@@ -53,6 +56,13 @@ const std::vector<Feature>& features() {
       {"sliding mass", [](Scene& s) { mass(s); }},
       {"ring", [](Scene& s) { held(s, SupportType::pin); }},
       {"sleeve", [](Scene& s) { held(s, SupportType::clamp); }},
+      {"guided joint",
+       [](Scene& s) {
+         held(s, SupportType::free);
+         SlidingJointSpec& joint = s.sliding_joints.back();
+         joint.mass = 0.3;
+         joint.x = TimeSpec{.rate = 0.5, .amplitude = 0.01, .frequency = 20};
+       }},
       {"two slopes at the mass", [](Scene& s) { mass(s).slopes = JointSlopes::equal_stretch; }},
       {"friction at the mass",
        [](Scene& s) {
@@ -82,6 +92,17 @@ const std::vector<Feature>& features() {
        [](Scene& s) {
          s.point_masses = {{1, 0.4}, {2, 0.3}, {4, 0.2}};
        }},
+      {"clamp that turns",
+       [](Scene& s) {
+         s.dimension = 2;
+         s.gravity[2] = 0;
+         s.start.type = SupportType::clamp;
+         if (!s.start.motion) s.start.motion.emplace();
+         s.start.motion->angle = {.amplitude = 0.2, .frequency = 20, .phase_degrees = 90};
+         if (!s.initial_velocity) return;
+         s.initial_velocity->axis = {0, 0, 1};
+         s.start.motion->angle->rate = s.initial_velocity->rotation;
+       }},
       {"initial velocity",
        [](Scene& s) {
          s.start.type = SupportType::pin;
@@ -94,6 +115,11 @@ const std::vector<Feature>& features() {
        }},
       {"gravity that grows", [](Scene& s) { s.gravity_ramp = 0.02; }},
       {"damping", [](Scene& s) { s.beam.material.damping = 1e-4; }},
+      {"drag",
+       [](Scene& s) {
+         s.drag = DragSpec{{0.4, 0.1}, {0.3, 0.05}};
+         s.beam.material.mass_damping = 2;
+       }},
       {"spin", [](Scene& s) { s.spin.emplace().drives = {{.node = 0, .angle = {.rate = 20}}}; }},
       {"flow",
        [](Scene& s) {

@@ -15,7 +15,8 @@ BeamModel<D> model_of(const ChainShape& shape, Random& random) {
   model.transport = shape.transport;
   model.gravity = random.vector<D>(10);
   model.length_control.standard_length = shape.element_length;
-  if (shape.joint != no_joint || shape.rider >= 0) model.joint = SlidingJoint{0.4, shape.slopes};
+  for (const auto& joint : shape.joints()) model.joints.push_back({.law = {0.4, joint.slopes}});
+  if (shape.rider >= 0) model.joints = {{.law = {0.4, shape.slopes}}};
   return model;
 }
 
@@ -70,7 +71,10 @@ Vec<double, 3> angular_momentum(const BeamSystem<D>& system, const Eigen::Vector
       sum += weight * (x_b - x_a) * model.section.rhoA * in_space(at.r).cross(in_space(at.v));
     }
   }
-  if (const auto mass = system.mass_motion(y)) sum += model.joint->mass * in_space(mass->r).cross(in_space(mass->v));
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const auto mass = system.mass_motion(y, static_cast<int>(i));
+    if (mass) sum += model.joints[i].law.mass * in_space(mass->r).cross(in_space(mass->v));
+  }
   return sum;
 }
 

@@ -32,11 +32,7 @@ class FunctionOde : public EventedOde {
     dfdt = (f_(y, t + step) - f_(y, t - step)) / (2 * step);
   }
   Guards guards(const Eigen::VectorXd& y, double t) const override {
-    Guards values;
-    values.fill(-1);
-    if (guard) values[0] = guard(y, t);
-    if (second_guard) values[1] = second_guard(y, t);
-    return values;
+    return {{0, 0, guard ? guard(y, t) : -1}, {1, 0, second_guard ? second_guard(y, t) : -1}};
   }
   void handle_event(int index, Eigen::VectorXd& y, double t) override {
     events.push_back({index, t});

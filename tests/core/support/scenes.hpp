@@ -1,5 +1,11 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
 #include "core/scene/simulate.hpp"
 
 namespace vlbeam::test {
@@ -46,9 +52,42 @@ inline Scene shaft_under_turning_load(int elements) {
   return scene;
 }
 
+/// A run that has to go to its end.
+inline RunResult completed(const Scene& scene) {
+  RunResult run = simulate(scene);
+  EXPECT_EQ(run.status, RunStatus::completed) << run.failure;
+  return run;
+}
+
+/// The field that a scene is refused for.
+inline std::string refused(const Scene& scene) {
+  try {
+    simulate(scene);
+  } catch (const InvalidInput& error) {
+    return error.field;
+  }
+  return "nothing";
+}
+
 inline void set_tolerance(Scene& scene, IntegratorType type, double tolerance) {
   scene.integrator.type = type;
   scene.integrator.rtol = scene.integrator.atol = tolerance;
+}
+
+/// A soft beam of 2 m between two pins, with something that slides on it.
+inline Scene rope(const std::vector<SlidingJointSpec>& joints, ElementKind element = ElementKind::ale_ancf) {
+  Scene scene;
+  scene.beam.element = element;
+  scene.beam.elements = 16;
+  scene.beam.curve.end = {2, 0, 0};
+  scene.beam.section.radius = 0.015;
+  scene.beam.material = {.density = 1200, .youngs_modulus = 5e7};
+  scene.start.type = scene.end.type = SupportType::pin;
+  scene.sliding_joints = joints;
+  set_tolerance(scene, IntegratorType::fehlberg78, 1e-12);
+  scene.duration = 0.3;
+  scene.output.interval = 0.01;
+  return scene;
 }
 
 }  // namespace vlbeam::test

@@ -50,16 +50,20 @@ namespace {
 
 template <int D>
 void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double damping,
-                          JointSlopes slopes = JointSlopes::continuous, int rider = -1) {
+                          JointSlopes slopes = JointSlopes::continuous, int rider = -1,
+                          const std::vector<ChainShape::Joint>& more = {}) {
   Random random(12);
   const ChainShape shape{.elements = 9,
                          .joint = joint,
                          .rational = kind.rational,
                          .transport = kind.transport,
                          .slopes = slopes,
-                         .rider = rider};
+                         .rider = rider,
+                         .more = more};
   auto model = model_of<D>(shape, random);
-  if (slopes != JointSlopes::continuous || rider >= 0) model.joint->friction = AxialFriction{0.2};
+  for (auto& sliding : model.joints) {
+    if (slopes != JointSlopes::continuous || rider >= 0) sliding.law.friction = AxialFriction{0.2};
+  }
   model.section.stiffness.law = kind.law;
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
@@ -94,6 +98,10 @@ TEST(RightHandSide, AllocatesNothing) {
       expect_no_allocation<2>(kind, 4, 0, slopes);
       expect_no_allocation<3>(kind, 4, 0, slopes);
     }
+    for (const auto slopes : {JointSlopes::continuous, JointSlopes::tangent}) {
+      expect_no_allocation<2>(kind, 2, 0, slopes, -1, {{3}, {7, slopes}});
+      expect_no_allocation<3>(kind, 2, 0, slopes, -1, {{3}, {7, slopes}});
+    }
     for (const int rider : {0, 8}) {
       expect_no_allocation<2>(kind, no_joint, 0, JointSlopes::continuous, rider);
       expect_no_allocation<3>(kind, no_joint, 0, JointSlopes::continuous, rider);
@@ -107,7 +115,7 @@ void expect_steady_steps(int joint, double damping, Constraints constraints, New
   Random random(12);
   const ChainShape shape{.elements = 9, .joint = joint, .rational = true, .slopes = slopes};
   auto model = model_of<D>(shape, random);
-  if (slopes != JointSlopes::continuous) model.joint->friction = AxialFriction{0.2, 0.1};
+  if (slopes != JointSlopes::continuous) model.joints.front().law.friction = AxialFriction{0.2, 0.1};
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
   model.constraints = constraints;

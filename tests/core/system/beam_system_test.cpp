@@ -35,15 +35,15 @@ struct DenseConditions {
 };
 
 template <int D>
-DenseConditions dense_conditions(JointSlopes slopes, const ChainState<D>& chain) {
+DenseConditions dense_conditions(JointSlopes slopes, const ChainState<D>& chain,
+                                 const typename ChainState<D>::Joint& joint) {
   auto in_space = [](const Vec<double, D>& v) {
     Eigen::Vector3d result = Eigen::Vector3d::Zero();
     result.head<D>() = v;
     return result;
   };
-  const Eigen::Vector3d s = in_space(slope<D>(chain.q.data(), chain.joint)), p = in_space(chain.kink->slope),
-                        s_rate = in_space(slope<D>(chain.rate.data(), chain.joint)),
-                        p_rate = in_space(chain.kink->rate);
+  const Eigen::Vector3d s = in_space(slope<D>(chain.q.data(), joint.node)), p = in_space(joint.kink->slope),
+                        s_rate = in_space(slope<D>(chain.rate.data(), joint.node)), p_rate = in_space(joint.kink->rate);
   DenseConditions result{Eigen::MatrixXd(0, D), Eigen::MatrixXd(0, D), Eigen::VectorXd(0)};
   if (slopes == JointSlopes::equal_stretch) {
     result = {s.head<D>().transpose(), -p.head<D>().transpose(), Eigen::VectorXd(1)};
@@ -58,11 +58,27 @@ DenseConditions dense_conditions(JointSlopes slopes, const ChainState<D>& chain)
   return result;
 }
 
-/// Accelerations of all coordinates (nodes, then x of the joint and the slope behind it) by a dense solve of all
-/// elements' equations, projected onto what the supports leave free. `force_on_x` is added to those on x.
+/// Accelerations of all coordinates (nodes, then x of the joints, then the slopes behind them) by a dense solve of all
+/// elements' equations, projected onto what supports and what holds joints leave free. `force_on_x` is added to those
+/// on the x of joints; those that are guided take their accelerations.
 template <int D>
-Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<D>& chain, double force_on_x = 0) {
-  const int nodes = chain.mesh.last() + 1, nodal = node_size<D> * nodes, n = nodal + 1 + (chain.kink ? D : 0);
+Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<D>& chain,
+                                    const std::vector<double>& force_on_x = {}) {
+  const int nodes = chain.mesh.last() + 1, nodal = node_size<D> * nodes;
+  const auto count_of_joints = static_cast<int>(chain.joints.size());
+  std::vector<int> behind(chain.joints.size(), -1);
+  int n = nodal + count_of_joints;
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    if (!chain.joints[i].kink) continue;
+    behind[i] = n;
+    n += D;
+  }
+  const auto joint_at = [&](int node) {
+    for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+      if (chain.joints[i].node == node) return static_cast<int>(i);
+    }
+    return -1;
+  };
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd Q = Eigen::VectorXd::Zero(n);
   for (int k = 0; k < chain.mesh.elements(); ++k) {
@@ -72,8 +88,9 @@ Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<
                                                gauss_legendre(model.quadrature_points), law));
     std::vector<int> rows;
     for (int i = 0; i < 4 * D; ++i) rows.push_back(node_size<D> * k + i);
-    for (const int node : {k, k + 1}) rows.push_back(node == chain.joint ? nodal : -1);
-    for (int i = 0; i < D && chain.kink && k == chain.joint; ++i) rows[static_cast<std::size_t>(D + i)] = nodal + 1 + i;
+    for (const int node : {k, k + 1}) rows.push_back(joint_at(node) < 0 ? -1 : nodal + joint_at(node));
+    const int start = joint_at(k) < 0 ? -1 : behind[static_cast<std::size_t>(joint_at(k))];
+    for (int i = 0; i < D && start >= 0; ++i) rows[static_cast<std::size_t>(D + i)] = start + i;
     for (int i = 0; i < element_size<D>; ++i) {
       const int row = rows[static_cast<std::size_t>(i)];
       if (row < 0) continue;
@@ -84,30 +101,58 @@ Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<
       }
     }
   }
-  if (chain.joint != no_joint) {
-    M.diagonal().segment<D>(node_size<D> * chain.joint).array() += model.joint->mass;
-    Q.segment<D>(node_size<D> * chain.joint) += model.joint->mass * model.gravity;
-    Q[nodal] += force_on_x;
+  std::vector<std::pair<int, Support<D>>> held{{0, model.start}, {chain.mesh.last(), model.end}};
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const int node = chain.joints[i].node;
+    M.diagonal().segment<D>(node_size<D> * node).array() += model.joints[i].law.mass;
+    Q.segment<D>(node_size<D> * node) += model.joints[i].law.mass * model.gravity;
+    if (!force_on_x.empty()) Q[nodal + static_cast<int>(i)] += force_on_x[i];
+    if (model.joints[i].support) held.emplace_back(node, *model.joints[i].support);
   }
-  const Eigen::MatrixXd start = free_motions(model.start), end = free_motions(model.end);
-  const Eigen::Index inner = nodal - 4 * D, moving = chain.joint == no_joint ? 0 : n - nodal;
-  Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(n, start.cols() + inner + end.cols() + moving);
-  Z.topLeftCorner(2 * D, start.cols()) = start;
-  Z.block(2 * D, start.cols(), inner, inner).setIdentity();
-  Z.block(2 * D + inner, start.cols() + inner, 2 * D, end.cols()) = end;
-  if (moving > 0) Z.bottomRightCorner(moving, moving).setIdentity();
-  if (!chain.kink) return Z * (Z.transpose() * M * Z).ldlt().solve(Z.transpose() * Q);
-  const DenseConditions conditions = dense_conditions<D>(model.joint->slopes, chain);
-  const Eigen::Index count = conditions.b.size(), free = Z.cols();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(count, n);
-  A.middleCols(node_size<D> * chain.joint + D, D) = conditions.on_s;
-  A.rightCols(D) = conditions.on_p;
+  Eigen::MatrixXd Z(n, 0);
+  const auto add = [&](int row, const Eigen::MatrixXd& motions) {
+    const Eigen::Index first = Z.cols();
+    Z.conservativeResize(Eigen::NoChange, first + motions.cols());
+    Z.rightCols(motions.cols()).setZero();
+    Z.block(row, first, motions.rows(), motions.cols()) = motions;
+  };
+  for (int node = 0; node < nodes; ++node) {
+    Eigen::MatrixXd motions = Eigen::MatrixXd::Identity(2 * D, 2 * D);
+    for (const auto& [at, support] : held) {
+      if (at == node) motions = free_motions(support);
+    }
+    add(node_size<D> * node, motions);
+  }
+  if (n > nodal) add(nodal, Eigen::MatrixXd::Identity(n - nodal, n - nodal));
+  Eigen::MatrixXd A(0, n);
+  Eigen::VectorXd b(0);
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    if (behind[i] < 0) continue;
+    const DenseConditions conditions = dense_conditions<D>(model.joints[i].law.slopes, chain, chain.joints[i]);
+    const Eigen::Index count = conditions.b.size(), before = A.rows();
+    A.conservativeResize(before + count, Eigen::NoChange);
+    A.bottomRows(count).setZero();
+    A.block(before, node_size<D> * chain.joints[i].node + D, count, D) = conditions.on_s;
+    A.block(before, behind[i], count, D) = conditions.on_p;
+    b.conservativeResize(before + count);
+    b.tail(count) = conditions.b;
+  }
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    if (!model.joints[i].x) continue;
+    A.conservativeResize(A.rows() + 1, Eigen::NoChange);
+    A.bottomRows(1).setZero();
+    A(A.rows() - 1, nodal + static_cast<Eigen::Index>(i)) = 1;
+    b.conservativeResize(A.rows());
+    b[b.size() - 1] = model.joints[i].x(0).acceleration;
+  }
+  if (A.rows() == 0) return Z * (Z.transpose() * M * Z).ldlt().solve(Z.transpose() * Q);
+  const Eigen::Index count = A.rows(), free = Z.cols();
   Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(free + count, free + count);
   kkt.topLeftCorner(free, free) = Z.transpose() * M * Z;
   kkt.topRightCorner(free, count) = (A * Z).transpose();
   kkt.bottomLeftCorner(count, free) = A * Z;
   Eigen::VectorXd rhs(free + count);
-  rhs << Z.transpose() * Q, conditions.b;
+  rhs << Z.transpose() * Q, b;
   return Z * kkt.completeOrthogonalDecomposition().solve(rhs).head(free);  // the conditions are not independent
 }
 
@@ -134,7 +179,7 @@ class BeamSystemOf : public ::testing::Test {
     const Eigen::VectorXd y = system.initial_state();
     Eigen::VectorXd dydt(system.size());
     system.rhs(y, dydt, t);
-    const Eigen::Index n = (y.size() - (model.dissipates() ? 1 : 0)) / 2;
+    const Eigen::Index n = system.coordinates();
     EXPECT_EQ(dydt.head(n), y.segment(n, n)) << "the rates of the coordinates";
     return dydt.segment(n, n);
   }
@@ -175,12 +220,126 @@ TYPED_TEST(BeamSystemOf, AKinkedJointsAccelerationsAreThoseOfADenseSolve) {
   }
 }
 
+TYPED_TEST(BeamSystemOf, SeveralJointsAccelerationsAreThoseOfADenseSolve) {
+  constexpr int D = TypeParam::value;
+  using Joints = std::vector<ChainShape::Joint>;
+  const std::vector<Joints> apart{{{2}}, {{3}}, {{4}}, {{5}}, {{3}, {5}}, {{3}, {4}, {8}}};
+  for (const auto& kind : element_family) {
+    for (const auto slopes : {JointSlopes::continuous, JointSlopes::tangent, JointSlopes::equal_stretch}) {
+      for (std::size_t held = 0; held < 3; ++held) {
+        for (const Joints& more : apart) {
+          SCOPED_TRACE(std::string(kind.name()) + ", slopes " + std::to_string(static_cast<int>(slopes)) + ", " +
+                       std::to_string(more.size()) + " more, held " + std::to_string(held));
+          ChainShape shape{
+              .elements = 9, .joint = 1, .rational = kind.rational, .transport = kind.transport, .more = more};
+          shape.more.back().slopes = slopes;
+          auto model = model_of<D>(shape, this->random_);
+          model.section.stiffness.law = kind.law;
+          model.start = Support<D>::direction_clamp(this->random_.template vector<D>());
+          model.joints[1].law.mass = 0.15;
+          auto chain = random_chain<D>(shape, this->random_);
+          if (held > 0) {
+            model.joints.front().support =
+                held == 1 ? Support<D>::pin() : Support<D>::direction_clamp(slope<D>(chain.q.data(), 1));
+            model.joints.front().law.mass = 0;
+            position<D>(chain.rate.data(), 1).setZero();
+          }
+          hold(model, chain);
+          this->expect_dense(model, chain);
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(BeamSystemOf, GuidedJointsTakeTheirAccelerationsAndTheRestFollows) {
+  constexpr int D = TypeParam::value;
+  using Joints = std::vector<ChainShape::Joint>;
+  for (const auto& kind : element_family) {
+    for (const Joints& more : {Joints{}, Joints{{2}}, Joints{{3}}, Joints{{3}, {4}, {8}}}) {
+      for (std::size_t guided = 0; guided < std::size_t{2} << more.size(); ++guided) {
+        const ChainShape shape{
+            .elements = 9, .joint = 1, .rational = kind.rational, .transport = kind.transport, .more = more};
+        auto model = model_of<D>(shape, this->random_);
+        model.section.stiffness.law = kind.law;
+        model.start = Support<D>::pin();
+        auto chain = random_chain<D>(shape, this->random_);
+        hold(model, chain);
+        for (std::size_t i = 0; i < model.joints.size(); ++i) {
+          if ((guided >> i & 1U) != 0) model.joints[i].x = guide_of(chain, i, this->random_.uniform(-1, 1));
+        }
+        if (guided == 1) model.joints.front().law.mass = 0;  // it has no motion of its own, and needs none
+        SCOPED_TRACE(std::string(kind.name()) + ", " + std::to_string(more.size()) + " more, guided " +
+                     std::to_string(guided));
+        this->expect_dense(model, chain);
+      }
+    }
+  }
+}
+
+TYPED_TEST(BeamSystemOf, AGuideDoesTheWorkOfTheForceThatAFreeJointWouldNeed) {
+  constexpr int D = TypeParam::value;
+  for (const auto& kind : element_family) {
+    const ChainShape shape{
+        .elements = 9, .joint = 2, .rational = kind.rational, .transport = kind.transport, .more = {{3}, {6}}};
+    auto model = model_of<D>(shape, this->random_);
+    model.section.stiffness.law = kind.law;
+    auto chain = random_chain<D>(shape, this->random_);
+    const auto free = model;
+    for (std::size_t i = 0; i < 3; ++i) model.joints[i].x = guide_of(chain, i, this->random_.uniform(-1, 1));
+    const Eigen::VectorXd a = this->accelerations(model, chain);
+    BeamSystem<D> system(model, chain);
+    const Eigen::VectorXd y = system.initial_state();
+    const std::vector<double> force = system.forces(y, 0).guiding;
+    ASSERT_EQ(force.size(), 3U);
+    const Eigen::VectorXd needed = dense_accelerations(free, chain, force).head(a.size());
+    EXPECT_LE((a - needed).norm(), 1e-10 * needed.norm()) << kind.name();
+    Eigen::VectorXd dydt(system.size());
+    system.rhs(y, dydt, 0);
+    double power = 0;
+    for (std::size_t i = 0; i < 3; ++i) power += force[i] * chain.joints[i].rate;
+    EXPECT_NEAR(model.tallies().of(dydt).supports, power, 1e-10 * std::abs(power)) << kind.name();
+  }
+}
+
+TYPED_TEST(BeamSystemOf, FrictionAtSeveralJointsIsTheCoefficientTimesTheNormalForces) {
+  constexpr int D = TypeParam::value;
+  const ChainShape shape{.elements = 9, .joint = 2, .more = {{3}, {6, JointSlopes::free}}};
+  auto model = model_of<D>(shape, this->random_);
+  model.joints[0].law.friction = AxialFriction{0.4, 0.3};
+  model.joints[1].law.friction = AxialFriction{0.2, 0.1};
+  model.joints[2].law.friction = AxialFriction{0.1, 0.2};
+  const auto chain = random_chain<D>(shape, this->random_);
+  BeamSystem<D> system(model, chain);
+  const Eigen::VectorXd y = system.initial_state();
+  Eigen::VectorXd dydt(system.size());
+  system.rhs(y, dydt, 0);
+  const Eigen::VectorXd a = dydt.segment(system.coordinates(), system.coordinates());
+  std::vector<double> on_x;
+  double power = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& joint = chain.joints[i];
+    const auto& friction = *model.joints[i].law.friction;
+    Vec<double, D> mean = slope<D>(chain.q.data(), joint.node);
+    if (joint.kink) mean = (mean + joint.kink->slope) / 2;
+    const Vec<double, D> pull = 0.4 * (a.segment<D>(node_size<D> * joint.node) - model.gravity),
+                         tangent = mean.normalized();
+    const double normal = (pull - tangent * tangent.dot(pull)).norm(), v = mean.norm() * joint.rate;
+    const double force = -friction.coefficient * normal * std::tanh(v / friction.velocity);
+    on_x.push_back(force * mean.norm());
+    power -= force * v;
+  }
+  const Eigen::VectorXd exact = dense_accelerations(model, chain, on_x).head(a.size());
+  EXPECT_LE((a - exact).norm(), 1e-10 * exact.norm());
+  EXPECT_NEAR(dydt[dydt.size() - 1], power, 1e-10) << "the power it takes";
+}
+
 TYPED_TEST(BeamSystemOf, FrictionIsTheCoefficientTimesTheNormalForceOfTheAccelerations) {
   constexpr int D = TypeParam::value;
   for (const auto slopes : {JointSlopes::continuous, JointSlopes::tangent, JointSlopes::free}) {
     const ChainShape shape{.elements = 4, .joint = 2, .slopes = slopes};
     auto model = model_of<D>(shape, this->random_);
-    model.joint->friction = AxialFriction{0.4, 0.3};
+    model.joints.front().law.friction = AxialFriction{0.4, 0.3};
     const auto chain = random_chain<D>(shape, this->random_);
     BeamSystem<D> system(model, chain);
     const Eigen::VectorXd y = system.initial_state();
@@ -188,13 +347,13 @@ TYPED_TEST(BeamSystemOf, FrictionIsTheCoefficientTimesTheNormalForceOfTheAcceler
     system.rhs(y, dydt, 0);
     const Eigen::VectorXd a = dydt.segment(system.coordinates(), system.coordinates());
     Vec<double, D> mean = slope<D>(chain.q.data(), 2);
-    if (chain.kink) mean = (mean + chain.kink->slope) / 2;
-    const Vec<double, D> pull = model.joint->mass * (a.segment<D>(2 * node_size<D>) - model.gravity),
+    if (chain.joints.front().kink) mean = (mean + chain.joints.front().kink->slope) / 2;
+    const Vec<double, D> pull = model.joints.front().law.mass * (a.segment<D>(2 * node_size<D>) - model.gravity),
                          tangent = mean.normalized();
-    const double normal = (pull - tangent * tangent.dot(pull)).norm(), v = mean.norm() * chain.joint_rate;
+    const double normal = (pull - tangent * tangent.dot(pull)).norm(), v = mean.norm() * chain.joints.front().rate;
     const double friction = -0.4 * normal * std::tanh(v / 0.3);
     EXPECT_GT(normal, 0.1);
-    const Eigen::VectorXd exact = dense_accelerations(model, chain, friction * mean.norm()).head(a.size());
+    const Eigen::VectorXd exact = dense_accelerations(model, chain, {friction * mean.norm()}).head(a.size());
     EXPECT_LE((a - exact).norm(), 1e-10 * exact.norm());
     EXPECT_NEAR(dydt[dydt.size() - 1], -friction * v, 1e-10) << "the power it takes";
   }
@@ -291,11 +450,11 @@ TYPED_TEST(BeamSystemOf, TheSameBodyDescribedFromItsOtherEndAcceleratesAlike) {
     const auto b = this->accelerations(model, turned);
     const std::vector<double> nodal(b.data(), b.data() + b.size() - 1);
     turned.rate = nodal;
-    turned.joint_rate = b[b.size() - 1];
+    turned.joints.front().rate = b[b.size() - 1];
     const auto back = reversed(turned);
     const Eigen::Map<const Eigen::VectorXd> expected(back.rate.data(), a.size() - 1);
     EXPECT_LE((a.head(a.size() - 1) - expected).norm(), 1e-10 * a.norm());
-    EXPECT_NEAR(a[a.size() - 1], back.joint_rate, 1e-10 * a.norm());
+    EXPECT_NEAR(a[a.size() - 1], back.joints.front().rate, 1e-10 * a.norm());
   }
 }
 

@@ -113,13 +113,13 @@ class AtRest {
     y_[nodal] = x;
     if (system_.has_joint()) {
       const auto at = axis_.derivatives(x);
-      position<D>(y_.data(), system_.joint()) = at[0];
-      slope<D>(y_.data(), system_.joint()) = at[1];
+      position<D>(y_.data(), system_.places().front().node) = at[0];
+      slope<D>(y_.data(), system_.places().front().node) = at[1];
     }
     look();
     const Guards guards = system_.guards(y_, 0);
     for (std::size_t i = 0; i < guards.size(); ++i) {
-      if (!(guards[i] > 0)) continue;
+      if (!(guards[i].value > 0)) continue;
       system_.handle_event(static_cast<int>(i), y_, 0);
       ++events_;
       look();

@@ -25,7 +25,7 @@ TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
       Random random(seed++);
       auto model = model_of<D>(shape, random);
       model.section.damping = damping;
-      if (model.joint && friction > 0) model.joint->friction = AxialFriction{friction, 0.5};
+      if (!model.joints.empty() && friction > 0) model.joints.front().law.friction = AxialFriction{friction, 0.5};
       model.gravity_ramp = 1;
       model.gravity = random.vector<D>();
       model.start = Support<D>::direction_clamp(random.vector<D>());

@@ -30,6 +30,7 @@ void scale(TimeSpec& spec, double unit, const Units& units) {
   spec.amplitude *= unit;
   spec.frequency /= second;
   spec.ramp *= second;
+  if (spec.until) *spec.until *= second;
 }
 
 Scene in_units(Scene scene, const Units& u) {
@@ -47,7 +48,14 @@ Scene in_units(Scene scene, const Units& u) {
   scene.beam.material.damping *= second;
   scene.beam.material.curvature_regularization /= metre;
   for (auto* support : {&scene.start, &scene.end}) {
-    if (support->motion) scale(support->motion->displacement, metre, u);
+    if (!support->motion) continue;
+    scale(support->motion->displacement, metre, u);
+    if (support->motion->angle) scale(*support->motion->angle, 1, u);
+  }
+  scene.beam.material.mass_damping /= second;
+  if (auto& drag = scene.drag) {
+    for (double* c : {&drag->linear.normal, &drag->linear.tangential}) *c *= u(-1, 1, -1);
+    for (double* c : {&drag->quadratic.normal, &drag->quadratic.tangential}) *c *= u(-2, 1, 0);
   }
   if (auto& mass = scene.sliding_mass) {
     mass->mass *= u(0, 1, 0);

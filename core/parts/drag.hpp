@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/element/moving_points.hpp"
+#include "core/parts/material_point.hpp"
+
+namespace vlbeam {
+
+/// Of a force per unstretched length against a velocity across and along the axis.
+struct DragCoefficients {
+  double normal = 0, tangential = 0;
+
+  bool present() const { return normal != 0 || tangential != 0; }
+};
+
+/// What still air around a beam does to it, per unstretched length, at the velocity v of the material point and the
+/// tangent t = r_x/|r_x|, v_t = v.t, v_n = v - v_t t:
+///   f = -(c_n v_n + c_t v_t t) - (q_n |v_n| v_n + q_t |v_t| v_t t).
+/// Damping in proportion to the beam's mass is c_n = c_t = alpha rhoA. Summed up at the model's points as its inertia
+/// is, N^T f: what it takes is exactly the work of the generalized forces. Lumped masses and what slides have none.
+template <int D>
+struct Drag {
+  DragCoefficients linear;     ///< [N s/m^2]
+  DragCoefficients quadratic;  ///< [N s^2/m^3]
+  int quadrature_points = 5;
+
+  bool present() const { return linear.present() || quadratic.present(); }
+
+  /// Per unstretched length [N/m].
+  template <class Real>
+  Vec<Real, D> force(const Vec<Real, D>& v, const Vec<Real, D>& r_x) const {
+    Vec<Real, D> f = v * Real(-linear.normal);
+    if (linear.normal == linear.tangential && !quadratic.present()) return f;
+    const Vec<Real, D> t = r_x * Real(Real(1) / sqrt(Real(r_x.squaredNorm())));
+    const Real along = v.dot(t);
+    const Vec<Real, D> across = v - t * along;
+    const Real speed2 = across.squaredNorm(), speed_along = along < Real(0) ? Real(-along) : along;
+    f -= t * Real(along * Real(Real(linear.tangential - linear.normal) + speed_along * Real(quadratic.tangential)));
+    if (speed2 > Real(0)) f -= across * Real(Real(sqrt(speed2)) * Real(quadratic.normal));
+    return f;
+  }
+
+  /// Adds it to an array like q; returns the power that it takes [W].
+  double add_forces(const ChainView<D>& beam, double* force) const;
+  /// Calls `add(element, matrix)` with the derivatives of minus it by the element's coordinates, and by_v times those
+  /// by their rates.
+  template <class Add>
+  void add_tangent(const ChainView<D>& beam, double by_v, const Add& add) const {
+    if (!present()) return;
+    for (int k = 0; k < beam.mesh.elements(); ++k) {
+      add(k, beam.at_joint(k) ? moving_tangent(beam, k, by_v) : fixed_tangent(beam, k, by_v));
+    }
+  }
+
+ private:
+  PointMatrix<D> fixed_tangent(const ChainView<D>& beam, int k, double by_v) const;
+  PointMatrix<D> moving_tangent(const ChainView<D>& beam, int k, double by_v) const;
+};
+
+}  // namespace vlbeam

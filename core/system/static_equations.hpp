@@ -1,0 +1,84 @@
+#pragma once
+
+#include "core/beam/block_tridiagonal.hpp"
+#include "core/joint/slope_conditions.hpp"
+#include "core/system/beam_system.hpp"
+
+namespace vlbeam {
+
+/// The equilibrium of a beam system with one joint at most, r(u, f) = 0 at the load factor f, and its exact tangent.
+/// The unknowns u are the coordinates of the system's state and, behind them, one multiplier [N m] for each condition
+/// on the slopes of a kinked joint. In them r is the derivative of a potential energy, where forces have one, and the
+/// tangent symmetric: block tridiagonal in the nodes, with the joint's material coordinate, the slope behind it and the
+/// multipliers as its border. What supports, a ring or a sleeve hold is eliminated.
+template <int D>
+class StaticEquations {
+ public:
+  /// `system` must outlive this object; its events may change it at any time.
+  explicit StaticEquations(BeamSystem<D>& system) : system_(system) {}
+
+  /// Whether the joint's material coordinate stays what it is.
+  bool holds_joint() const { return system_.has_joint() && held_; }
+  void hold_joint(bool held) { held_ = held; }
+
+  Eigen::Index size() const { return system_.coordinates() + conditions(); }
+  /// Where the joint's material coordinate stands among the unknowns.
+  Eigen::Index mark() const { return Eigen::Index{B} * (system_.mesh().last() + 1); }
+  int conditions() const;
+  /// What turns where the multipliers of parallel slopes in space change their meaning: starts them again.
+  void choose_conditions(Eigen::VectorXd& u);
+
+  /// r in all directions, that of what is held included: it is what holds it.
+  void reactions(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const;
+  /// The same without what is held.
+  void residual(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const;
+  /// Factors the tangent, plus `by_a` times the mass matrix; false where it is singular.
+  bool linearize(const Eigen::VectorXd& u, double factor, double by_a);
+  void solve(Eigen::VectorXd& r) const { tangent_.solve(r.data()); }
+  /// Of what linearize() factored: the number of directions, within the conditions on the slopes, in which the energy
+  /// falls. `zero` is what counts as no fall, over what a coordinate alone does.
+  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero) - (suspended() ? 0 : conditions()); }
+
+  /// The tangent of the coordinates alone, nothing eliminated, plus `by_a` times the mass matrix.
+  Eigen::MatrixXd dense(const Eigen::VectorXd& u, double factor, double by_a);
+  /// Columns, orthonormal: the directions in which the coordinates may move.
+  Eigen::MatrixXd directions(const Eigen::VectorXd& u) const;
+
+ private:
+  static constexpr int B = node_size<D>;
+  using Block = Eigen::Matrix<double, B, B>;
+  using Keep = Eigen::Matrix<double, D, D>;
+  using Conditions = SlopeConditions<D>;
+
+  /// Conditions that are not met by what holds the joint's slopes.
+  Conditions slope_conditions() const;
+  /// Where a joint is held on the beam the tension may jump, and with it the stretch: multipliers are 0 then.
+  bool suspended() const { return held_ && system_.kinked() && law().slopes == JointSlopes::equal_stretch; }
+  ChainView<D> view(const Eigen::VectorXd& u) const { return system_.view(u.data(), zero_.data()); }
+  /// Projections on what a support leaves free.
+  static Keep keep(const Support<D>& support, const typename Support<D>::Components& free) {
+    return support.frame * free.matrix().asDiagonal() * support.frame.transpose();
+  }
+  /// Of the joint: where its coordinates stand, its law, what holds it in space or null.
+  const JointPlace& place() const { return system_.places().front(); }
+  const SlidingJoint& law() const { return system_.joint(0).law; }
+  const Support<D>* held() const { return system_.has_joint() ? system_.held(0) : nullptr; }
+  template <class Function>
+  void at_held_nodes(const Function& function) const;
+  void assemble(const Eigen::VectorXd& u, double factor, double by_a);
+  void add(const ChainView<D>& beam, int element, const PointMatrix<D>& matrix);
+  void add_conditions(const Eigen::VectorXd& u);
+  void eliminate();
+  void prepare() const { zero_.setZero(system_.coordinates()); }
+
+  BeamSystem<D>& system_;
+  bool held_ = true;
+  int omitted_axis_ = 0;  ///< of tangent slopes in space
+  BorderedBlockTridiagonal<B> tangent_;
+  mutable Eigen::VectorXd zero_;  ///< nothing moves
+};
+
+extern template class StaticEquations<2>;
+extern template class StaticEquations<3>;
+
+}  // namespace vlbeam

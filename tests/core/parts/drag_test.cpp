@@ -1,0 +1,234 @@
+#include "core/parts/drag.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/build.hpp"
+#include "core/system/implicit_beam.hpp"
+#include "tests/core/support/chain_models.hpp"
+#include "tests/core/support/differences.hpp"
+#include "tests/core/support/scenes.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+constexpr double instant = 0.13;
+
+/// A chain in motion through still air, held at its ends.
+template <int D>
+struct InAir {
+  explicit InAir(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated)
+      : random(seed) {
+    auto model = model_of<D>(shape, random);
+    model.start = Support<D>::direction_clamp(random.vector<D>());
+    model.end = Support<D>::pin();
+    model.constraints = constraints;
+    model.quadrature_points = 7;
+    model.drag = {{0.7, 0.3}, {0.5, 0.9}, 7};
+    system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
+    y = system->initial_state();
+  }
+
+  Eigen::VectorXd rates(const Eigen::VectorXd& at) const {
+    Eigen::VectorXd dydt(at.size());
+    system->rhs(at, dydt, instant);
+    return dydt;
+  }
+
+  Random random;
+  std::unique_ptr<BeamSystem<D>> system;
+  Eigen::VectorXd y;
+};
+
+template <class Dimension>
+class DragTest : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(DragTest, Dimensions);
+
+TYPED_TEST(DragTest, IsOfTheVelocityAlongAndAcross) {
+  constexpr int D = TypeParam::value;
+  Random random(2);
+  const Drag<D> drag{{0.7, 0.3}, {0.5, 0.9}, 5};
+  const Vec<double, D> v = random.vector<D>(3), r_x = random.vector<D>(), t = r_x.normalized();
+  const Vec<double, D> f = drag.template force<double>(v, r_x);
+  const double along = v.dot(t), across = (v - along * t).norm();
+  EXPECT_NEAR(f.dot(t), -along * (0.3 + 0.9 * std::abs(along)), 1e-14);
+  EXPECT_NEAR((f - f.dot(t) * t).norm(), across * (0.7 + 0.5 * across), 1e-14);
+  EXPECT_LT(f.dot(v), 0);
+  const Vec<double, D> still = drag.template force<double>(Vec<double, D>::Zero(), r_x);
+  EXPECT_EQ(still.norm(), 0);
+  const Drag<D> even{{0.7, 0.7}, {}, 5};
+  EXPECT_LE((even.template force<double>(v, r_x) + 0.7 * v).norm(), 1e-15);
+}
+
+/// The total counts what is dissipated as still there.
+TYPED_TEST(DragTest, TakesTheEnergyThatIsBooked) {
+  constexpr int D = TypeParam::value;
+  unsigned seed = 5;
+  for (const ChainShape& shape : bearing_shapes) {
+    SCOPED_TRACE(testing::Message() << "elements " << shape.elements << " joint " << shape.joint);
+    const InAir<D> c(shape, seed++);
+    const Eigen::VectorXd rates = c.rates(c.y);
+    EXPECT_GT(rates[rates.size() - 1], 0.01);
+    const double change = slope_of([&](double s) {
+      const auto seen = c.system->observe(c.y + s * rates, instant, c.system->model().quadrature_points);
+      return Eigen::VectorXd::Constant(1, seen.energy.total());
+    })[0];
+    const auto forces = c.system->forces(c.y, instant).supports;  // the random state moves what supports hold
+    const Eigen::Index n = c.system->coordinates(), last = Eigen::Index{node_size<D>} * c.system->mesh().last();
+    const double held = forces[0].dot(c.y.template segment<node_size<D>>(n)) +
+                        forces[1].dot(c.y.template segment<node_size<D>>(n + last));
+    EXPECT_NEAR(change, held, 1e-8 * (1 + std::abs(held)));
+  }
+}
+
+TYPED_TEST(DragTest, IsTheSameToImplicitMethods) {
+  constexpr int D = TypeParam::value;
+  unsigned seed = 25;
+  for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
+    for (const ChainShape& shape : bearing_shapes) {
+      SCOPED_TRACE(testing::Message() << "elements " << shape.elements << " joint " << shape.joint);
+      InAir<D> c(shape, seed++, constraints);
+      auto& implicit = *c.system->second_order();
+      Eigen::VectorXd q, v;
+      implicit.expand(c.y, q, v);
+      Eigen::VectorXd a(q.size()), r(q.size());
+      implicit.acceleration(q, v, instant, a);
+      if (shape.slopes != JointSlopes::continuous && constraints == Constraints::eliminated) continue;
+      const double dissipated = implicit.residual(q, v, a, instant, r);
+      EXPECT_LE(r.norm(), 1e-11 * (1 + a.norm()));
+      EXPECT_NEAR(dissipated, c.rates(c.y)[c.y.size() - 1], 1e-12 * (1 + dissipated));
+
+      // along (d, by_v d, by_a d) the solve undoes the residual's change
+      const double by_v = 7, by_a = 300;
+      a = Eigen::VectorXd::NullaryExpr(q.size(), [&] { return c.random.uniform(-3, 3); });
+      Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(q.size(), [&] { return c.random.uniform(-1, 1); });
+      ASSERT_TRUE(implicit.linearize(q, v, a, instant, by_v, by_a));
+      implicit.residual(q, v, a + d, instant, r);
+      implicit.solve(r);
+      d = r / r.norm();
+      Eigen::VectorXd change = slope_of([&](double s) {
+        implicit.residual(q + s * d, v + s * by_v * d, a + s * by_a * d, instant, r);
+        return r;
+      });
+      implicit.solve(change);
+      EXPECT_LE((change - d).norm(), 1e-6);
+    }
+  }
+}
+
+/// A free rod that falls, along its axis or across it.
+Scene falling_rod(bool across) {
+  Scene scene;
+  scene.beam.elements = 4;
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 6000, .EI = 0.2, .rhoA = 2};
+  if (!across) scene.beam.curve.end = {0, -1, 0};
+  scene.duration = 3;
+  scene.output.interval = 0.5;
+  set_tolerance(scene, IntegratorType::dopri5, 1e-12);
+  return scene;
+}
+
+double largest_energy(const RunResult& run) {
+  double largest = 0;
+  for (const Sample& s : run.samples) largest = std::max(largest, s.energy.kinetic + std::abs(s.energy.gravity));
+  return largest;
+}
+
+/// v' = g - (c/rhoA) v, or g - (q/rhoA) v^2; along the axis and across it nothing strains the rod.
+TEST(Drag, LetsARodFallAtItsTerminalVelocity) {
+  constexpr double g = 9.81, rhoA = 2, c = 3, q = 1.5;
+  for (const bool across : {true, false}) {
+    for (const bool quadratic : {true, false}) {
+      Scene scene = falling_rod(across);
+      DragSpec::Coefficients& of = quadratic ? scene.drag.emplace().quadratic : scene.drag.emplace().linear;
+      (across ? of.normal : of.tangential) = quadratic ? q : c;
+      (across ? of.tangential : of.normal) = 7;
+      for (const auto type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
+        scene.integrator.type = type;
+        const RunResult run = completed(scene);
+        const bool exact = type == IntegratorType::dopri5;
+        const double terminal = quadratic ? std::sqrt(rhoA * g / q) : rhoA * g / c;
+        for (const Sample& s : run.samples) {
+          const double v =
+              quadratic ? terminal * std::tanh(g * s.t / terminal) : terminal * -std::expm1(-c / rhoA * s.t);
+          EXPECT_NEAR(-s.momentum[1] / rhoA, v, exact ? 1e-9 : 1e-5);
+        }
+        EXPECT_LE(run.max_energy_drift, (exact ? 1e-9 : 1e-4) * largest_energy(run));
+        EXPECT_GT(run.samples.back().energy.dissipated, 0.5 * largest_energy(run) - 40);
+      }
+    }
+  }
+}
+
+/// Along a straight bar the engineering strain is linear: u = A sin(pi x/2L) e^(-alpha t/2) (cos w t + alpha/(2 w) sin
+/// w t), w^2 = (pi c/2L)^2 - alpha^2/4.
+TEST(MassDamping, LetsAModeDecay) {
+  constexpr double EA = 200, rhoA = 2, alpha = 3, amplitude = 1e-3, half = std::numbers::pi / 2;
+  Scene scene = falling_rod(true);
+  scene.gravity = {};
+  scene.beam.elements = 12;
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.strain_law = StrainLaw::engineering;
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = 0.2, .rhoA = rhoA};
+  scene.beam.material.mass_damping = alpha;
+  scene.start.type = SupportType::clamp;
+  ChainState<2> chain = build_chain<2>(scene);
+  for (int i = 0; i <= 12; ++i) {
+    const double x = i / 12.0;
+    position<2>(chain.q.data(), i)[0] += amplitude * std::sin(half * x);
+    slope<2>(chain.q.data(), i)[0] += amplitude * half * std::cos(half * x);
+  }
+  BeamSystem<2> system(build_model<2>(scene), chain);
+  const double w = std::sqrt(half * half * EA / rhoA - alpha * alpha / 4);
+  for (const double end : {0.3, 1.0, 2.0}) {
+    Eigen::VectorXd y = system.initial_state();
+    double t = 0;
+    SolverCounters counters;
+    IntegrationOptions options;
+    options.type = IntegratorType::fehlberg78;
+    options.tolerances = {1e-13, 1e-13};
+    ASSERT_TRUE(integrate(system, y, t, end, {}, options, counters));
+    const double decay = std::exp(-alpha * end / 2) * (std::cos(w * end) + alpha / (2 * w) * std::sin(w * end));
+    EXPECT_NEAR((position<2>(y.data(), 12)[0] - 1) / amplitude, decay, 1e-7);
+  }
+}
+
+/// A mass slides along a beam in air, through events.
+TEST(Drag, KeepsTheLedgerWithASlidingMass) {
+  for (const auto element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
+    for (const bool slides : {true, false}) {
+      Scene scene = falling_beam(element, 5);
+      scene.beam.rest_shape = RestShape::as_built;
+      scene.drag = DragSpec{{0.4, 0.1}, {0.3, 0.05}};
+      scene.beam.material.mass_damping = 0.2;
+      scene.duration = 0.42;
+      if (!slides) scene.sliding_mass.reset();
+      set_tolerance(scene, IntegratorType::dopri5, 1e-12);
+      const RunResult run = completed(scene);
+      EXPECT_GT(run.samples.back().energy.dissipated, 1e-2 * largest_energy(run));
+      EXPECT_LE(run.max_energy_drift, 1e-9 * largest_energy(run));
+      EXPECT_EQ(run.events.empty(), !slides);
+      Scene implicit = scene;
+      implicit.integrator = {};
+      implicit.integrator.type = IntegratorType::generalized_alpha;
+      implicit.integrator.step = 1e-4;
+      implicit.duration = 0.3;
+      Scene shorter = scene;
+      shorter.duration = 0.3;
+      const Sample exact = completed(shorter).samples.back();
+      for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
+        implicit.constraints = constraints;
+        const Sample seen = completed(implicit).samples.back();
+        EXPECT_NEAR(seen.end[0], exact.end[0], 2e-5);
+        EXPECT_NEAR(seen.end[1], exact.end[1], 2e-5);
+        EXPECT_NEAR(seen.energy.dissipated, exact.energy.dissipated, 1e-4 * largest_energy(run));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,158 @@
+// Several joints on one beam: masses, rings and sleeves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/support/scenes.hpp"
+
+namespace vlbeam {
+namespace {
+
+SlidingJointSpec mass_at(double position, double mass, double velocity = 0) {
+  SlidingJointSpec joint;
+  joint.mass = mass;
+  joint.position = position;
+  joint.velocity = velocity;
+  return joint;
+}
+
+double largest_ledger(const RunResult& run) { return run.max_energy_drift / run.max_kinetic; }
+
+TEST(SeveralJoints, TwoEqualMassesOnASymmetricBeamStayMirrorImages) {
+  Scene scene = test::rope({mass_at(0.4, 0.5, 1.5), mass_at(1.6, 0.5, -1.5)});
+  const RunResult run = test::completed(scene);
+  EXPECT_GE(run.events.size(), 6U) << "nothing is shown without events";
+  EXPECT_EQ(run.events.size() % 2, 0U);
+  for (const Sample& sample : run.samples) {
+    ASSERT_EQ(sample.joints.size(), 2U);
+    const auto &left = sample.joints[0], &right = sample.joints[1];
+    EXPECT_NEAR(*left.position + *right.position, 2, 1e-9) << "at " << sample.t;
+    EXPECT_NEAR((*left.mass_position)[0] + (*right.mass_position)[0], 2, 1e-9);
+    EXPECT_NEAR((*left.mass_position)[1], (*right.mass_position)[1], 1e-9);
+  }
+  EXPECT_GT(*run.samples.back().joints[0].position, 0.7) << "they slide";
+}
+
+TEST(SeveralJoints, TheEffectOfALightOneIsProportionalToItsMass) {
+  const auto place = [](double light) {
+    Scene scene = test::rope({mass_at(0.5, 0.5, 1)});
+    if (light > 0) scene.sliding_joints.push_back(mass_at(1.45, light));
+    scene.length_control.lower = 0;      // the same events of the first one
+    scene.length_control.end_merge = 0;  // of one mass too
+    scene.duration = 0.12;
+    return test::completed(scene).samples.back();
+  };
+  // three light ones, so that what a mesh with another node changes falls out
+  const auto x = [&](double light) { return *place(light).joint_position; };
+  const double with_4 = x(4e-3), with_2 = x(2e-3), with_1 = x(1e-3);
+  const double first = with_4 - with_2, second = with_2 - with_1;
+  EXPECT_GT(std::abs(first), 1e-7) << "it has an effect";
+  EXPECT_NEAR(first / second, 2, 0.05);
+}
+
+TEST(SeveralJoints, KeepTheLedgerBetweenEventsWithEveryElement) {
+  for (const ElementKind element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
+    SlidingJointSpec ring;
+    ring.support = SupportType::pin;
+    ring.position = 1.0;
+    Scene scene = test::rope({mass_at(0.4, 0.5, 1), ring, mass_at(1.5, 0.2, -0.5)}, element);
+    scene.end.type = SupportType::free;
+    const RunResult run = test::completed(scene);
+    EXPECT_GE(run.events.size(), 2U);
+    EXPECT_LE(largest_ledger(run), 1e-9) << static_cast<int>(element);
+    for (const Sample& sample : run.samples) {
+      EXPECT_NEAR((*sample.joints[1].mass_position)[0], 1, 1e-12);
+      EXPECT_NEAR((*sample.joints[1].mass_position)[1], 0, 1e-12);
+    }
+  }
+}
+
+TEST(SeveralJoints, FrictionIsInTheLedger) {
+  auto rubbing = mass_at(0.6, 0.5, 1);
+  rubbing.friction = AxialFriction{0.2, 0.05};
+  auto other = mass_at(1.3, 0.3, -0.5);
+  other.friction = AxialFriction{0.4, 0.05};
+  Scene scene = test::rope({rubbing, other});
+  scene.duration = 0.15;
+  const RunResult run = test::completed(scene);
+  EXPECT_GT(run.samples.back().energy.dissipated, 0.01 * run.max_kinetic);
+  EXPECT_LE(largest_ledger(run), 1e-9);
+}
+
+TEST(SeveralJoints, GeneralizedAlphaComesNearTheExplicitRunWithItsOrder) {
+  for (const Constraints constraints : {Constraints::eliminated, Constraints::multipliers}) {
+    Scene scene = test::rope({mass_at(0.55, 0.5, 1), mass_at(0.9, 0.3, 0.5), mass_at(1.5, 0.2, -0.5)});
+    scene.duration = 0.08;
+    const Point exact = *test::completed(scene).samples.back().joints[1].mass_position;
+    scene.integrator = {};
+    scene.integrator.type = IntegratorType::generalized_alpha;
+    scene.constraints = constraints;
+    const auto error = [&](double step) {
+      scene.integrator.step = step;
+      const Point at = *test::completed(scene).samples.back().joints[1].mass_position;
+      return std::hypot(at[0] - exact[0], at[1] - exact[1]);
+    };
+    // over five halvings: the error of a single one goes up and down with the vibration, of one joint, too
+    const double coarse = error(4e-4), fine = error(1.25e-5);
+    EXPECT_LE(fine, 1e-8);
+    EXPECT_GT(std::log2(coarse / fine) / 5, 1.5);
+  }
+}
+
+TEST(SeveralJoints, MayLeaveAFreeEndOneAfterTheOther) {
+  Scene scene = test::rope({mass_at(1.2, 0.3, 3), mass_at(1.7, 0.3, 3)});
+  scene.gravity = {0, 0, 0};
+  scene.start = {SupportType::clamp, ClampType::full};
+  scene.end.type = SupportType::free;
+  scene.duration = 0.4;
+  const RunResult run = simulate(scene);
+  ASSERT_EQ(run.status, RunStatus::separated) << run.failure;
+  std::vector<int> left;
+  for (const Event& event : run.events) {
+    if (event.type == EventType::separation) left.push_back(event.joint);
+  }
+  EXPECT_EQ(left, (std::vector<int>{1, 0})) << "the one ahead first";
+  const Sample& last = run.samples.back();
+  EXPECT_FALSE(last.joints[0].position || last.joints[1].position);
+  EXPECT_NEAR((*last.joints[1].mass_position)[0], 1.7 + 3 * 0.4, 1e-6) << "nothing holds it back on a straight beam";
+  EXPECT_NEAR((*last.joints[0].mass_position)[0], 1.2 + 3 * 0.4, 1e-6);
+}
+
+TEST(SeveralJoints, ThatMeetEndTheRunByName) {
+  Scene scene = test::rope({mass_at(0.5, 0.3, 3), mass_at(1.2, 0.3)});
+  scene.gravity = {0, 0, 0};
+  const RunResult run = simulate(scene);
+  EXPECT_EQ(run.status, RunStatus::failed);
+  EXPECT_NE(run.failure.find("joints 0 and 1 met"), std::string::npos) << run.failure;
+  const Sample& last = run.samples.back();
+  EXPECT_NEAR(*last.joints[1].position - *last.joints[0].position, 0.1 * 2 / 16, 1e-9);
+}
+
+TEST(SeveralJoints, RefuseWhatTheyDoNotKnow) {
+  const Scene good = test::rope({mass_at(0.5, 0.3), mass_at(1.2, 0.3)});
+  Scene scene = good;
+  std::swap(scene.sliding_joints[0], scene.sliding_joints[1]);
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/1/position");
+  scene = good;
+  scene.sliding_joints[1].position = 0.5;
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/1/position");
+  scene = good;
+  scene.sliding_joints[1].position = 2;
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/1/position");
+  scene = good;
+  scene.sliding_joints[1].mass = 0;
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/1/mass");
+  scene = good;
+  scene.sliding_joints[0].at_support = AtSupport::rest;
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/0/at_support");
+  scene = good;
+  scene.integrator.type = IntegratorType::energy_momentum;
+  EXPECT_EQ(test::refused(scene), "/integrator/type");
+  scene = good;
+  scene.length_control.lower = 0.6;
+  EXPECT_EQ(test::refused(scene), "/length_control/lower");
+}
+
+}  // namespace
+}  // namespace vlbeam
