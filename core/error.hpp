@@ -22,6 +22,10 @@ class InvalidInput : public std::runtime_error {
   std::string allowed;
 };
 
+[[noreturn]] inline void refuse(std::string field, std::string value, std::string allowed) {
+  throw InvalidInput(std::move(field), std::move(value), std::move(allowed));
+}
+
 /// The computation broke down at time `t` [s]: tangled mesh, step underflow, degenerate curve, event cascade.
 /// Programs answer with exit code 3 and keep what was computed until then.
 class ComputationFailed : public std::runtime_error {

@@ -19,10 +19,6 @@ constexpr double smallest_weight_ratio = 1e-6;
 constexpr double largest_quantity = 1e100;
 constexpr double most_steps = 1e9;
 
-[[noreturn]] void refuse(std::string field, std::string value, std::string allowed) {
-  throw InvalidInput(std::move(field), std::move(value), std::move(allowed));
-}
-
 /// Checks every option against the range of its line in the option table.
 class RangeCheck {
  public:

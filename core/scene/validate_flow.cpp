@@ -15,10 +15,6 @@ namespace {
 
 constexpr double length_tolerance = 0.01;  // of the nodes' initial distance against the curve's length
 
-[[noreturn]] void refuse(const std::string& field, const std::string& value, const std::string& allowed) {
-  throw InvalidInput(field, value, allowed);
-}
-
 template <NamedEnum E>
 std::string quoted(E value) {
   return "\"" + std::string(to_string(value)) + "\"";

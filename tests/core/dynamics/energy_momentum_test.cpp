@@ -22,7 +22,7 @@ RunResult run(Scene scene, double step) {
 }
 
 /// Position of the beam's end and the momentum of everything: a sample of q and of q'.
-Eigen::Vector4d final_state(Scene scene, double step) {
+Eigen::Vector4d state_after(Scene scene, double step) {
   scene.output.interval = scene.duration;
   const RunResult result = run(scene, step);
   const Sample& last = result.samples.back();
@@ -31,10 +31,10 @@ Eigen::Vector4d final_state(Scene scene, double step) {
 
 /// Errors of position and of momentum at three steps, each half the last; orders of the two halvings.
 void expect_second_order(const Scene& scene, double step) {
-  const Eigen::Vector4d exact = final_state(scene, 0);
+  const Eigen::Vector4d exact = state_after(scene, 0);
   std::array<double, 3> position{}, velocity{};
   for (std::size_t i = 0; i < 3; ++i, step /= 2) {
-    const Eigen::Vector4d error = final_state(scene, step) - exact;
+    const Eigen::Vector4d error = state_after(scene, step) - exact;
     position[i] = error.head<2>().norm();
     velocity[i] = error.tail<2>().norm();
   }

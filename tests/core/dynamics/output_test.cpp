@@ -10,16 +10,16 @@
 namespace vlbeam::test {
 namespace {
 
-struct Method {
+struct Choice {
   std::string name;
   IntegratorType type;
   std::function<void(Scene&)> choose = [](Scene&) {};
 };
 
-void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+void PrintTo(const Choice& method, std::ostream* out) { *out << method.name; }
 
 /// With length-control events.
-Scene scene_for(const Method& method) {
+Scene scene_for(const Choice& method) {
   Scene scene = falling_beam(ElementKind::ale_ancf, 5);
   scene.duration = 0.5;
   set_tolerance(scene, method.type, 1e-7);
@@ -32,7 +32,7 @@ void expect_equal(const Reaction& a, const Reaction& b) {
   EXPECT_EQ(a.slope, b.slope);
 }
 
-class Output : public ::testing::TestWithParam<Method> {};
+class Output : public ::testing::TestWithParam<Choice> {};
 
 TEST_P(Output, ChangesNoDigit) {
   if (of_sundials(GetParam().type) && !have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
@@ -89,21 +89,21 @@ constexpr auto generalized_alpha = IntegratorType::generalized_alpha;
 INSTANTIATE_TEST_SUITE_P(
     Methods, Output,
     ::testing::Values(
-        Method{"dopri5", IntegratorType::dopri5}, Method{"fehlberg78", IntegratorType::fehlberg78},
-        Method{"bulirsch_stoer", IntegratorType::bulirsch_stoer},
-        Method{"adams", IntegratorType::adams_bashforth_moulton, [](Scene& scene) { scene.integrator.step = 2e-4; }},
-        Method{"rosenbrock4", IntegratorType::rosenbrock4}, Method{"modified", generalized_alpha},
-        Method{"full", generalized_alpha, [](Scene& scene) { scene.integrator.newton = NewtonKind::full; }},
-        Method{"adaptive", generalized_alpha,
+        Choice{"dopri5", IntegratorType::dopri5}, Choice{"fehlberg78", IntegratorType::fehlberg78},
+        Choice{"bulirsch_stoer", IntegratorType::bulirsch_stoer},
+        Choice{"adams", IntegratorType::adams_bashforth_moulton, [](Scene& scene) { scene.integrator.step = 2e-4; }},
+        Choice{"rosenbrock4", IntegratorType::rosenbrock4}, Choice{"modified", generalized_alpha},
+        Choice{"full", generalized_alpha, [](Scene& scene) { scene.integrator.newton = NewtonKind::full; }},
+        Choice{"adaptive", generalized_alpha,
                [](Scene& scene) {
                  scene.integrator.adaptive = true;
                  scene.integrator.rtol = scene.integrator.atol = 1e-5;
                }},
-        Method{"multipliers", generalized_alpha, with_multipliers},
-        Method{"tangent_slopes", generalized_alpha, tangent_in_space},
-        Method{"energy_momentum", IntegratorType::energy_momentum},
-        Method{"ida", IntegratorType::ida, with_multipliers}, Method{"cvode", IntegratorType::cvode},
-        Method{"arkode", IntegratorType::arkode}),
+        Choice{"multipliers", generalized_alpha, with_multipliers},
+        Choice{"tangent_slopes", generalized_alpha, tangent_in_space},
+        Choice{"energy_momentum", IntegratorType::energy_momentum},
+        Choice{"ida", IntegratorType::ida, with_multipliers}, Choice{"cvode", IntegratorType::cvode},
+        Choice{"arkode", IntegratorType::arkode}),
     [](const auto& of) { return of.param.name; });
 
 }  // namespace

@@ -34,13 +34,13 @@ double error_of_equal_steps(IntegratorType type, int steps) {
   return std::hypot(y[0] - std::cos(2) - std::cos(w * 2), y[1] + std::sin(2) + w * std::sin(w * 2));
 }
 
-struct Method {
+struct MethodOrder {
   IntegratorType type;
   double order;
   int coarsest;  ///< steps; four times as many still err well above roundoff
 };
 
-class StepperOrder : public ::testing::TestWithParam<Method> {};
+class StepperOrder : public ::testing::TestWithParam<MethodOrder> {};
 
 TEST_P(StepperOrder, IsThatOfTheMethod) {
   const auto [type, order, n] = GetParam();
@@ -51,11 +51,11 @@ TEST_P(StepperOrder, IsThatOfTheMethod) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Odeint, StepperOrder,
-                         ::testing::Values(Method{IntegratorType::dopri5, 5, 16},
-                                           Method{IntegratorType::cash_karp, 5, 16},
-                                           Method{IntegratorType::fehlberg78, 8, 6},
-                                           Method{IntegratorType::adams_bashforth_moulton, 5, 64},
-                                           Method{IntegratorType::rosenbrock4, 4, 16}));
+                         ::testing::Values(MethodOrder{IntegratorType::dopri5, 5, 16},
+                                           MethodOrder{IntegratorType::cash_karp, 5, 16},
+                                           MethodOrder{IntegratorType::fehlberg78, 8, 6},
+                                           MethodOrder{IntegratorType::adams_bashforth_moulton, 5, 64},
+                                           MethodOrder{IntegratorType::rosenbrock4, 4, 16}));
 
 TEST(Stepper, ARejectedStepChangesNothingButItsLength) {
   for (const IntegratorType type : integrators) {

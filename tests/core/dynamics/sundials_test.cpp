@@ -23,7 +23,7 @@ Scene scene_for(IntegratorType type, double tolerance, double damping = 0) {
   return scene;
 }
 
-double difference(const RunResult& a, const RunResult& b) {
+double sample_difference(const RunResult& a, const RunResult& b) {
   EXPECT_EQ(a.samples.size(), b.samples.size());
   EXPECT_EQ(a.events.size(), b.events.size());
   double largest = 0;
@@ -55,7 +55,7 @@ TEST_P(Sundials, TakesAbsoluteTolerancesByKind) {
   for (const double tolerance : {1e-6, 1e-8}) {
     Scene scene = scene_for(GetParam(), tolerance, 1e-4);
     scene.integrator.atol_by_kind = {tolerance, 3 * tolerance, {}, {}};
-    EXPECT_LE(difference(finished(scene), exact), 2000 * tolerance);
+    EXPECT_LE(sample_difference(finished(scene), exact), 2000 * tolerance);
   }
 }
 
@@ -64,7 +64,7 @@ TEST_P(Sundials, AgreesWithFehlbergToItsTolerance) {
   ASSERT_GE(exact.events.size(), 2u);
   double last = 1;
   for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
-    const double error = difference(finished(scene_for(GetParam(), tolerance)), exact);
+    const double error = sample_difference(finished(scene_for(GetParam(), tolerance)), exact);
     EXPECT_LE(error, 2000 * tolerance);
     EXPECT_LT(error, last / 3);
     last = error;
@@ -74,7 +74,7 @@ TEST_P(Sundials, AgreesWithFehlbergToItsTolerance) {
 TEST_P(Sundials, CountsWhatDampingDissipates) {
   const RunResult exact = finished(scene_for(IntegratorType::fehlberg78, 1e-11, 1e-3));
   EXPECT_GT(exact.samples.back().energy.dissipated, 1e-3);
-  EXPECT_LE(difference(finished(scene_for(GetParam(), 1e-8, 1e-3)), exact), 1e-4);
+  EXPECT_LE(sample_difference(finished(scene_for(GetParam(), 1e-8, 1e-3)), exact), 1e-4);
 }
 
 TEST_P(Sundials, FollowsTheFallingBeamOfTenElements) {
@@ -85,7 +85,7 @@ TEST_P(Sundials, FollowsTheFallingBeamOfTenElements) {
   ASSERT_GE(exact.events.size(), 3U);
   scene.constraints = GetParam() == IntegratorType::ida ? Constraints::multipliers : Constraints::eliminated;
   set_tolerance(scene, GetParam(), 1e-8);
-  EXPECT_LE(difference(finished(scene), exact), 1e-8);
+  EXPECT_LE(sample_difference(finished(scene), exact), 1e-8);
 }
 
 /// A stretch without events, on which forces grow smoothly.
@@ -99,7 +99,7 @@ Scene smooth_scene(IntegratorType type, double tolerance) {
 TEST_P(Sundials, AgreesOnASmoothStretch) {
   const RunResult exact = finished(smooth_scene(IntegratorType::fehlberg78, 1e-12));
   EXPECT_TRUE(exact.events.empty());
-  EXPECT_LE(difference(finished(smooth_scene(GetParam(), 1e-10)), exact), 2e-9);
+  EXPECT_LE(sample_difference(finished(smooth_scene(GetParam(), 1e-10)), exact), 2e-9);
 }
 
 TEST(Ida, KeepsConstraints) {
@@ -137,7 +137,7 @@ TEST(Ida, TakesTwoSlopesAtTheMass) {
     scene.constraints = Constraints::multipliers;
     set_tolerance(scene, IntegratorType::ida, 1e-9);
     const RunResult by_ida = finished(scene);
-    EXPECT_LE(difference(by_ida, exact), 1e-10);
+    EXPECT_LE(sample_difference(by_ida, exact), 1e-10);
     EXPECT_LE(by_ida.solver.newton.constraints.position, 1e-9);
   }
 }

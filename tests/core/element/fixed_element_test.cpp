@@ -8,8 +8,6 @@
 namespace vlbeam::test {
 namespace {
 
-constexpr double tolerance = 1e-12;
-
 template <class Dimension>
 class FixedElement : public ElementUnderTest<Dimension> {
  protected:
@@ -58,7 +56,7 @@ TYPED_TEST(FixedElement, ForceIsMinusTheGradientOfTheEnergy) {
   this->for_each_element(4, [this](const Kind&) {
     this->fix_ends();
     const auto exact = this->without_ends(this->oracle_.elastic_force(this->q_));
-    EXPECT_LE(relative_difference(this->force(false), exact), tolerance);
+    EXPECT_LE(relative_difference(this->force(false), exact), rounding);
   });
 }
 
@@ -66,7 +64,7 @@ TYPED_TEST(FixedElement, DampingForceIsTheGradientOfTheDissipationFunction) {
   this->for_each_element(4, [this](const Kind&) {
     this->fix_ends();
     const auto exact = this->without_ends(this->oracle_.viscous_force(this->q_, this->rate_));
-    EXPECT_LE(relative_difference(this->force(true) - this->force(false), exact), tolerance);
+    EXPECT_LE(relative_difference(this->force(true) - this->force(false), exact), rounding);
   });
 }
 
@@ -78,8 +76,8 @@ TYPED_TEST(FixedElement, MassAndLoadAreIntegralsOfTheShapeFunctions) {
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) EXPECT_DOUBLE_EQ(m[i][j], m[j][i]);
     }
-    EXPECT_NEAR(m[0][0] + m[0][2] + m[2][0] + m[2][2], l, tolerance);
-    EXPECT_NEAR(inertia.load[0] + inertia.load[2], l, tolerance);
+    EXPECT_NEAR(m[0][0] + m[0][2] + m[2][0] + m[2][2], l, rounding);
+    EXPECT_NEAR(inertia.load[0] + inertia.load[2], l, rounding);
     if (kind.rational) return;
     // consistent mass of the cubic Hermite beam: l/420 times the textbook's integers
     const double exact[4][4] = {{156, 22 * l, 54, -13 * l},

@@ -8,11 +8,11 @@
 namespace vlbeam::test {
 namespace {
 
-constexpr std::array<double, 5> points{-0.1, 0, 0.35, 1, 1.2};
+constexpr std::array<double, 5> within_and_beyond{-0.1, 0, 0.35, 1, 1.2};
 
 TEST(ShapeFunctions, ThoseOfThePositionsSumToOne) {
   Random random(4);
-  for (const double u : points) {
+  for (const double u : within_and_beyond) {
     const auto f = rational_shape(random.weights(5), u), h = hermite_shape(u);
     EXPECT_NEAR(f[0][0] + f[2][0], 1, 1e-14);
     EXPECT_NEAR(h[0][0] + h[2][0], 1, 1e-14);
@@ -24,7 +24,7 @@ TEST(ShapeFunctions, ThoseOfThePositionsSumToOne) {
 }
 
 TEST(ShapeFunctions, EqualWeightsGiveHermites) {
-  for (const double u : points) {
+  for (const double u : within_and_beyond) {
     const auto f = rational_shape<double>({0.4, 0.4, 0.4, 0.4}, u), h = hermite_shape(u);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t n = 0; n < 4; ++n) EXPECT_NEAR(f[i][n], h[i][n], 1e-13 * (1 + std::abs(h[i][n])));
@@ -33,7 +33,7 @@ TEST(ShapeFunctions, EqualWeightsGiveHermites) {
 }
 
 TEST(ShapeFunctions, HermitesAreTheKnownCubics) {
-  for (const double u : points) {
+  for (const double u : within_and_beyond) {
     const auto h = hermite_shape(u);
     const std::array<double, 4> exact{1 - 3 * u * u + 2 * u * u * u, u - 2 * u * u + u * u * u,
                                       3 * u * u - 2 * u * u * u, u * u * u - u * u};
@@ -59,7 +59,7 @@ TEST(ShapeFunctions, TheirCurveIsTheRationalCubic) {
   const double l = 0.7;
   const NodalCubic<double, 3> e{random.vector<3>(), random.vector<3>(), random.vector<3>(), random.vector<3>()};
   const auto curve = RationalCubic<double, 3>::from_nodal(e, l, w);
-  for (const double u : points) {
+  for (const double u : within_and_beyond) {
     const auto f = rational_shape(w, u);
     const auto r = curve.evaluate(u);
     for (std::size_t n = 0; n < 4; ++n) {
@@ -73,7 +73,7 @@ TEST(ShapeFunctions, HigherOnesAreDerivativesOfTheFirst) {
   using Second = Dual<Dual<double>>;
   using Third = Dual<Second>;
   Random random(4);
-  for (const double at : points) {
+  for (const double at : within_and_beyond) {
     const auto w = random.weights(5);
     const Third u(Second(Dual<double>(at, 1), 1), 1);
     const auto exact = rational_shape<Third>({Third(w[0]), Third(w[1]), Third(w[2]), Third(w[3])}, u);

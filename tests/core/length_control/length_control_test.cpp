@@ -12,8 +12,6 @@ namespace {
 
 constexpr double standard = 0.2;
 constexpr std::array<MergePolicy, 2> policies{MergePolicy::point_fit, MergePolicy::unit};
-constexpr std::array<WeightTransport, 2> transports{WeightTransport::frozen, WeightTransport::transported};
-
 /// Position and slope of node k of a nodal array.
 template <int D>
 Vec<double, node_size<D>> node(const std::vector<double>& nodes, int k) {

@@ -67,8 +67,6 @@ TYPED_TEST_SUITE(Segmentation, Dimensions, DimensionNames);
 constexpr double size = 1;  // of the chains: positions reach about 0.6, speeds about 2
 constexpr double speed = 4;
 constexpr std::array<double, 3> shares{0.3, 0.5, 2.0 / 3};
-constexpr std::array<WeightTransport, 2> transports{WeightTransport::frozen, WeightTransport::transported};
-
 TYPED_TEST(Segmentation, KeepsTheCurveAndItsParametrization) {
   for (const WeightTransport transport : transports) {
     for (const double ratio : {1.0, 3.0, 10.0}) {

@@ -9,7 +9,7 @@
 namespace vlbeam::test {
 namespace {
 
-constexpr double instant = 0.13;
+constexpr double now = 0.13;
 
 /// A loaded chain in motion, with masses on it, held at its ends.
 template <int D>
@@ -29,7 +29,7 @@ struct Loaded {
 
   Eigen::VectorXd rates() const {
     Eigen::VectorXd dydt(y.size());
-    system->rhs(y, dydt, instant);
+    system->rhs(y, dydt, now);
     return dydt;
   }
 
@@ -55,10 +55,10 @@ TYPED_TEST(LoadsTest, DoTheWorkThatIsBooked) {
     ASSERT_GT(std::abs(power), 0.01);
     // the random state moves what supports hold
     const double change = slope_of([&](double s) {
-      const auto seen = c.system->observe(c.y + s * rates, instant, c.system->model().quadrature_points);
+      const auto seen = c.system->observe(c.y + s * rates, now, c.system->model().quadrature_points);
       return Eigen::VectorXd::Constant(1, seen.energy.total());
     })[0];
-    const auto forces = c.system->forces(c.y, instant).supports;
+    const auto forces = c.system->forces(c.y, now).supports;
     const Eigen::Index n = c.system->coordinates(), last = Eigen::Index{node_size<D>} * c.system->mesh().last();
     const double held = forces[0].dot(c.y.template segment<node_size<D>>(n)) +
                         forces[1].dot(c.y.template segment<node_size<D>>(n + last));
@@ -77,23 +77,23 @@ TYPED_TEST(LoadsTest, AreTheSameToImplicitMethods) {
       Eigen::VectorXd q, v;
       implicit.expand(c.y, q, v);
       Eigen::VectorXd a(q.size()), r(q.size());
-      implicit.acceleration(q, v, instant, a);
+      implicit.acceleration(q, v, now, a);
       const double power = c.rates()[c.y.size() - 1];
-      EXPECT_NEAR(implicit.supplied_power(q, v, a, instant).loads, power, 1e-12 * (1 + std::abs(power)));
+      EXPECT_NEAR(implicit.supplied_power(q, v, a, now).loads, power, 1e-12 * (1 + std::abs(power)));
       if (shape.slopes != JointSlopes::continuous && constraints == Constraints::eliminated) continue;
-      implicit.residual(q, v, a, instant, r);
+      implicit.residual(q, v, a, now, r);
       EXPECT_LE(r.norm(), 1e-11 * (1 + a.norm()));
 
       // along (d, by_v d, by_a d) the solve undoes the residual's change
       const double by_v = 7, by_a = 300;
       a = Eigen::VectorXd::NullaryExpr(q.size(), [&] { return c.random.uniform(-3, 3); });
       Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(q.size(), [&] { return c.random.uniform(-1, 1); });
-      ASSERT_TRUE(implicit.linearize(q, v, a, instant, by_v, by_a));
-      implicit.residual(q, v, a + d, instant, r);
+      ASSERT_TRUE(implicit.linearize(q, v, a, now, by_v, by_a));
+      implicit.residual(q, v, a + d, now, r);
       implicit.solve(r);
       d = r / r.norm();
       Eigen::VectorXd change = slope_of([&](double s) {
-        implicit.residual(q + s * d, v + s * by_v * d, a + s * by_a * d, instant, r);
+        implicit.residual(q + s * d, v + s * by_v * d, a + s * by_a * d, now, r);
         return r;
       });
       implicit.solve(change);
@@ -117,15 +117,15 @@ TYPED_TEST(LoadsTest, JacobianHasThem) {
     };
     Eigen::MatrixXd dfdy(size, size);
     Eigen::VectorXd dfdt(size), d = Eigen::VectorXd::Zero(size);
-    c.system->jacobian(c.y, instant, dfdy, dfdt);
+    c.system->jacobian(c.y, now, dfdy, dfdt);
     Eigen::VectorXd other = c.y;
     for (Eigen::Index k = 0; k < n; ++k) other[k] += c.random.uniform(-0.01, 0.01);
-    d.head(n) = (f(other, instant) - f(c.y, instant)).segment(n, n).normalized();  // as supports allow
+    d.head(n) = (f(other, now) - f(c.y, now)).segment(n, n).normalized();  // as supports allow
     d.segment(n, n) = d.head(n).reverse().eval();
-    d.segment(n, n) = (f(c.y + 0.01 * d, instant) - f(c.y, instant)).segment(n, n).normalized();
-    const Eigen::VectorXd expected = slope_of([&](double s) { return f(c.y + s * d, instant); });
+    d.segment(n, n) = (f(c.y + 0.01 * d, now) - f(c.y, now)).segment(n, n).normalized();
+    const Eigen::VectorXd expected = slope_of([&](double s) { return f(c.y + s * d, now); });
     EXPECT_LE((dfdy * d - expected).norm(), 1e-6 * expected.norm());
-    const Eigen::VectorXd in_time = slope_of([&](double s) { return f(c.y, instant + s); });
+    const Eigen::VectorXd in_time = slope_of([&](double s) { return f(c.y, now + s); });
     EXPECT_GT(in_time.norm(), 0);
     EXPECT_LE((dfdt - in_time).norm(), 1e-6 * in_time.norm());
   }

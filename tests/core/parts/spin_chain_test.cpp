@@ -13,7 +13,7 @@ namespace {
 template <class Real>
 using Column = Eigen::Matrix<Real, 6, 1>;  // angle and twist at A, at B, x_A, x_B
 
-constexpr SpinSection section{1.3, 0.9, 0};
+constexpr SpinSection spinning{1.3, 0.9, 0};
 
 /// Angle of the material point x: the cubic with the nodal angles and twists, from its divided differences.
 template <class Real>
@@ -33,7 +33,7 @@ Real lagrangian(const Column<Real>& q, const Column<Real>& rate) {
     const Real omega = angle<Dual<Real>>(in_motion(q, rate), Dual<Real>(x, Real(0))).rate;
     const Column<Real> still = Column<Real>::Zero();
     const Real twist = angle<Dual<Real>>(in_motion(q, still), Dual<Real>(x, Real(1))).rate;
-    sum += Real(w) * l * (Real(section.rhoIp / 2) * omega * omega - Real(section.GIp / 2) * twist * twist);
+    sum += Real(w) * l * (Real(spinning.rhoIp / 2) * omega * omega - Real(spinning.GIp / 2) * twist * twist);
   }
   return sum;
 }
@@ -45,7 +45,7 @@ SpinChain::Coordinates coordinates(const Column<double>& q) {
 
 TEST(SpinChain, CubicAngleFollowsLagrangesEquationsOfTheMovingElement) {
   Random random(3);
-  const SpinChain chain(section, AngleField::hermite, Formulation::variational, 1, 5, {});
+  const SpinChain chain(spinning, AngleField::hermite, Formulation::variational, 1, 5, {});
   for (int repeat = 0; repeat < 8; ++repeat) {
     Column<double> q = random.vector<6>(), rate = random.vector<6>(), a = random.vector<6>();
     q[4] = 0.3;
@@ -63,8 +63,8 @@ TEST(SpinChain, CubicAngleFollowsLagrangesEquationsOfTheMovingElement) {
 }
 
 TEST(SpinChain, CubicAngleThatIsLinearHasTheTwistOfTheClosedForm) {
-  const SpinChain linear(section, AngleField::linear, Formulation::variational, 1, 5, {});
-  const SpinChain cubic(section, AngleField::hermite, Formulation::variational, 1, 5, {});
+  const SpinChain linear(spinning, AngleField::linear, Formulation::variational, 1, 5, {});
+  const SpinChain cubic(spinning, AngleField::hermite, Formulation::variational, 1, 5, {});
   Column<double> q, rate;
   q << 0.2, 0.5, 0.7, 0.5, 0.1, 1.1;  // twist 0.5 all along
   rate << 1, 0, 1.4, 0, -0.3, 0.7;

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "core/system/beam_system.hpp"
 #include "tests/core/support/chain_states.hpp"
 
 namespace vlbeam::test {
+
+inline constexpr std::array all_slopes{JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free};
 
 /// A free beam, with a sliding mass if the shape has a joint; stiffness, mass and gravity of ordinary size.
 template <int D>

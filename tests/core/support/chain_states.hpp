@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {
+
+inline constexpr std::array transports{WeightTransport::frozen, WeightTransport::transported};
 
 inline constexpr int no_joint = -1;
 

@@ -74,6 +74,8 @@ DenseEquations<D> dense(const MovingEquations<double, D>& eq) {
 }
 
 /// Largest entry of a - b over the largest of b.
+inline constexpr double rounding = 1e-12;  // of what is computed in two ways, relative
+
 template <class A, class B>
 double relative_difference(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();

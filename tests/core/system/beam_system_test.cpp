@@ -199,11 +199,9 @@ class BeamSystemOf : public ::testing::Test {
 };
 TYPED_TEST_SUITE(BeamSystemOf, Dimensions, DimensionNames);
 
-constexpr std::array<JointSlopes, 3> kinks{JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free};
-
 TYPED_TEST(BeamSystemOf, AKinkedJointsAccelerationsAreThoseOfADenseSolve) {
   constexpr int D = TypeParam::value;
-  for (const auto slopes : kinks) {
+  for (const auto slopes : all_slopes) {
     for (const auto& kind : element_family) {
       SCOPED_TRACE(std::string(kind.name()) + ", slopes " + std::to_string(static_cast<int>(slopes)));
       for (const int joint : {1, 3}) {

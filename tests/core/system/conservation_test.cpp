@@ -132,10 +132,8 @@ TYPED_TEST(FreeBeam, VirtualWorkLosesEnergyWhereTheVariationalEquationsKeepIt) {
 
 /// Two slopes at the joint: the momentum that they pass from one to the other as the joint moves is part of the
 /// discrete Lagrangian, and of no virtual work at fixed material points.
-constexpr std::array<JointSlopes, 3> kinks{JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free};
-
 TYPED_TEST(FreeBeam, KeepsItsMomentaAndItsEnergyWithAKinkAtTheJoint) {
-  for (const auto slopes : kinks) {
+  for (const auto slopes : all_slopes) {
     for (const auto& kind : element_family) {
       SCOPED_TRACE(std::string(kind.name()) + ", slopes " + std::to_string(static_cast<int>(slopes)));
       const ChainShape shape{

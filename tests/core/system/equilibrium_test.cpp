@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
+#include "tests/core/support/scenes.hpp"
 
-namespace vlbeam {
+namespace vlbeam::test {
 namespace {
 
 Scene straight(int elements, double EA, double EI) {
@@ -20,12 +20,6 @@ Scene straight(int elements, double EA, double EI) {
   scene.beam.elements = elements;
   scene.start.type = SupportType::clamp;
   return scene;
-}
-
-RunResult solved(const Scene& scene) {
-  RunResult result = simulate(scene);
-  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
-  return result;
 }
 
 double distance(const Point& a, double x, double y) { return std::hypot(a[0] - x, a[1] - y); }
@@ -56,7 +50,7 @@ TEST(Statics, EndMomentRollsABeamUp) {
                     .x = {},
                     .magnitude = {.value = 2 * std::numbers::pi * 100 / 3},
                     .turn = {}}};
-    const RunResult result = solved(scene);
+    const RunResult result = completed(scene);
     EXPECT_EQ(result.samples.size(), 11U);
     EXPECT_EQ(result.samples.back().equilibrium->negative_pivots, 0);
     errors.push_back(distance(result.samples.back().end, 0.06193394864661416, 0.01298778587883767));
@@ -72,14 +66,14 @@ TEST(Statics, ElasticaOfThisLaw) {
   Scene scene = straight(32, 0, 0);
   scene.beam.section = {.radius = 0.01};
   scene.loads = {{.node = 32, .x = {}, .magnitude = {.value = 0.2 * std::numbers::pi}, .turn = {}}};
-  EXPECT_LT(distance(solved(scene).samples.back().end, 0.671038728694, 0.670119114398), 2e-7);
+  EXPECT_LT(distance(completed(scene).samples.back().end, 0.671038728694, 0.670119114398), 2e-7);
 }
 
 /// Irvine's closed form, which needs the linear law, from a cable that holds nothing at first.
 TEST(Statics, ElasticCatenary) {
   Scene scene = cable(64, 10);
   scene.beam.strain_law = StrainLaw::engineering;
-  const RunResult result = solved(scene);
+  const RunResult result = completed(scene);
   EXPECT_NEAR(result.configurations.back().r[32][1], -0.54887345701418, 1e-7);
   EXPECT_NEAR(std::abs(result.samples.back().reactions[0].position[0]), 0.27971378560362, 1e-8);
   EXPECT_EQ(result.samples.back().equilibrium->negative_pivots, 0);
@@ -92,7 +86,7 @@ TEST(Statics, CountsDirectionsOfInstability) {
            {0.98 * euler, 0}, {1.02 * euler, 1}, {8.98 * euler, 1}, {9.02 * euler, 2}}) {
     Scene scene = straight(16, 1e7, 1);
     scene.loads = {{.node = 16, .x = {}, .magnitude = {.value = load}, .direction = {-1, 0, 0}, .turn = {}}};
-    EXPECT_EQ(solved(scene).samples.back().equilibrium->negative_pivots, falls) << load / euler;
+    EXPECT_EQ(completed(scene).samples.back().equilibrium->negative_pivots, falls) << load / euler;
   }
 }
 
@@ -113,7 +107,7 @@ Scene arch(LoadControl control) {
 }
 
 TEST(Statics, ArchSnapsThroughAlongItsPath) {
-  const RunResult result = solved(arch(LoadControl::arc_length));
+  const RunResult result = completed(arch(LoadControl::arc_length));
   double largest = 0, least = 1;
   int falling = 0;
   const auto& samples = result.samples;
@@ -152,7 +146,7 @@ TEST(Statics, MechanismIsNamed) {
   Scene scene = straight(8, 1e4, 1);
   scene.gravity = {0, -9.81, 0};
   scene.start.type = SupportType::pin;
-  const RunResult hanging = solved(scene);
+  const RunResult hanging = completed(scene);
   EXPECT_LT(distance(hanging.samples.back().end, 0, -hanging.samples.back().beam_length), 1e-6);
   scene.start.type = SupportType::slide;
   scene.gravity = {1, 0, 0};
@@ -177,7 +171,7 @@ TEST(Frequencies, OfBeams) {
       scene.start = {.type = c.start, .clamp = ClampType::full};
       scene.end.type = c.end;
       scene.statics = {.steps = 1, .frequencies = 4};
-      const RunResult result = solved(scene);
+      const RunResult result = completed(scene);
       ASSERT_EQ(result.frequencies.size(), 4U);
       errors.push_back(result.frequencies[c.rigid] / (c.b * c.b / (2 * std::numbers::pi)) - 1);
       for (std::size_t i = 0; i < c.rigid; ++i) EXPECT_NEAR(result.frequencies[i], 0, 1e-3);
@@ -194,7 +188,7 @@ TEST(Frequencies, OfAHangingChain) {
   scene.beam.curve.end = {0, -1, 0};
   scene.start.type = SupportType::pin;
   scene.statics = {.steps = 1, .frequencies = 3};
-  const RunResult result = solved(scene);
+  const RunResult result = completed(scene);
   const std::array zeros{2.404825557695773, 5.520078110286311, 8.653727912911013};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(result.frequencies[i] / (zeros[i] / (4 * std::numbers::pi)), 1, 1e-6);
@@ -209,8 +203,8 @@ TEST(Frequencies, OfAMassOnACantilever) {
   scene.point_masses = {{8, 100}};
   scene.statics = {.steps = 1, .frequencies = 1};
   const double expected = std::sqrt(3 / (100 + 33.0 / 140)) / (2 * std::numbers::pi);
-  EXPECT_NEAR(solved(scene).frequencies[0] / expected, 1, 1e-5);
+  EXPECT_NEAR(completed(scene).frequencies[0] / expected, 1, 1e-5);
 }
 
 }  // namespace
-}  // namespace vlbeam
+}  // namespace vlbeam::test

@@ -10,13 +10,13 @@
 namespace vlbeam::test {
 namespace {
 
-const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e7};
+const CircularShaft soft_shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e7};
 
 /// Nodes at rest, at 0 and length, but for what the tests make of them.
 template <int D>
 FlowingModel<D> resting(int elements, double length = 1) {
   FlowingModel<D> model;
-  model.section = shaft.section();
+  model.section = soft_shaft.section();
   model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(length, 0)}});
   return model;
 }
@@ -94,7 +94,7 @@ TYPED_TEST(FlowingBeamTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
 TYPED_TEST(FlowingBeamTest, DrivenAnglesFollowTheirFunctions) {
   constexpr int D = TypeParam::value;
   FlowingModel<D> model = resting<D>(4);
-  model.spin.emplace().section = shaft.spin();
+  model.spin.emplace().section = soft_shaft.spin();
   model.spin->drives = {{0, [](double t) { return Prescribed{t * t, 2 * t, 2}; }}};
   FlowingBeam<D> beam(model);
   Eigen::VectorXd y = random_state(beam, this->random_), dydt(y.size());
@@ -106,7 +106,7 @@ TYPED_TEST(FlowingBeamTest, StaticTorqueIsExactWithOneElement) {
   constexpr int D = TypeParam::value;
   const double length = 1.7, torque = 0.3;
   FlowingModel<D> model = resting<D>(1, length);
-  model.spin.emplace().section = shaft.spin();
+  model.spin.emplace().section = soft_shaft.spin();
   model.supports = {{0, Support<D>::clamp()}};
   model.spin->drives = {{0, steadily(0, 0)}};
   model.spin->torques.points = {{.node = 1, .torque = [=](double) { return torque; }}};
@@ -122,7 +122,7 @@ TEST(FlowingBeam, WithoutSpinThereIsNoAngle) {
   const FlowingBeam<3> plain(resting<3>(4));
   EXPECT_EQ(plain.coordinates(), 6 * 5);
   FlowingModel<3> model = resting<3>(4);
-  model.spin.emplace().section = shaft.spin();
+  model.spin.emplace().section = soft_shaft.spin();
   EXPECT_EQ(FlowingBeam<3>(model).coordinates(), 7 * 5);
 }
 
@@ -131,7 +131,7 @@ TEST(FlowingBeam, SpinLeavesTheAxisAlone) {
   FlowingModel<3> model = resting<3>(4);
   model.motion = MeshMotion({{0, steadily(0, -2)}, {4, steadily(1, -1)}});
   FlowingBeam<3> plain(model);
-  model.spin.emplace().section = shaft.spin();
+  model.spin.emplace().section = soft_shaft.spin();
   FlowingBeam<3> spinning(model);
   const Eigen::VectorXd y = random_state(spinning, random);
   const Eigen::Index n = plain.coordinates(), m = spinning.coordinates();
@@ -169,7 +169,7 @@ TEST(FlowingBeam, StopsWhereItsNodesTangle) {
 template <class Change>
 std::string field_of(const Change& change) {
   FlowingModel<3> model = resting<3>(4);
-  model.spin.emplace().section = shaft.spin();
+  model.spin.emplace().section = soft_shaft.spin();
   change(model);
   try {
     const FlowingBeam<3> beam(model);

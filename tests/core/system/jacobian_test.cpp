@@ -14,13 +14,13 @@ TYPED_TEST_SUITE(JacobianTest, Dimensions);
 /// Along random directions that the supports allow, against fourth-order differences of the right-hand side.
 TYPED_TEST(JacobianTest, IsTheDerivativeOfTheRightHandSide) {
   constexpr int D = TypeParam::value;
-  const std::vector<ChainShape> shapes{{.elements = 4, .joint = no_joint},
+  const std::vector<ChainShape> chains{{.elements = 4, .joint = no_joint},
                                        {.elements = 5, .joint = 2, .rational = true},
                                        {.elements = 5, .joint = 1, .transport = WeightTransport::transported},
                                        {.elements = 4, .rational = true, .rider = 3},
                                        {.elements = 4, .rider = 0, .held = true}};
   unsigned seed = 21;
-  for (const auto& shape : shapes) {
+  for (const auto& shape : chains) {
     for (const auto& [damping, friction] : {std::pair{0.0, 0.0}, {0.01, 0.0}, {0.01, 0.3}}) {
       Random random(seed++);
       auto model = model_of<D>(shape, random);

@@ -10,29 +10,29 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
 #include "core/system/static_equations.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
+#include "tests/core/support/scenes.hpp"
 
-namespace vlbeam {
+namespace vlbeam::test {
 namespace {
 
 /// The tangent is the derivative of what is free of the residual. Under dead forces it is symmetric, and the inertia
 /// that block LU counts is that of the dense matrix on the directions in which the coordinates may move.
 template <int D>
 void expect_tangent(JointSlopes slopes, std::optional<Support<D>> in_space, bool held, bool loaded, unsigned seed) {
-  test::Random random(seed);
-  const test::ChainShape shape{.elements = 5, .joint = 2, .rational = true, .slopes = slopes};
-  BeamModel<D> model = test::model_of<D>(shape, random);
+  Random random(seed);
+  const ChainShape shape{.elements = 5, .joint = 2, .rational = true, .slopes = slopes};
+  BeamModel<D> model = model_of<D>(shape, random);
   model.start = Support<D>::direction_clamp(random.vector<D>());
   model.end = Support<D>::pin();
   model.joints.front().support = in_space;
   if (loaded) {
-    model.loads = test::loads_on<D>(5 * shape.element_length, random);
-    model.masses = test::masses_on<D>(5 * shape.element_length);
+    model.loads = loads_on<D>(5 * shape.element_length, random);
+    model.masses = masses_on<D>(5 * shape.element_length);
   }
-  BeamSystem<D> system(model, test::random_chain<D>(shape, random));
+  BeamSystem<D> system(model, random_chain<D>(shape, random));
   StaticEquations<D> equations(system);
   equations.hold_joint(held);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(equations.size());
@@ -59,7 +59,7 @@ void expect_tangent(JointSlopes slopes, std::optional<Support<D>> in_space, bool
       equations.solve(r);
       d = r / r.norm();
     } else {
-      r = test::slope_of(residual);
+      r = slope_of(residual);
       equations.solve(r);
       EXPECT_LE((r - d).norm(), 1e-6);
     }
@@ -120,12 +120,6 @@ SlidingJointSpec joint_at(double x, SupportType support, double mass = 0) {
   return joint;
 }
 
-RunResult solved(const Scene& scene) {
-  RunResult result = simulate(scene);
-  EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
-  return result;
-}
-
 /// A rod of the given length through a sleeve inclined upwards, with `outside` of it beyond the sleeve at first, and a
 /// dead load of 1 N downwards at its end. EA = 1000 N, EI = 1 N m^2.
 Scene in_sleeve(double degrees, double length, double outside, int elements) {
@@ -145,7 +139,7 @@ TEST(SleeveStatics, RodBalancesWhereShootingHasItAndNotStably) {
     const double length = 2 * outside;
     std::vector<double> errors;
     for (const int n : {8, 16, 32}) {
-      const RunResult result = solved(in_sleeve(degrees, length, 0.97 * outside, n));
+      const RunResult result = completed(in_sleeve(degrees, length, 0.97 * outside, n));
       const Sample& last = result.samples.back();
       EXPECT_EQ(last.equilibrium->negative_pivots, 1) << "the rod is drawn in or thrown out";
       EXPECT_EQ(last.equilibrium->holding_force, 0);
@@ -162,7 +156,7 @@ TEST(SleeveStatics, RodBalancesWhereShootingHasItAndNotStably) {
 /// Over several elements, either way: length control makes the mesh that the place needs.
 TEST(SleeveStatics, ReachesTheSamePlaceFromWhereverItStarts) {
   for (const double start : {0.3, 0.6, 0.9, 1.2, 1.5, 1.8}) {
-    const RunResult result = solved(in_sleeve(30, 2.2, start, 24));
+    const RunResult result = completed(in_sleeve(30, 2.2, start, 24));
     EXPECT_NEAR(2.2 - *result.samples.back().joint_position, outside_at_30, 3e-6) << start;
   }
 }
@@ -174,7 +168,7 @@ TEST(SleeveStatics, HoldingForceIsTheConfigurationalOne) {
   for (const int n : {16, 32}) {
     Scene scene = in_sleeve(30, 2, 0.6, n);
     scene.statics.joints = StaticJoints::held;
-    const RunResult result = solved(scene);
+    const RunResult result = completed(scene);
     const Sample& last = result.samples.back();
     EXPECT_EQ(*last.joint_position, 1.4);
     EXPECT_EQ(last.equilibrium->negative_pivots, 0);
@@ -224,7 +218,7 @@ Scene through_ring(int elements, StrainLaw law, double x) {
 TEST(RingStatics, CableBetweenTwoCatenaries) {
   for (const auto& [law, x, tension] : {std::tuple{StrainLaw::green, 0.69603843362944, 0.72413974955075},
                                         std::tuple{StrainLaw::engineering, 0.69597519925966, 0.72410821731492}}) {
-    const RunResult result = solved(through_ring(64, law, 0.8));
+    const RunResult result = completed(through_ring(64, law, 0.8));
     const Sample& last = result.samples.back();
     EXPECT_EQ(last.equilibrium->negative_pivots, 0);
     EXPECT_NEAR(*last.joint_position, x, 2e-8);
@@ -254,7 +248,7 @@ TEST(RingStatics, FrequenciesOfABentCable) {
     scene.statics.joints = joints;
     scene.statics.frequencies = 6;
     const bool released = joints == StaticJoints::released;
-    const RunResult result = solved(scene);
+    const RunResult result = completed(scene);
     const double even = (legs[0] + legs[1]) / 2,
                  lengths[2] = {released ? legs[0] / even : 0.8, released ? legs[1] / even : 1.2};
     EXPECT_NEAR(*result.samples.back().joint_position, lengths[0], 1e-10);
@@ -288,7 +282,7 @@ TEST(SleeveStatics, FrequenciesOfAStraightRod) {
     scene.sliding_joints = {joint_at(inside, SupportType::clamp)};
     scene.statics.joints = joints;
     scene.statics.frequencies = 4;
-    const RunResult result = solved(scene);
+    const RunResult result = completed(scene);
     ASSERT_EQ(result.frequencies.size(), 4U);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(result.frequencies[i] / expected[i], 1, 1e-5);
     const double axial = std::sqrt(EA) / (4 * (joints == StaticJoints::released ? length : outside));
@@ -304,7 +298,7 @@ TEST(MassStatics, TrolleyRestsInTheMiddle) {
   scene.start.type = scene.end.type = SupportType::pin;
   scene.sliding_joints = {joint_at(0.75, SupportType::free, 5)};
   scene.sliding_joints.front().slopes = JointSlopes::equal_stretch;
-  const RunResult result = solved(scene);
+  const RunResult result = completed(scene);
   const Sample& last = result.samples.back();
   EXPECT_EQ(last.equilibrium->negative_pivots, 0);
   EXPECT_NEAR(*last.joint_position, 1, 1e-6);
@@ -314,4 +308,4 @@ TEST(MassStatics, TrolleyRestsInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace vlbeam
+}  // namespace vlbeam::test

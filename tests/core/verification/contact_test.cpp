@@ -51,14 +51,14 @@ const Event& first(const RunResult& result, EventType type) {
   return *std::ranges::find(result.events, type, &Event::type);
 }
 
-struct Method {
+struct ContactMethod {
   IntegratorType type;
   double step;
   double vibration = 1e-5;  ///< that nothing damps [m/s]
 };
-constexpr std::array<Method, 3> methods{{{IntegratorType::dopri5, 1e-3},
-                                         {IntegratorType::generalized_alpha, 1e-3},
-                                         {IntegratorType::energy_momentum, 5e-5, 2e-3}}};
+constexpr std::array<ContactMethod, 3> methods{{{IntegratorType::dopri5, 1e-3},
+                                                {IntegratorType::generalized_alpha, 1e-3},
+                                                {IntegratorType::energy_momentum, 5e-5, 2e-3}}};
 
 TEST(Contact, IsTheSameOnEveryMeshAndWithEveryMethod) {
   for (const int elements : {8, 16, 64}) {
@@ -217,7 +217,7 @@ TEST(Contact, OfFallingUnderGrowingGravityIsInTheLedger) {
 /// Clamps that swing along the beam: what rests at one lifts off when their acceleration turns.
 TEST(Contact, LiftsOffWhenItsForceTurns) {
   for (const auto& [type, step, vibration] :
-       {Method{IntegratorType::dopri5, 1e-3}, Method{IntegratorType::generalized_alpha, 1e-4}}) {
+       {ContactMethod{IntegratorType::dopri5, 1e-3}, ContactMethod{IntegratorType::generalized_alpha, 1e-4}}) {
     for (const bool at_end : {true, false}) {
       Scene scene = towards_the_end(6, AtSupport::rest);
       scene.beam.section = {Section::Type::stiffness, 0, 1e6, 1e2, 1};
