@@ -1,10 +1,18 @@
 #pragma once
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace vlbeam {
+
+/// A number in a message.
+inline std::string six_digits(double value) {
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
 
 /// What the user asked for cannot be understood or cannot be modelled. Programs answer with exit code 2.
 class InvalidInput : public std::runtime_error {

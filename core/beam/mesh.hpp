@@ -7,6 +7,13 @@
 
 namespace vlbeam {
 
+inline constexpr double smallest_weight = 1e-3;  // of the largest of the same element
+
+/// How far the weights of an element are below the smallest share of each other that is allowed; positive is too far.
+inline double lost_weight(const Weights<double>& w) {
+  return smallest_weight - *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
+}
+
 /// A chain of elements: n + 1 nodes at increasing material coordinates, and the weights of the n elements between
 /// them. Neighbours share a node's position and slope. Where a node moves, its entry of `x` is only the last known one.
 struct Mesh {

@@ -9,8 +9,6 @@
 namespace vlbeam {
 namespace {
 
-constexpr double slow_contraction = 0.1;  // an iteration that gains less asks for a new tangent
-constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr double settled = 1e-11;  // a correction, relative to the coordinates, that rounding may leave
 
 class EnergyMomentum final : public Stepper {
@@ -40,7 +38,7 @@ class EnergyMomentum final : public Stepper {
       if (!r_.allFinite()) break;
       const double correction = 2 * relative_to_coordinates(fields_, r_, q1_);
       const bool at_rounding =
-          correction <= rounding || (iteration > 0 && correction <= settled && correction > previous / 2);
+          correction <= newton_rounding || (iteration > 0 && correction <= settled && correction > previous / 2);
       if (at_rounding) {
         accept(y, t, h, n, dissipation);
         dt = options_.step;

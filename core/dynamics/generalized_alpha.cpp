@@ -8,7 +8,6 @@
 namespace vlbeam {
 namespace {
 
-constexpr double slow_contraction = 0.1;  // of a modified Newton iteration: a new tangent is then worth its cost
 constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;

@@ -6,7 +6,6 @@
 namespace vlbeam {
 namespace {
 
-constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr double rounding_share = 8;       // of a residual's own rounding over that of one perturbation
 constexpr double negligible_share = 1e-9;  // of the coordinates
 constexpr double far_below = 1e-3;         // of the increment: slow contraction there may be rounding
@@ -79,7 +78,7 @@ bool NewtonStop::negligible(const Eigen::VectorXd& q) const {
 
 bool NewtonStop::falls() const {
   for (std::size_t f = 0; f < field_count; ++f) {
-    if (correction_[f] > rounding * increment_[f] && correction_[f] <= stagnant * before_[f]) return true;
+    if (correction_[f] > newton_rounding * increment_[f] && correction_[f] <= stagnant * before_[f]) return true;
   }
   return false;
 }

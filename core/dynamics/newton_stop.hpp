@@ -1,11 +1,15 @@
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/dynamics/fields.hpp"
 
 namespace vlbeam {
+
+inline constexpr double slow_contraction = 0.1;  // an iteration that gains less: a new tangent is worth its cost
+inline constexpr double newton_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// The largest of all fields, |x| over |q|: of dimensionless fields over 1, of others over a length, if those are
 /// larger.

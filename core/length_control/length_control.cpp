@@ -116,8 +116,11 @@ MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Directi
   if (what.cut) {
     const int cut = forward ? j - 1 : j, at = cut + 1;
     const auto& x = before.mesh.x;
-    const double x_new = forward ? x[static_cast<std::size_t>(cut)] + control.standard_length
-                                 : x[static_cast<std::size_t>(cut) + 1] - control.standard_length;
+    const double x_low = x[static_cast<std::size_t>(cut)], x_high = x[static_cast<std::size_t>(cut) + 1];
+    const bool between_joints = before.joint_at(cut) != nullptr && before.joint_at(at) != nullptr;
+    const double x_new = between_joints ? (x_low + x_high) / 2
+                         : forward      ? x_low + control.standard_length
+                                        : x_high - control.standard_length;
     const auto node = segment(before, cut, x_new, law.transport);
     chain.insert_node(at);
     place_node(chain, at, node);
@@ -221,8 +224,7 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
   }
   place_node(chain, end, at_material_point(x_end));
   const double x_low = forward ? q.x_a : x_end, x_high = forward ? x_end : q.x_b;
-  const bool next_is_joint = chain.joint_at(forward ? j - 1 : j + 1) != nullptr;
-  if (next_is_joint && x_high - x_low < 1.5 * control.standard_length) {
+  if (x_high - x_low < 1.5 * control.standard_length) {
     chain.erase_node(j);
     chain.mesh.weights[static_cast<std::size_t>(forward ? j - 1 : 0)] = weights_between(x_low, x_high);
     return;

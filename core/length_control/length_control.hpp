@@ -35,7 +35,7 @@ enum class Direction { forward, backward };
 
 /// What an event does on the two sides of a joint that moves forward (backward is the mirror image).
 struct Remeshing {
-  bool cut = true;    ///< the element behind it, at L_std from its far end
+  bool cut = true;    ///< the element behind it, at L_std from its far end; between two joints in its middle
   bool merge = true;  ///< the node ahead is deleted: the two elements there become one
 };
 

@@ -1,21 +1,10 @@
 #include "core/parts/loads.hpp"
 
-#include <sstream>
 #include <string>
 
 #include "core/error.hpp"
 
 namespace vlbeam {
-namespace {
-
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
-
-}  // namespace
-
 template <int D>
 void check_places(const std::vector<PointLoad<D>>& loads, double until, double slack,
                   const std::function<std::pair<double, double>(double t)>& ends) {
@@ -25,8 +14,9 @@ void check_places(const std::vector<PointLoad<D>>& loads, double until, double s
       const double t = until * i / instants, x = load.x(t);
       const auto [first, last] = ends(t);
       if (x >= first - slack && x <= last + slack) continue;
-      throw InvalidInput("/loads", "one at the material coordinate " + text(x) + " m at t = " + text(t) + " s",
-                         "it must be a point of the beam, " + text(first) + " to " + text(last) + " m at that time");
+      throw InvalidInput(
+          "/loads", "one at the material coordinate " + six_digits(x) + " m at t = " + six_digits(t) + " s",
+          "it must be a point of the beam, " + six_digits(first) + " to " + six_digits(last) + " m at that time");
     }
   }
 }

@@ -739,7 +739,8 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .unit = "-",
                  .description =
                      "length over the uniform element length below which an element beside a joint is merged with the "
-                     "next one, even where the other side is not cut; 0 never; if not given 2 - upper (1 + hysteresis) "
+                     "next one, even where the other side is not cut; 0, with one joint only: never; if not given 2 - "
+                     "upper (1 + hysteresis) "
                      "with several joints, where both fall together on even elements, and 0 with one",
                  .range = {.low = 0, .high = 1}},
           scene.length_control.lower);

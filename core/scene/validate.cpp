@@ -18,6 +18,7 @@ namespace {
 constexpr double smallest_weight_ratio = 1e-6;
 constexpr double largest_quantity = 1e100;
 constexpr double most_steps = 1e9;
+constexpr int samples_of_a_way = 1000;
 
 /// Checks every option against the range of its line in the option table.
 class RangeCheck {
@@ -308,6 +309,21 @@ void check_held_joint(const Scene& scene, std::size_t which) {
 }
 
 /// A joint whose way along the beam is given.
+/// A guide may lead off a free end, but not into a support.
+void check_way(const Scene& scene, const SlidingJointSpec& joint, const std::string& at) {
+  const TimeFunction way = time_function(*joint.x);
+  const double length = beam_length(scene);
+  for (int i = 0; i <= samples_of_a_way; ++i) {
+    const double t = scene.duration * i / samples_of_a_way, x = joint.position + way(t).value;
+    const bool beyond_start = x <= 0, beyond_end = x >= length;
+    if (!beyond_start && !beyond_end) continue;
+    if ((beyond_start ? scene.start : scene.end).type == SupportType::free) return;
+    refuse(at, "a material coordinate of " + number_text(x) + " m at t = " + number_text(t) + " s",
+           "the beam's " + std::string(beyond_start ? "start, 0 m," : "end, " + number_text(length) + " m,") +
+               " is held: the joint must not reach it within /duration");
+  }
+}
+
 void check_guided_joint(const Scene& scene, std::size_t which) {
   const SlidingJointSpec& joint = scene.sliding_joints[which];
   if (!joint.x) return;
@@ -329,6 +345,7 @@ void check_guided_joint(const Scene& scene, std::size_t which) {
   if (joint.at_support != AtSupport::stop) {
     refuse(key + "/at_support", quoted(to_string(joint.at_support)), "of a joint that is guided it must be \"stop\"");
   }
+  check_way(scene, joint, at);
   if (scene.length_control.end_merge.value_or(0) > 0) {
     refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
            "a joint that is guided keeps its node to the last: it must be 0");
@@ -381,10 +398,15 @@ void check_length_control(const Scene& scene) {
                " must be in [1.5, 2): below, an event re-fires at once in the other direction; from 2 on, the element "
                "ahead vanishes first");
   }
-  if (control.lower && !(*control.lower < trigger - 1)) {
-    refuse("/length_control/lower", number_text(*control.lower),
-           "it must be less than upper (1 + hysteresis) - 1 = " + number_text(trigger - 1) +
+  if (!(merge_below(scene) < trigger - 1)) {
+    refuse(control.lower ? "/length_control/lower" : "/length_control/hysteresis",
+           control.lower ? number_text(*control.lower) : number_text(control.hysteresis),
+           "/length_control/lower, here " + number_text(merge_below(scene)) +
+               ", must be less than upper (1 + hysteresis) - 1 = " + number_text(trigger - 1) +
                ": what a cut leaves would be merged at once");
+  }
+  if (scene.sliding_joints.size() > 1 && control.enabled && control.lower == 0.0) {
+    refuse("/length_control/lower", "0", "with several joints it must be > 0: each merges by itself");
   }
   if (control.end_merge && *control.end_merge > 0 && !control.enabled) {
     refuse("/length_control/end_merge", number_text(*control.end_merge),
@@ -537,7 +559,7 @@ void check_support_motion(const Scene& scene) {
       refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
              "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
     }
-    if (flows(scene)) refuse(at, "this key", "it goes together with neither /spin, /flow nor rotary inertia");
+    if (flows(scene)) refuse(at, "this key", "it goes together with neither /flow nor rotary inertia");
   };
   check("/supports/at=start/motion", scene.start);
   check("/supports/at=end/motion", scene.end);
@@ -671,6 +693,9 @@ void check_statics(const Scene& scene) {
     }
     if (scene.length_control.end_merge.value_or(0) > 0) {
       refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge), "in statics it must be 0");
+    }
+    if (scene.length_control.lower.value_or(0) > 0) {
+      refuse("/length_control/lower", number_text(*scene.length_control.lower), "in statics it must be 0");
     }
   }
   none(scene.spin.has_value(), "/spin", "leave it out");

@@ -309,6 +309,8 @@ class BeamSystem final : public EventedOde {
   Due due(const Guard& guard, const Eigen::VectorXd& y) const;
   /// That, and whatever else of the mesh is due at the same instant, the first one first.
   std::vector<Due> all_due(int index, const Eigen::VectorXd& y, double t) const;
+  /// Neighbouring joints ask for the same cut or the same merge: one of them does it.
+  void drop_doubles(std::vector<Due>& dues) const;
   /// What a joint, moving in a direction, asks for of the mesh: a cut behind it, a merge ahead.
   Remeshing wanted(std::size_t which, Direction direction, const Eigen::VectorXd& y) const;
   /// Material coordinate of a node of the mesh [m].

@@ -35,7 +35,7 @@ constexpr double small_move = 1e-7;          // of supports, over the beam's len
 constexpr double end_distance = 1e-3;        // from an end of the beam at which a joint is too near, over L_std
 constexpr int most_slides = 100000;
 
-std::string text(double value) {
+std::string brief(double value) {
   std::ostringstream stream;
   stream.precision(4);
   stream << value;
@@ -94,7 +94,7 @@ std::string free_direction(const BeamSystem<D>& system, StaticEquations<D>& equa
   for (int k = 0; k <= last; ++k) spread = std::max(spread, (position<D>(mode.data(), k) - mean).norm());
   const auto vector = [](const Vec<double, D>& v) {
     std::string out;
-    for (int c = 0; c < D; ++c) out += (c > 0 ? ", " : "(") + text(std::abs(v[c]) < 1e-6 ? 0 : v[c]);
+    for (int c = 0; c < D; ++c) out += (c > 0 ? ", " : "(") + brief(std::abs(v[c]) < 1e-6 ? 0 : v[c]);
     return out + ")";
   };
   if (spread < 1e-3 * largest) return "nothing holds it along " + vector(mean.normalized());
@@ -207,7 +207,7 @@ class Path {
       const double from = static_cast<double>(step - 1) / options_.steps,
                    to = static_cast<double>(step) / options_.steps;
       if (!advance(q, from, to, most_halvings, step == 1)) {
-        throw ComputationFailed("no equilibrium near the last one at load factor " + text(to) + ": " +
+        throw ComputationFailed("no equilibrium near the last one at load factor " + brief(to) + ": " +
                                     free_direction(system_, equations_, q, to) +
                                     "; past a limit point \"arc-length\" goes on",
                                 from);
@@ -333,7 +333,7 @@ class Path {
     const int points = most_points * options_.steps;
     for (int n = 0; n < points; ++n) {
       if (!linearize(q, factor))
-        throw ComputationFailed("the tangent is singular at load factor " + text(factor), factor);
+        throw ComputationFailed("the tangent is singular at load factor " + brief(factor), factor);
       const Eigen::VectorXd by_factor = response(q, factor);
       const double norm = std::sqrt(inner(by_factor, by_factor) + 1);
       const double turn = inner(by_factor, along.q) + along.factor < 0 ? -1 : 1;
@@ -345,7 +345,7 @@ class Path {
       while (!correct(q, factor, along, step, next, next_factor, iterations)) {
         ++counters_.rejected;
         step /= 2;
-        if (++halvings > 20) throw ComputationFailed("the path ends at load factor " + text(factor), factor);
+        if (++halvings > 20) throw ComputationFailed("the path ends at load factor " + brief(factor), factor);
       }
       ++counters_.steps;
       if (next_factor >= 1) {  // the last point is at 1
@@ -362,7 +362,7 @@ class Path {
       if (iterations <= 4) step = std::min(1.5 * step, most);
       if (iterations > 7) step /= 1.5;
     }
-    throw ComputationFailed("the load factor is " + text(factor) + " after " + std::to_string(points) +
+    throw ComputationFailed("the load factor is " + brief(factor) + " after " + std::to_string(points) +
                                 " points of the path: it may never be 1",
                             factor);
   }
@@ -461,8 +461,8 @@ class Path {
   }
 
   [[noreturn]] void not_released(const Eigen::VectorXd& q, const std::string& why) {
-    throw ComputationFailed("the joint that slides is not released: " + why + " at x = " + text(q[equations_.mark()]) +
-                                " m, where holding it takes " + text(holding_force(q, 1)) + " N",
+    throw ComputationFailed("the joint that slides is not released: " + why + " at x = " + brief(q[equations_.mark()]) +
+                                " m, where holding it takes " + brief(holding_force(q, 1)) + " N",
                             1);
   }
 

@@ -9,7 +9,6 @@
 namespace vlbeam {
 namespace {
 
-constexpr double smallest_weight = 1e-3;   // of the largest of the same element
 constexpr double restored_energy = 1e-9;   // of the energies there are
 constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
 constexpr double clearance = 1e-11;        // of L_std: by which a mass leaves a support, so that the guard is negative
@@ -17,11 +16,6 @@ constexpr double least_bounce = 1e-9;      // of L_std: a lower one is the last
 constexpr double meeting_distance = 0.1;   // of L_std: joints this near each other have met; all_due() says so
 constexpr double same_instant = 1e-9;      // of L_std: what is this near is due at once
 constexpr double merge_slack = 1e-6;       // of the length below which is merged: a cut comes first
-
-/// How far the weights of an element are below the smallest share of each other that is allowed; positive is too far.
-double lost_weight(const Weights<double>& w) {
-  return smallest_weight - *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
-}
 
 /// Guards of one joint, or of the mass that rides.
 enum class Kind {
@@ -43,6 +37,10 @@ enum class Kind {
 
 constexpr int number(Kind kind) { return static_cast<int>(kind); }
 
+EventType type_of(const Remeshing& what) {
+  return what.cut && what.merge ? EventType::segment_merge : what.cut ? EventType::segmentation : EventType::merging;
+}
+
 ComputationFailed ran_into_support(bool held, Direction direction, double t) {
   return {std::string(held ? "the joint" : "the sliding mass") + " ran into the support at the beam's " +
               (direction == Direction::forward ? "end" : "start"),
@@ -58,14 +56,20 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
   const auto& control = model_.length_control;
   const double unit = control.standard_length;
   const bool several = places_.size() > 1;
+  // an event will find a guided joint where it is to be, not where integration has it
+  const auto place_of = [&](std::size_t i) {
+    const auto guide = guided(i, t);
+    return guide ? guide->value : y[places_[i].mark];
+  };
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const int part = static_cast<int>(i), node = places_[i].node;
     const auto add = [&](Kind kind, double value) { guards.push_back({number(kind), part, value}); };
-    const double x = y[places_[i].mark];
-    const double low = mark_of(node - 1, y.data()), high = mark_of(node + 1, y.data());
-    const double behind = x - low, ahead = high - x;
     const bool to_end = node + 1 == mesh_.last(), to_start = node == 1;
     const bool joint_ahead = at_joint(node + 1), joint_behind = at_joint(node - 1);
+    const double x = place_of(i);
+    const double low = joint_behind ? place_of(i - 1) : mark_of(node - 1, y.data());
+    const double high = joint_ahead ? place_of(i + 1) : mark_of(node + 1, y.data());
+    const double behind = x - low, ahead = high - x;
     if (control.enabled) {
       if (!to_end) add(Kind::forward, (behind - control.trigger_length()) / unit);
       if (!to_start) add(Kind::backward, (ahead - control.trigger_length()) / unit);
@@ -137,10 +141,7 @@ typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::
     case Kind::merge_ahead:
     case Kind::merge_behind: {
       const Remeshing what = wanted(which, direction, y);
-      const EventType type = what.cut && what.merge ? EventType::segment_merge
-                             : what.cut             ? EventType::segmentation
-                                                    : EventType::merging;
-      return {type, direction, which, what};
+      return {type_of(what), direction, which, what};
     }
     case Kind::weights:
       return {EventType::reweighting, direction, which, {}};
@@ -185,7 +186,29 @@ std::vector<typename BeamSystem<D>::Due> BeamSystem<D>::all_due(int index, const
     if (std::any_of(result.begin(), result.end(), [&](const Due& other) { return other.which == which; })) continue;
     result.push_back(due(guard, y));
   }
+  drop_doubles(result);
   return result;
+}
+
+template <int D>
+void BeamSystem<D>::drop_doubles(std::vector<Due>& dues) const {
+  const auto cut_of = [&](const Due& due) {
+    const int node = places_[due.which].node;
+    return due.direction == Direction::forward ? node - 1 : node;
+  };
+  const auto deleted_by = [&](const Due& due) {
+    const int node = places_[due.which].node;
+    return due.direction == Direction::forward ? node + 1 : node - 1;
+  };
+  for (auto due = dues.begin(); due != dues.end(); ++due) {
+    for (auto other = dues.begin(); other != due; ++other) {
+      if (other->remeshing.cut && cut_of(*other) == cut_of(*due)) due->remeshing.cut = false;
+      if (other->remeshing.merge && deleted_by(*other) == deleted_by(*due)) due->remeshing.merge = false;
+    }
+    due->type = type_of(due->remeshing);
+  }
+  const auto nothing_left = [](const Due& due) { return !due.remeshing.cut && !due.remeshing.merge; };
+  dues.erase(std::remove_if(dues.begin() + 1, dues.end(), nothing_left), dues.end());
 }
 
 template <int D>
@@ -350,7 +373,19 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const Eigen::VectorXd momenta_before = momenta(y, t);
   const double work_before = model_.tallies().of(y).supports;
 
-  for (std::size_t i = 0; i < dues.size(); ++i) records[i].merged = change(dues[i], record.after, y, t);
+  if (dues.size() == 1) {
+    records.front().merged = change(dues.front(), record.after, y, t);
+  } else {  // cuts first, at places that no merge has moved: mirror images stay mirror images
+    const auto remesh = [&](const Due& due, const Remeshing& what) {
+      return segment_and_merge(record.after, due.which, due.direction, what, model_.length_control, moving_law(t));
+    };
+    for (const Due& due : dues) {
+      if (due.remeshing.cut) remesh(due, {true, false});
+    }
+    for (std::size_t i = 0; i < dues.size(); ++i) {
+      if (dues[i].remeshing.merge) records[i].merged = remesh(dues[i], {false, true});
+    }
+  }
   const Eigen::VectorXd old = y;
   adopt(record.after);
   orient(t);
@@ -402,6 +437,7 @@ template Guards BeamSystem<2>::rider_guards(const Eigen::VectorXd&, double) cons
 template Remeshing BeamSystem<2>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
 template BeamSystem<2>::Due BeamSystem<2>::due(const Guard&, const Eigen::VectorXd&) const;
 template std::vector<BeamSystem<2>::Due> BeamSystem<2>::all_due(int, const Eigen::VectorXd&, double) const;
+template void BeamSystem<2>::drop_doubles(std::vector<Due>&) const;
 template double BeamSystem<2>::clear_of_end() const;
 template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
 template void BeamSystem<2>::check_leaving(const Due&, double) const;
@@ -413,6 +449,7 @@ template Guards BeamSystem<3>::rider_guards(const Eigen::VectorXd&, double) cons
 template Remeshing BeamSystem<3>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
 template BeamSystem<3>::Due BeamSystem<3>::due(const Guard&, const Eigen::VectorXd&) const;
 template std::vector<BeamSystem<3>::Due> BeamSystem<3>::all_due(int, const Eigen::VectorXd&, double) const;
+template void BeamSystem<3>::drop_doubles(std::vector<Due>&) const;
 template double BeamSystem<3>::clear_of_end() const;
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
 template void BeamSystem<3>::check_leaving(const Due&, double) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "core/error.hpp"
@@ -11,14 +10,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr double shortest = 1e-6;         // of an element's mean length at t = 0: below, the elements tangle
-constexpr double smallest_weight = 1e-3;  // of the largest of the same element
-
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
+constexpr double shortest = 1e-6;  // of an element's mean length at t = 0: below, the elements tangle
 
 }  // namespace
 
@@ -58,7 +50,7 @@ void FlowingBeam<D>::check_model() const {
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
     const double length = nodes[k + 1].value - nodes[k].value;
     if (length > 0) continue;
-    throw InvalidInput("/flow/nodes", "element " + std::to_string(k) + " of length " + text(length) + " at t = 0",
+    throw InvalidInput("/flow/nodes", "element " + std::to_string(k) + " of length " + six_digits(length) + " at t = 0",
                        "material coordinates must increase from node to node");
   }
 
@@ -232,14 +224,15 @@ Vec<double, D> FlowingBeam<D>::rotary_momentum(const double* q, const double* ra
 
 template <int D>
 void FlowingBeam<D>::check_reach(double t) const {
-  const double slack = 1e-9 * reference_length_, first = nodes_.front().value, last = nodes_.back().value;
+  const double margin = 1e-9 * reference_length_, first = nodes_.front().value, last = nodes_.back().value;
   const auto check = [&](const auto& loads) {
     for (const auto& load : loads) {
       if (!load.x) continue;
       const double x = load.x(t);
-      if (x >= first - slack && x <= last + slack) continue;
-      throw ComputationFailed("a load at the material coordinate " + text(x) + " m is beyond the ends of the beam, " +
-                                  text(first) + " and " + text(last) + " m",
+      if (x >= first - margin && x <= last + margin) continue;
+      throw ComputationFailed("a load at the material coordinate " + six_digits(x) +
+                                  " m is beyond the ends of the beam, " + six_digits(first) + " and " +
+                                  six_digits(last) + " m",
                               t);
     }
   };
@@ -424,9 +417,7 @@ Guards FlowingBeam<D>::guards(const Eigen::VectorXd& /*y*/, double t) const {
   if (model_.transport == WeightTransport::transported) {
     for (int k = 0; k < elements(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Weights<double> w = weights_at(i, nodes);
-      const double ratio = *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
-      guards[1].value = std::max(guards[1].value, smallest_weight - ratio);
+      guards[1].value = std::max(guards[1].value, lost_weight(weights_at(i, nodes)));
     }
   }
   return guards;
@@ -440,7 +431,7 @@ void FlowingBeam<D>::handle_event(int index, Eigen::VectorXd& /*y*/, double t) {
   auto length = [&](std::size_t k) { return nodes[k + 1].value - nodes[k].value; };
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k) least = length(k) < length(least) ? k : least;
   throw ComputationFailed("the prescribed nodes tangle: element " + std::to_string(least) + " is " +
-                              text(length(least)) + " m long at t = " + text(t) + " s",
+                              six_digits(length(least)) + " m long at t = " + six_digits(t) + " s",
                           t);
 }
 
@@ -454,10 +445,11 @@ std::vector<Prescribed> FlowingBeam<D>::nodes_at(double t) const {
 template <int D>
 void FlowingBeam<D>::check_motion(double until) const {
   if (const auto tangle = model_.motion.tangle(0, until, shortest * reference_length_)) {
-    throw InvalidInput("/flow/nodes",
-                       "a motion by which element " + std::to_string(tangle->element) +
-                           " has no length left at t = " + text(tangle->t) + " s",
-                       "material coordinates must increase from node to node until the end, t = " + text(until) + " s");
+    throw InvalidInput(
+        "/flow/nodes",
+        "a motion by which element " + std::to_string(tangle->element) +
+            " has no length left at t = " + six_digits(tangle->t) + " s",
+        "material coordinates must increase from node to node until the end, t = " + six_digits(until) + " s");
   }
   std::vector<Prescribed> nodes;
   check_places<D>(model_.loads.points, until, 1e-9 * reference_length_, [&](double t) {
@@ -521,11 +513,11 @@ Observation<D> FlowingBeam<D>::observe(const Eigen::VectorXd& y, double t, int p
 template <int D>
 Vec<double, D> FlowingBeam<D>::position_at(const Eigen::VectorXd& y, double t, double x) const {
   model_.motion.at(t, nodes_);
-  const double slack = 1e-9 * reference_length_;
-  if (x < nodes_.front().value - slack || x > nodes_.back().value + slack) {
-    throw InvalidInput("/x", text(x),
-                       "it must be a material coordinate of the beam, " + text(nodes_.front().value) + " to " +
-                           text(nodes_.back().value) + " at t = " + text(t));
+  const double margin = 1e-9 * reference_length_;
+  if (x < nodes_.front().value - margin || x > nodes_.back().value + margin) {
+    throw InvalidInput("/x", six_digits(x),
+                       "it must be a material coordinate of the beam, " + six_digits(nodes_.front().value) + " to " +
+                           six_digits(nodes_.back().value) + " at t = " + six_digits(t));
   }
   int k = 0;
   while (k + 1 < elements() && x > nodes_[static_cast<std::size_t>(k) + 1].value) ++k;

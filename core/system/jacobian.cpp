@@ -12,7 +12,7 @@ namespace {
 
 // The tangent is dr/dq + by_v dr/dv + by_a dr/da: a factor this large leaves nothing else of it, and a power of two is
 // taken out again without rounding.
-constexpr double dominant = 0x1p180;
+constexpr double of_mass_only = 0x1p180;
 
 }  // namespace
 
@@ -33,11 +33,11 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
     for (Eigen::Index k = 0; k < n; ++k) project(dense.col(k).data());
   };
   tangent(0, stiffness_);
-  tangent(dominant, damping_);
+  tangent(of_mass_only, damping_);
 
   dfdy.setZero();
   dfdy.block(0, n, n, n).setIdentity();
-  if (!linearize(q, v, a_, t, 0, dominant)) {  // outside the domain, as rhs() says it
+  if (!linearize(q, v, a_, t, 0, of_mass_only)) {  // outside the domain, as rhs() says it
     dfdy.setConstant(std::numeric_limits<double>::quiet_NaN());
     dfdt.setZero();
     return;
@@ -45,7 +45,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   for (Eigen::Index k = 0; k < n; ++k) {
     column_ = stiffness_.col(k);
     solve(column_);
-    dfdy.block(n, k, n, 1) = -dominant * column_;
+    dfdy.block(n, k, n, 1) = -of_mass_only * column_;
     column_ = damping_.col(k);
     solve(column_);
     dfdy.block(n, n + k, n, 1) = -column_;

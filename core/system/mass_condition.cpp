@@ -9,7 +9,7 @@ namespace vlbeam {
 namespace {
 
 // Of the residual M a - Q an acceleration this large leaves M a alone; a power of two is taken out without rounding.
-constexpr double dominant = 0x1p100;
+constexpr double beyond_forces = 0x1p100;
 
 }  // namespace
 
@@ -21,9 +21,9 @@ double mass_condition(BeamSystem<D>& system, const Eigen::VectorXd& y) {
   Eigen::MatrixXd momenta(n, directions.cols());
   Eigen::VectorXd a(n), r(n);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
-    a = dominant * directions.col(k);
+    a = beyond_forces * directions.col(k);
     system.second_order()->residual(q, at_rest, a, 0, r);
-    momenta.col(k) = r / dominant;
+    momenta.col(k) = r / beyond_forces;
   }
   Eigen::MatrixXd mass = directions.transpose() * momenta;
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();

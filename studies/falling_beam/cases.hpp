@@ -14,6 +14,8 @@ namespace vlbeam::falling_beam {
 
 using Case = SceneCase;
 
+inline constexpr auto direction = ClampType::direction;  // most sweeps clamp so
+
 /// A case with what came out of it.
 struct Run {
   std::string sweep;

@@ -6,13 +6,12 @@
 #include <limits>
 
 #include "core/scene/derived.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {
 
-constexpr auto direction = ClampType::direction;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double reference_temporal_error = 1e-7;  // of runs at a tolerance of 1e-6, the study's table `temporal` [m]
 constexpr std::array elements_compared = {ElementKind::ale_rancf, ElementKind::ale_ancf};
 
@@ -34,8 +33,6 @@ double error_of(const Runs& runs, const Run* run, double t) {
   const Run* reference = run ? finest(runs, run->scene.beam.element) : nullptr;
   return reference ? position_error(*run->result, *reference->result, t) : nan;
 }
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 /// A quantity of a sample that the reference table lists.
 struct Quantity {

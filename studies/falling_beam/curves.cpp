@@ -10,8 +10,6 @@
 namespace vlbeam::falling_beam {
 namespace {
 
-constexpr auto direction = ClampType::direction;
-
 struct Setting {
   const char* sweep;
   const char* title;

@@ -8,7 +8,6 @@
 namespace vlbeam::falling_beam {
 namespace {
 
-constexpr auto direction = ClampType::direction;
 constexpr auto rancf = ElementKind::ale_rancf;
 constexpr auto ancf = ElementKind::ale_ancf;
 

@@ -10,13 +10,13 @@
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
 #include "core/system/mass_condition.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int samples = 50;                   // of a run
 constexpr std::size_t looked_at_events = 50;  // after which the mass matrix is looked at
 

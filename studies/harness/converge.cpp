@@ -13,6 +13,7 @@
 #include "core/scene/simulate.hpp"
 #include "core/scene/validate.hpp"
 #include "studies/harness/interrupt.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/quantity.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/sweep.hpp"
@@ -20,7 +21,6 @@
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // of a value: what no refinement can show
 constexpr double mesh_order = 4;       // of displacements of cubic elements; what converges faster is not trusted to
 constexpr double step_order = 2;       // of generalized-alpha and energy-momentum
@@ -422,8 +422,6 @@ class Converger {
   std::vector<int> meshes_;      ///< the finest ones, as they were refined
   std::vector<double> history_;  ///< of the mesh's uncertainty on each
 };
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 constexpr std::array<const char*, 3> refined_names{"mesh", "time", "quadrature"};
 

@@ -10,11 +10,10 @@
 
 #include "core/error.hpp"
 #include "core/scene/options.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Reads an object of a gates file and refuses what it does not know.
 class Fields {
@@ -54,8 +53,6 @@ class Fields {
   const Json& object_;
   std::string at_;
 };
-
-double number_or_nan(const Json& value) { return value.is_number() ? value.get<double>() : nan; }
 
 /// A number of the report, or NaN where there is none.
 double quantity(const Json& report, const std::string& name) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -12,6 +14,12 @@ namespace vlbeam {
 
 /// JSON that keeps the order of its keys, so that reports read well and compare line by line.
 using Json = nlohmann::ordered_json;
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A number as a report holds it, and as it is read: JSON knows neither infinity nor NaN.
+inline Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+inline double number_or_nan(const Json& value) { return value.is_number() ? value.get<double>() : nan; }
 
 /// Parses a JSON text. Throws InvalidInput where it is not JSON, with line and column, where a key stands twice in one
 /// object, with its JSON pointer, and where it is nested too deeply for any file of ours.

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "core/geometry/rational_cubic.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 

@@ -11,11 +11,11 @@
 
 #include "core/error.hpp"
 #include "core/scene/options.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double pairs_apart = 0.5, pairs_apart_share = 0.1;  // of orders that are still one order
 constexpr double least_order = 0.1, largest_order = 20;       // a limit is looked for between these
 constexpr double near_safety = 1.25, far_safety = 3, near_share = 0.1;
@@ -88,9 +88,6 @@ std::optional<double> order_of(std::span<const double, 3> h, std::span<const dou
   }
   return (low + high) / 2;
 }
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-double number_or_nan(const Json& value) { return value.is_number() ? value.get<double>() : nan; }
 
 }  // namespace
 

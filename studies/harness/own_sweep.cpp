@@ -13,6 +13,7 @@
 #include "core/scene/simulate.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/interrupt.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/nearest.hpp"
 #include "studies/harness/quantity.hpp"
@@ -164,8 +165,6 @@ SweepPlan plan_from(Json file, const fs::path& folder) {
   }
   return plan;
 }
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 std::string cell(const Json& value) {
   if (value.is_null()) return "";

@@ -11,6 +11,7 @@
 #include "core/scene/options.hpp"
 #include "core/scene/shape.hpp"
 #include "studies/harness/gnuplot.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/nearest.hpp"
 
 namespace vlbeam {
@@ -176,7 +177,7 @@ const char* time_label(const RunFile& run) { return run.scene.analysis == Analys
 /// Where the sliding mass is at the times of the shapes that are times of samples, too; NaN at others.
 Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, std::size_t across, std::size_t up,
                  std::size_t which) {
-  constexpr double same_time = 1e-9, nan = std::numeric_limits<double>::quiet_NaN();  // of the duration
+  constexpr double same_time = 1e-9;  // of the duration
   const auto joints = sliding_joints(run.scene);
   constexpr std::array axes{"x", "y", "z"};
   const auto column = [&](std::size_t axis) {

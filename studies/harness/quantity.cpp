@@ -4,16 +4,11 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/nearest.hpp"
 
 namespace vlbeam {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double number_of(const Json& value) { return value.is_number() ? value.get<double>() : nan; }
-
-}  // namespace
+namespace {}  // namespace
 
 double Quantity::of(const Sample& sample) const {
   std::vector<double> components(sampled.columns.size());
@@ -30,11 +25,11 @@ std::vector<double> Quantity::of(const Json& samples) const {
       return list.is_array() && i < list.size() ? list[i] : nothing;
     };
     if (sampled.shape == SampleShape::number) {
-      values.push_back(number_of(entry));
+      values.push_back(number_or_nan(entry));
     } else if (sampled.shape == SampleShape::vector) {
-      values.push_back(number_of(part(entry, component)));
+      values.push_back(number_or_nan(part(entry, component)));
     } else {
-      values.push_back(number_of(part(part(entry, component / sampled.dimension), component % sampled.dimension)));
+      values.push_back(number_or_nan(part(part(entry, component / sampled.dimension), component % sampled.dimension)));
     }
   }
   return values;

@@ -23,20 +23,20 @@ namespace vlbeam {
 namespace {
 
 /// A text that goes on to its sink whenever enough of it is there.
-class Writer {
+class ReportWriter {
  public:
-  explicit Writer(const TextSink& sink) : sink_(sink) { text_.reserve(2 * enough); }
-  ~Writer() = default;
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  explicit ReportWriter(const TextSink& sink) : sink_(sink) { text_.reserve(2 * enough); }
+  ~ReportWriter() = default;
+  ReportWriter(const ReportWriter&) = delete;
+  ReportWriter& operator=(const ReportWriter&) = delete;
 
-  Writer& operator<<(std::string_view text) {
+  ReportWriter& operator<<(std::string_view text) {
     text_ += text;
     if (text_.size() > enough) flush();
     return *this;
   }
   /// As short as it can be without losing a digit.
-  Writer& operator<<(double value) {
+  ReportWriter& operator<<(double value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     return *this << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
@@ -59,7 +59,7 @@ class Writer {
 };
 
 /// A number of a report: of a type that reads back as one of floating point.
-void write_number(double value, Writer& out) {
+void write_number(double value, ReportWriter& out) {
   if (!std::isfinite(value)) {
     out << "null";
   } else if (value == std::trunc(value) && std::abs(value) < 1e15) {
@@ -76,7 +76,7 @@ std::vector<std::string> segments_of(const std::string& path) {
   return segments;
 }
 
-void write_column(const SampleQuantity& quantity, const std::vector<Sample>& samples, Writer& out) {
+void write_column(const SampleQuantity& quantity, const std::vector<Sample>& samples, ReportWriter& out) {
   const std::size_t count = quantity.columns.size(), dimension = quantity.dimension;
   std::vector<double> values(count);
   const auto write_vector = [&](std::size_t first) {
@@ -107,7 +107,8 @@ void write_column(const SampleQuantity& quantity, const std::vector<Sample>& sam
 }
 
 /// The samples as columns: an object of arrays, and of parts whose path goes deeper.
-void write_samples(const std::vector<SampleQuantity>& quantities, const std::vector<Sample>& samples, Writer& out) {
+void write_samples(const std::vector<SampleQuantity>& quantities, const std::vector<Sample>& samples,
+                   ReportWriter& out) {
   constexpr std::size_t depth = 1;  // of /samples
   std::vector<std::string> open;
   bool first = true;  // of the innermost object that is open
@@ -308,7 +309,7 @@ std::string ledger_text(const EnergyLedger& ledger) {
 }  // namespace
 
 void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink) {
-  Writer out(sink);
+  ReportWriter out(sink);
   bool first = true;
   const auto key = [&](const char* name) {
     out << (first ? "{\n  \"" : ",\n  \"") << name << "\": ";
@@ -352,7 +353,7 @@ Json run_timing(const RunTiming& timing) {
 
 void write_samples_csv(const Scene& scene, const RunResult& result, const TextSink& sink) {
   const std::vector<SampleQuantity> quantities = sample_quantities(scene);
-  Writer out(sink);
+  ReportWriter out(sink);
   bool first = true;
   std::size_t most = 0;
   for (const SampleQuantity& quantity : quantities) {

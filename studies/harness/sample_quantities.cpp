@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/scene/derived.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
@@ -135,7 +136,6 @@ void add_joint(Quantities& q, bool guided) {
 
 /// Lists in the order of the scene, with no number for what is not there.
 void add_joints(Quantities& q, std::size_t count, bool guided) {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto columns = [count](const std::string& stem, const std::vector<std::string>& axes) {
     Columns names;
     for (std::size_t i = 0; i < count; ++i) {

@@ -281,7 +281,7 @@ Json with_head(const char* title, const Json& schema) {
 }
 
 const Json number = {{"type", "number"}};
-const Json number_or_null = {{"type", {"number", "null"}}};
+const Json nullable_number = {{"type", {"number", "null"}}};
 const Json text = {{"type", "string"}};
 const Json whole = {{"type", "integer"}, {"minimum", 0}};
 const Json point = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}};
@@ -360,8 +360,8 @@ Json samples_schema() {
         object = &entry;
         continue;
       }
-      Json cell = number_or_null;
-      if (quantity.shape != SampleShape::number) cell = {{"type", {"array", "null"}}, {"items", number_or_null}};
+      Json cell = nullable_number;
+      if (quantity.shape != SampleShape::number) cell = {{"type", {"array", "null"}}, {"items", nullable_number}};
       if (quantity.shape == SampleShape::vectors) cell = array_of(cell);
       entry = described(array_of(cell), quantity.description + "; one entry a sample", quantity.unit);
     }
@@ -422,11 +422,11 @@ Json run_schema() {
        {"axis", described(axis, "points along the axis, those at nodes once for each element; with output.points")}},
       {"kink", "kinks", "rest", "angles", "spins", "axis"});
   const Json jumps = record(
-      {{"kinetic", described(number_or_null, "of kinetic energy", "J")},
-       {"axial", described(number_or_null, "of the strain energy of stretching", "J")},
-       {"bending", described(number_or_null, "of the strain energy of bending", "J")},
-       {"gravity", described(number_or_null, "of the potential energy", "J")},
-       {"discrete_total", described(number_or_null, "of the total, by the model's own quadrature points", "J")}});
+      {{"kinetic", described(nullable_number, "of kinetic energy", "J")},
+       {"axial", described(nullable_number, "of the strain energy of stretching", "J")},
+       {"bending", described(nullable_number, "of the strain energy of bending", "J")},
+       {"gravity", described(nullable_number, "of the potential energy", "J")},
+       {"discrete_total", described(nullable_number, "of the total, by the model's own quadrature points", "J")}});
   const Json event =
       record({{"t", described(number, "time", "s")},
               {"type", described(choice_of<EventType>(), "what happened to the mesh")},
@@ -450,30 +450,31 @@ Json run_schema() {
        {"rejected", described(whole, "steps that were repeated, shorter", "-")},
        {"rhs_evaluations",
         described(whole, "evaluations of the equations of motion, as accelerations or residual", "-")},
-       {"smallest_step", described(number_or_null, "of the accepted ones that no event cut short", "s")},
+       {"smallest_step", described(nullable_number, "of the accepted ones that no event cut short", "s")},
        {"newton_iterations", described(whole, "of implicit methods", "-")},
        {"tangents", described(whole, "factored by implicit methods", "-")},
        {"longest_newton_iteration",
         described(array_of(number), "corrections, one after the other, of the iteration that took most of them", "-")},
        {"constraint_residual", residual("how far samples were from their constraints, with multipliers", "m", "m/s")},
        {"slope_residual", residual("how far the slopes at a kinked mass were from what ties them", "-", "1/s")},
-       {"largest_kinetic_energy", described(number_or_null, "of all samples", "J")},
+       {"largest_kinetic_energy", described(nullable_number, "of all samples", "J")},
        {"largest_energy_drift",
         described(
-            number_or_null,
+            nullable_number,
             "of all samples: change of the total energy by the model's own points, less what is supplied and what "
             "changes at events",
             "J")}});
-  const Json ledger = record(
-      {{"change", described(number_or_null, "of the total energy, what is dissipated included", "J")},
-       {"supplied", described(number_or_null, "by moving supports, growing gravity, loads, and through the ends", "J")},
-       {"dissipated", described(number_or_null, "by damping and friction", "J")},
-       {"at_events", described(number_or_null, "sum of the jumps at length-control events", "J")},
-       {"event_jumps", described(number_or_null, "sum of their magnitudes", "J")},
-       {"at_contacts", described(number_or_null, "by impacts of the mass on supports", "J")},
-       {"unexplained",
-        described(number_or_null, "change - supplied - at_events - at_contacts, at the last sample", "J")},
-       {"largest_unexplained", described(number_or_null, "the same, largest magnitude of all samples", "J")}});
+  const Json ledger =
+      record({{"change", described(nullable_number, "of the total energy, what is dissipated included", "J")},
+              {"supplied",
+               described(nullable_number, "by moving supports, growing gravity, loads, and through the ends", "J")},
+              {"dissipated", described(nullable_number, "by damping and friction", "J")},
+              {"at_events", described(nullable_number, "sum of the jumps at length-control events", "J")},
+              {"event_jumps", described(nullable_number, "sum of their magnitudes", "J")},
+              {"at_contacts", described(nullable_number, "by impacts of the mass on supports", "J")},
+              {"unexplained",
+               described(nullable_number, "change - supplied - at_events - at_contacts, at the last sample", "J")},
+              {"largest_unexplained", described(nullable_number, "the same, largest magnitude of all samples", "J")}});
   const Json warning = record({{"kind", described(choice_of<WarningKind>(), "what it is about")},
                                {"message", described(text, "what has happened, with numbers")},
                                {"remedy", described(text, "what to try")}});
@@ -515,29 +516,29 @@ Json study_schema() {
       record({{"options", Json::object()}, {"results", Json::object()}, {"failure", text}}, {"failure"});
   const Json fit = record({{"quantity", text},
                            {"levels", array_of(number)},
-                           {"errors", array_of(number_or_null)},
+                           {"errors", array_of(nullable_number)},
                            {"errors_known_to", number},
                            {"fitted_from", whole},
                            {"fitted_to", whole},
-                           {"pairwise_orders", array_of(number_or_null)},
+                           {"pairwise_orders", array_of(nullable_number)},
                            {"pair_uncertainties", array_of(number)},
-                           {"slope", number_or_null},
-                           {"slope_uncertainty", number_or_null},
+                           {"slope", nullable_number},
+                           {"slope_uncertainty", nullable_number},
                            {"excluded", text},
                            {"refusal", text}},
                           {"excluded", "refusal"});
   const Json grid_convergence = record({{"quantity", text},
                                         {"levels", array_of(number)},
-                                        {"values", array_of(number_or_null)},
-                                        {"order", number_or_null},
-                                        {"limit", number_or_null},
+                                        {"values", array_of(nullable_number)},
+                                        {"order", nullable_number},
+                                        {"limit", nullable_number},
                                         {"safety_factor", number},
-                                        {"uncertainty", number_or_null},
+                                        {"uncertainty", nullable_number},
                                         {"refusal", text}},
                                        {"refusal"});
   const Json gate = record({{"name", text},
                             {"kind", gate_kind},
-                            {"value", number_or_null},
+                            {"value", nullable_number},
                             {"uncertainty", number},
                             {"bound", text},
                             {"reason", text},
@@ -559,7 +560,7 @@ Json study_schema() {
               {"profile", profile},
               {"status", choice({"completed", "failed", "interrupted"})},
               {"failure", text},
-              {"measured", {{"type", "object"}, {"additionalProperties", number_or_null}}},
+              {"measured", {{"type", "object"}, {"additionalProperties", nullable_number}}},
               {"cases", array_of(study_case)},
               {"fits", array_of(fit)},
               {"grid_convergence", array_of(grid_convergence)},
@@ -620,19 +621,19 @@ Json converge_schema() {
   setting_or_null["type"] = {"object", "null"};
   const Json part = record({{"quantity", text},
                             {"levels", array_of(number)},
-                            {"values", array_of(number_or_null)},
-                            {"order", described(number_or_null, "of the three finest", "-")},
-                            {"limit", described(number_or_null, "Richardson's extrapolation")},
+                            {"values", array_of(nullable_number)},
+                            {"order", described(nullable_number, "of the three finest", "-")},
+                            {"limit", described(nullable_number, "Richardson's extrapolation")},
                             {"safety_factor", number},
-                            {"uncertainty", number_or_null},
+                            {"uncertainty", nullable_number},
                             {"refusal", described(text, "why there is no order: not asymptotic")}},
                            {"refusal"});
   Json level = record({{"refined", choice({"mesh", "time", "quadrature"})}}, {});
   level["properties"].update(setting.at("properties"));
   level["properties"].update(
-      Json{{"value", number_or_null},
-           {"difference", described(number_or_null, "from the answer, its magnitude")},
-           {"error_bound", described(number_or_null, "difference and uncertainty of the answer together")},
+      Json{{"value", nullable_number},
+           {"difference", described(nullable_number, "from the answer, its magnitude")},
+           {"error_bound", described(nullable_number, "difference and uncertainty of the answer together")},
            {"work", described(number, "evaluations times elements and quadrature points", "-")},
            {"events", described(whole, "of length control, contacts and separation")},
            {"failure", described(text, "why there is no value")}});
@@ -643,8 +644,8 @@ Json converge_schema() {
       {"unit", text},
       {"t", described(number, "time of the answer", "s")},
       {"error", described(number, "wanted, in the unit")},
-      {"answer", described(number_or_null, "of the finest setting, in the unit")},
-      {"uncertainty", described(number_or_null, "of the answer: of mesh, time and quadrature together")},
+      {"answer", described(nullable_number, "of the finest setting, in the unit")},
+      {"uncertainty", described(nullable_number, "of the answer: of mesh, time and quadrature together")},
       {"reached", described(flag, "whether the uncertainty is no more than the error wanted")},
       {"reason", described(text, "why not")},
       {"predictable_until", described(number, "the error wanted is kept until this sample", "s")},
@@ -656,7 +657,7 @@ Json converge_schema() {
         {"properties", {{"mesh", part}, {"time", part}, {"quadrature", part}}},
         {"additionalProperties", false}}},
       {"levels", described(array_of(level), "all runs: work and precision")},
-      {"cost", record({{"runs", whole}, {"in_runs_of_the_finest", number_or_null}})},
+      {"cost", record({{"runs", whole}, {"in_runs_of_the_finest", nullable_number}})},
       {"scene", described(any_object, "in the cheapest setting, or as given where there is none")},
       {"provenance", any_object},
       {"timing", record({{"seconds", described(array_of(number), "of each level", "s")}})}};

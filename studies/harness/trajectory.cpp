@@ -10,13 +10,13 @@
 #include "core/error.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/files.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/nearest.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_time = 1e-9;  // [s], relative to 1 s or more
 
 bool at_same_time(double a, double b) { return std::abs(a - b) <= same_time * std::max(1.0, std::abs(a)); }
@@ -79,7 +79,7 @@ Json match_events(const Json& a, const Json& b) {
   return list;
 }
 
-struct Table {
+struct Columns {
   std::vector<std::string> names, units;
   std::vector<std::vector<double>> rows;  ///< NaN where a cell is empty
   std::vector<std::size_t> lines;         ///< of the file, from 1
@@ -101,8 +101,8 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-Table read_table(const std::filesystem::path& file) {
-  Table table;
+Columns read_table(const std::filesystem::path& file) {
+  Columns table;
   std::istringstream text(read_text(file));
   std::string line;
   for (std::size_t number = 1; std::getline(text, line); ++number) {
@@ -256,7 +256,7 @@ CertifiedCase read_case(const std::filesystem::path& folder, const std::string& 
 
 Json score_trajectory(const CertifiedCase& known, const std::filesystem::path& csv,
                       const std::vector<std::string>& renamed) {
-  Table table = read_table(csv);
+  Columns table = read_table(csv);
   for (const std::string& pair : renamed) {
     const auto equals = pair.find('=');
     const std::string theirs = equals == std::string::npos ? "" : pair.substr(equals + 1);

@@ -211,7 +211,7 @@ class Report {
   void light_masses() {
     const auto place = [](double light) {
       Scene scene = rope({{0.5, 0.5, 1}, {1.45, light, 0}});
-      scene.length_control.lower = 0;
+      scene.length_control.lower = 0.4985;
       scene.length_control.end_merge = 0;
       scene.duration = 0.12;
       return *StudyContext::simulate_to_the_end(scene).samples.back().joints[0].position;

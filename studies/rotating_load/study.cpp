@@ -19,7 +19,6 @@ namespace {
 
 constexpr int D = 3;
 using Vector = Vec<double, D>;
-constexpr double pi = std::numbers::pi;
 
 // The elements behind the load have no length when it comes onto the shaft, those ahead none when it leaves: a run goes
 // from `margin` to 1 - `margin` of the way, and its last sample is extrapolated from the two before.
@@ -59,7 +58,7 @@ class Shaft {
     if (run.set.slenderness > 0) shaft.radius = run.set.slenderness * length_;
     const double EJ = shaft.section().stiffness.EI, spin = run.spin < 0 ? spin_ : run.spin;
     const double speed = speed_of(run.set);
-    const double duration = length_ / speed, omega = 2 * pi * run.set.k_omega / duration;
+    const double duration = length_ / speed, omega = 2 * std::numbers::pi * run.set.k_omega / duration;
     const double force = 48 * EJ * deflection_ / (length_ * length_ * length_);
     const int middle = run.elements / 2;
 
@@ -115,7 +114,7 @@ class Shaft {
   double speed_of(const RotatingLoad& set) const {
     CircularShaft shaft = shaft_;
     if (set.slenderness > 0) shaft.radius = set.slenderness * length_;
-    return set.a * pi / length_ * std::sqrt(shaft.section().stiffness.EI / shaft.section().rhoA);
+    return set.a * std::numbers::pi / length_ * std::sqrt(shaft.section().stiffness.EI / shaft.section().rhoA);
   }
   double length() const { return length_; }
 

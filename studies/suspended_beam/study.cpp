@@ -11,13 +11,12 @@
 
 #include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Case {
   std::string group;  ///< paper | finer | modes | virtual_work | friction

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/scene/derived.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -107,8 +108,6 @@ Jumps jumps_of(const RunResult& result) {
   }
   return sum;
 }
-
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 class Report {
  public:

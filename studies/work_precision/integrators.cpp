@@ -6,12 +6,12 @@
 #include <set>
 
 #include "core/scene/options.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam::work_precision {
 namespace {
 
 constexpr double certified = 100;  // errors nearer to the reference's own, by this factor, are left out
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Climb {
   Ladder ladder;

@@ -9,7 +9,7 @@
 namespace vlbeam::work_precision {
 namespace {
 
-struct Climb {
+struct MeshClimb {
   Ladder ladder;
   int elements = 0;
   bool exact = false;  ///< leaves no temporal error worth the name
@@ -18,7 +18,7 @@ struct Climb {
 
 /// A run with its errors over the beam's length.
 struct Measured {
-  const Climb* climb;
+  const MeshClimb* climb;
   const Rung* rung;
   double total, spatial, temporal;
 };
@@ -48,7 +48,7 @@ std::vector<Json> row(const Measured& point, double cost) {
 void compare_meshes(StudyReport& report, const StudyContext& context, const State& converged) {
   const Json& config = context.config.at("meshes");
   const double cap = context.config.at("most_element_steps").get<double>();
-  std::vector<Climb> climbs;
+  std::vector<MeshClimb> climbs;
   for (const Json& element : config.at("elements")) {
     for (const int n : config.at("counts").get<std::vector<int>>()) {
       const Json scene = merged(context.config.at("scene"), {{"beam", {{"element", element}, {"elements", n}}},
@@ -63,7 +63,7 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
     }
   }
   const auto outcomes =
-      context.sweep(climbs, [&](const Climb& climb) { return work_precision::climb(climb.ladder, cap); });
+      context.sweep(climbs, [&](const MeshClimb& climb) { return work_precision::climb(climb.ladder, cap); });
   for (std::size_t i = 0; i < climbs.size(); ++i) {
     if (outcomes[i]) climbs[i].rungs = *outcomes[i];
     if (!outcomes[i]) {
@@ -83,14 +83,14 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
                 .caption = "what is not shown, for its work reaches the cap or it fails",
                 .columns = {"element", "elements", "integrator", "setting", "ending"}};
   std::vector<Measured> points;
-  for (const Climb& climb : climbs) {
+  for (const MeshClimb& climb : climbs) {
     for (const Rung& rung : climb.rungs) {
       if (rung.ending == Ending::completed) continue;
       skipped.rows.push_back({climb.ladder.element, climb.elements, climb.ladder.integrator.name,
                               climb.ladder.integrator.setting(rung.value), to_string(rung.ending)});
     }
     if (climb.exact) continue;
-    const auto exact = std::ranges::find_if(climbs, [&](const Climb& other) {
+    const auto exact = std::ranges::find_if(climbs, [&](const MeshClimb& other) {
       return other.exact && other.elements == climb.elements && other.ladder.element == climb.ladder.element;
     });
     if (exact == climbs.end() || exact->rungs.empty() || exact->rungs.back().ending != Ending::completed) continue;

@@ -177,9 +177,9 @@ class Documents(unittest.TestCase):
         def library(name):
             return json.loads((SOURCES / f"scenes/{name}.json").read_text(encoding="utf-8"))
 
-        scenes = {"sliding masses": falling(), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
+        scenes = {"a sliding mass": falling(), "several masses": library("two_trolleys"), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
                   "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
-                  "loads": library("moving_force"), "spin": library("torsion"), "flow": library("moving_string")}
+                  "loads": library("moving_force"), "spin": library("torsion")}
         self.assertEqual(len(scenes), len(rows) - 2)
         for row in rows[2:]:
             name = next(name for name in scenes if row[0].startswith(name))

@@ -38,8 +38,8 @@ TEST(SeveralJoints, TheEffectOfALightOneIsProportionalToItsMass) {
   const auto place = [](double light) {
     Scene scene = test::rope({mass_at(0.5, 0.5, 1)});
     if (light > 0) scene.sliding_joints.push_back(mass_at(1.45, light));
-    scene.length_control.lower = 0;      // the same events of the first one
-    scene.length_control.end_merge = 0;  // of one mass too
+    scene.length_control.lower = 0.4985;  // the same events of the first one
+    scene.length_control.end_merge = 0;   // of one mass too
     scene.duration = 0.12;
     return test::completed(scene).samples.back();
   };
@@ -129,6 +129,53 @@ TEST(SeveralJoints, ThatMeetEndTheRunByName) {
   EXPECT_NEAR(*last.joints[1].position - *last.joints[0].position, 0.1 * 2 / 16, 1e-9);
 }
 
+TEST(SeveralJoints, MayShareAnElementThatBothAskToCut) {
+  Scene scene = test::rope({mass_at(14.0 / 15, 0.3, -2), mass_at(16.0 / 15, 0.3, 2)});
+  scene.beam.elements = 15;
+  const RunResult run = test::completed(scene);
+  EXPECT_GE(run.events.size(), 3U);
+  EXPECT_LE(largest_ledger(run), 1e-9);
+  for (const Sample& sample : run.samples) {
+    EXPECT_NEAR(*sample.joints[0].position + *sample.joints[1].position, 2, 1e-9) << "at " << sample.t;
+  }
+  EXPECT_GT(*run.samples.back().joints[1].position - *run.samples.back().joints[0].position, 0.25) << "they part";
+}
+
+TEST(SeveralJoints, ThatShareTheLastNodeBetweenThemMeet) {
+  Scene scene = test::rope({mass_at(0.4, 0.5, 1.5), mass_at(1.6, 0.5, -1.5)});
+  scene.gravity = {0, 0, 0};
+  scene.duration = 0.5;
+  const RunResult run = simulate(scene);
+  EXPECT_NE(run.failure.find("joints 0 and 1 met"), std::string::npos) << run.failure;
+  const Sample& last = run.samples.back();
+  EXPECT_NEAR(*last.joints[0].position, 1 - 0.05 * 2 / 16, 1e-9);
+  EXPECT_NEAR(*last.joints[1].position, 1 + 0.05 * 2 / 16, 1e-9);
+  EXPECT_LE(largest_ledger(run), 1e-9);
+}
+
+TEST(SeveralJoints, MeetWhateverTheMeshBetweenThemIs) {
+  for (const double other : {1.15, 1.18}) {
+    Scene scene = test::rope({mass_at(0.5, 0.3, 3), mass_at(other, 0.3)});
+    scene.gravity = {0, 0, 0};
+    scene.duration = 0.5;
+    const RunResult run = simulate(scene);
+    EXPECT_NE(run.failure.find("joints 0 and 1 met"), std::string::npos) << run.failure;
+    EXPECT_NEAR(*run.samples.back().joints[1].position, other, 1e-6);
+    EXPECT_NEAR(*run.samples.back().joints[0].position, other - 0.1 * 2 / 16, 1e-6);
+  }
+}
+
+TEST(SeveralJoints, ThatGoOneWayAreTheMirrorImageOfThoseThatGoTheOther) {
+  const RunResult forward = test::completed(test::rope({mass_at(0.4, 0.5, 2), mass_at(0.65, 0.5, 2)}));
+  const RunResult backward = test::completed(test::rope({mass_at(1.35, 0.5, -2), mass_at(1.6, 0.5, -2)}));
+  EXPECT_GE(forward.events.size(), 2U);
+  ASSERT_EQ(forward.samples.size(), backward.samples.size());
+  for (std::size_t i = 0; i < forward.samples.size(); ++i) {
+    EXPECT_NEAR(*forward.samples[i].joints[0].position + *backward.samples[i].joints[1].position, 2, 1e-9);
+    EXPECT_NEAR(*forward.samples[i].joints[1].position + *backward.samples[i].joints[0].position, 2, 1e-9);
+  }
+}
+
 TEST(SeveralJoints, RefuseWhatTheyDoNotKnow) {
   const Scene good = test::rope({mass_at(0.5, 0.3), mass_at(1.2, 0.3)});
   Scene scene = good;
@@ -150,8 +197,13 @@ TEST(SeveralJoints, RefuseWhatTheyDoNotKnow) {
   scene.integrator.type = IntegratorType::energy_momentum;
   EXPECT_EQ(test::refused(scene), "/integrator/type");
   scene = good;
-  scene.length_control.lower = 0.6;
-  EXPECT_EQ(test::refused(scene), "/length_control/lower");
+  for (const double lower : {0.6, 0.0}) {
+    scene.length_control.lower = lower;
+    EXPECT_EQ(test::refused(scene), "/length_control/lower");
+  }
+  scene = good;
+  scene.length_control.hysteresis = 0;  // what a cut leaves would be merged at once
+  EXPECT_EQ(test::refused(scene), "/length_control/hysteresis");
 }
 
 }  // namespace

@@ -307,5 +307,12 @@ TEST(MassStatics, TrolleyRestsInTheMiddle) {
   EXPECT_NEAR(last.reactions[0].position[1] + last.reactions[1].position[1], 7, 1e-9);
 }
 
+/// Alone, a cut or a merge would change the number of nodes on the path of equilibria.
+TEST(SleeveStatics, TakesCutsAndMergesInPairsOnly) {
+  Scene scene = in_sleeve(30, 1.2, 1, 12);
+  scene.length_control.lower = 0.3;
+  EXPECT_EQ(refused(scene), "/length_control/lower");
+}
+
 }  // namespace
 }  // namespace vlbeam::test
