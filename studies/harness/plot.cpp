@@ -64,8 +64,13 @@ std::string style_of(const Diagram& diagram, std::size_t i) {
   std::string style = diagram.series[i].style == Series::Style::line     ? "lines linewidth 2"
                       : diagram.series[i].style == Series::Style::points ? "points pointsize 1"
                                                                          : "linespoints linewidth 2 pointsize 1";
-  if (diagram.series[i].style != Series::Style::line)
-    style += " pointtype " + (diagram.ordered_colours ? "7" : std::to_string(2 * (i % 4) + 5));
+  constexpr std::array filled{7, 5, 9, 13};  // circle, square, triangle, diamond
+  if (diagram.series[i].style != Series::Style::line) {
+    // joints, all black, are told from each other by their shapes
+    const std::size_t of_joints = i >= n ? (i - n) % filled.size() : 0;
+    style +=
+        " pointtype " + std::to_string(diagram.ordered_colours ? filled[of_joints] : 2 * static_cast<int>(i % 4) + 5);
+  }
   if (diagram.ordered_colours) {
     if (diagram.series[i].style == Series::Style::points) return style + " linecolor rgb '#000000'";
     return style + " linecolor palette frac " +

@@ -52,6 +52,17 @@ inline Scene shaft_under_turning_load(int elements) {
   return scene;
 }
 
+/// A weightless beam whose equilibria are sought.
+inline Scene at_rest(int elements, double EA, double EI) {
+  Scene scene;
+  scene.analysis = Analysis::statics;
+  scene.gravity = {};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
+  scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.elements = elements;
+  return scene;
+}
+
 /// A run that has to go to its end.
 inline RunResult completed(const Scene& scene) {
   RunResult run = simulate(scene);

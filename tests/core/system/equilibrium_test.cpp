@@ -12,12 +12,7 @@ namespace vlbeam::test {
 namespace {
 
 Scene straight(int elements, double EA, double EI) {
-  Scene scene;
-  scene.analysis = Analysis::statics;
-  scene.gravity = {};
-  scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
-  scene.beam.element = ElementKind::ale_ancf;
-  scene.beam.elements = elements;
+  Scene scene = at_rest(elements, EA, EI);
   scene.start.type = SupportType::clamp;
   return scene;
 }

@@ -102,12 +102,7 @@ TEST(StaticEquations, TangentAndItsInertia) {
 }
 
 Scene statics(double EA, double EI, int elements) {
-  Scene scene;
-  scene.analysis = Analysis::statics;
-  scene.gravity = {};
-  scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
-  scene.beam.element = ElementKind::ale_ancf;
-  scene.beam.elements = elements;
+  Scene scene = at_rest(elements, EA, EI);
   scene.statics.steps = 4;
   return scene;
 }
