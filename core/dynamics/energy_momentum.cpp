@@ -52,6 +52,16 @@ class EnergyMomentum final : public Stepper {
     return false;
   }
 
+  void exchange(Memory& memory) override {
+    memory(acceleration_);
+    if (memory.reads()) fields_.clear();  // anew with the next step
+    memory(tangent_step_);
+    if (tangent_step_ == 0) return;
+    for (Eigen::VectorXd* vector : {&middle_q_, &middle_v_, &middle_a_}) memory(*vector);
+    memory(middle_t_);
+    if (memory.reads()) factor(tangent_step_);
+  }
+
   void reset() override {
     acceleration_.resize(0);
     tangent_step_ = 0;
@@ -62,11 +72,14 @@ class EnergyMomentum final : public Stepper {
   bool linearize(double t, double h) {
     middle_q_ = (q0_ + q1_) / 2;
     middle_v_ = (v0_ + v1_) / 2;
-    acceleration_ = (v1_ - v0_) / h;
-    if (!system_.linearize(middle_q_, middle_v_, acceleration_, t + h / 2, 2 / h, 4 / (h * h))) return false;
+    middle_a_ = (v1_ - v0_) / h;
+    middle_t_ = t + h / 2;
+    if (!factor(h)) return false;
     tangent_step_ = h;
     return true;
   }
+
+  bool factor(double h) { return system_.linearize(middle_q_, middle_v_, middle_a_, middle_t_, 2 / h, 4 / (h * h)); }
 
   void accept(Eigen::VectorXd& y, double& t, double h, Eigen::Index n, double dissipation) {
     y.head(n) = q0_ + (h / 2) * (v0_ + v1_);
@@ -81,7 +94,9 @@ class EnergyMomentum final : public Stepper {
   std::vector<FieldRun> fields_;
   double tangent_step_ = 0;       ///< the step that the factored tangent was made for; 0 for none
   Eigen::VectorXd acceleration_;  ///< mean of the last step, which predicts the next one
-  Eigen::VectorXd q0_, v0_, q1_, v1_, r_, middle_q_, middle_v_;
+  Eigen::VectorXd q0_, v0_, q1_, v1_, r_;
+  Eigen::VectorXd middle_q_, middle_v_, middle_a_;  ///< what the factored tangent was made at: it may be steps old
+  double middle_t_ = 0;                             ///< [s]
 };
 
 }  // namespace

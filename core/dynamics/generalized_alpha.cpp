@@ -80,6 +80,24 @@ class GeneralizedAlpha final : public Stepper {
     tangent_by_a_ = 0;
   }
 
+  void exchange(Memory& memory) override {
+    system_.exchange(memory);
+    memory(started_);
+    if (!started_) return;
+    end_.exchange(memory);
+    memory(allowed_);
+    memory(noise_step_);
+    if (memory.reads()) {
+      stop_.set_fields(system_.fields());
+      for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(system_.coordinates());
+    }
+    stop_.exchange(memory);
+    memory(tangent_by_a_);
+    if (tangent_by_a_ == 0) return;
+    tangent_.exchange(memory);
+    if (memory.reads()) linearize();
+  }
+
   void resume(const Stepper& other) override {
     const auto& main = dynamic_cast<const GeneralizedAlpha&>(other);
     if (&main != this) {
@@ -94,11 +112,39 @@ class GeneralizedAlpha final : public Stepper {
   }
 
  private:
-  struct Memory {
+  struct StepEnd {
     Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
     Eigen::VectorXd a;                  ///< the method's own acceleration
     double h = 0;                       ///< [s], length of the step that `a` belongs to
     Tally power;                        ///< [W]
+
+    void exchange(Memory& memory) {
+      memory(true_acceleration);
+      memory(a);
+      memory(h);
+      power.exchange(memory);
+    }
+  };
+
+  /// What the factored tangent was made at: it may be steps old.
+  struct TangentPoint {
+    Eigen::VectorXd q, v, a;
+    double t = 0, by_v = 0, by_a = 0;
+
+    /// Allocates nothing once the sizes are known.
+    void set(const Eigen::VectorXd& q_, const Eigen::VectorXd& v_, const Eigen::VectorXd& a_, double t_, double by_v_,
+             double by_a_) {
+      q = q_;
+      v = v_;
+      a = a_;
+      t = t_;
+      by_v = by_v_;
+      by_a = by_a_;
+    }
+    void exchange(Memory& memory) {
+      for (Eigen::VectorXd* vector : {&q, &v, &a}) memory(*vector);
+      for (double* number : {&t, &by_v, &by_a}) memory(*number);
+    }
   };
 
   void start(double t, Eigen::Index n) {
@@ -160,7 +206,8 @@ class GeneralizedAlpha final : public Stepper {
       dissipation = system_.residual(q_, v_, acceleration_, t, r_);
       if (!r_.allFinite()) return false;
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
-        if (!system_.linearize(q_, v_, acceleration_, t, by_v(h), by_a(h))) return false;
+        tangent_.set(q_, v_, acceleration_, t, by_v(h), by_a(h));
+        if (!linearize()) return false;
         if (counters_) ++counters_->tangents;
         tangent_by_a_ = by_a(h);
         fresh = true;
@@ -187,6 +234,10 @@ class GeneralizedAlpha final : public Stepper {
       }
     }
     return false;
+  }
+
+  bool linearize() {
+    return system_.linearize(tangent_.q, tangent_.v, tangent_.a, tangent_.t, tangent_.by_v, tangent_.by_a);
   }
 
   /// What rounding of all that the residual depends on does to the solution.
@@ -253,9 +304,10 @@ class GeneralizedAlpha final : public Stepper {
   NewtonCounters* counters_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
-  bool stalled_ = false;                       ///< Newton's iteration has asked for the shorter step
-  double tangent_by_a_ = 0;                    ///< what the factored tangent was made for; 0 for none
-  Memory start_, end_;                         ///< at the start and at the end of the last step
+  bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
+  double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
+  TangentPoint tangent_;
+  StepEnd start_, end_;                        ///< at the start and at the end of the last step
   Eigen::VectorXd base_q_, base_v_;            ///< at the start of the step
   Eigen::VectorXd predicted_v_, predicted_a_;  ///< at its end
   Eigen::VectorXd d_;                          ///< what its positions are off the velocity going on

@@ -56,6 +56,8 @@ class InTolerances final : public Stepper {
     return done;
   }
 
+  void exchange(Memory& memory) override { inner_->exchange(memory); }
+
   void reset() override {
     inner_->reset();
     scaled_.reset();  // an event may have changed what the state is

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
+#include <utility>
 
 #include "core/dynamics/in_tolerances.hpp"
 #include "core/dynamics/sundials_stepper.hpp"
@@ -111,6 +113,11 @@ class SideStepper {
     return y_;
   }
 
+  void exchange(Memory& memory) {
+    own_.exchange(memory);
+    stepper_->exchange(memory);
+  }
+
  private:
   EventedOde& ode_;
   NewtonCounters& total_;
@@ -207,21 +214,121 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
   return first;
 }
 
+/// Tells the equations what happens to them, and remembers it where checkpoints are to be kept.
+class Herald {
+ public:
+  Herald(EventedOde& ode, const Checkpoints* checkpoints)
+      : ode_(ode), checkpoints_(checkpoints && checkpoints->keep ? checkpoints : nullptr) {}
+
+  void sample(const Eigen::VectorXd& y, double t) {
+    remember(-1, y, t);
+    ode_.sample(y, t);
+  }
+  void event(int guard, Eigen::VectorXd& y, double t) {
+    remember(guard, y, t);
+    ode_.handle_event(guard, y, t);
+  }
+
+  /// Tells all that happened before a checkpoint once more.
+  void repeat(const Checkpoint& from) {
+    for (const Happening& happening : from.past) {
+      if (happening.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
+      recall(happening.system);
+      if (happening.guard < 0) {
+        sample(happening.y, happening.t);
+        continue;
+      }
+      Eigen::VectorXd y = happening.y;
+      if (ode_.guards(y, happening.t).size() <= static_cast<std::size_t>(happening.guard)) {
+        throw std::out_of_range("an event of other equations");
+      }
+      event(happening.guard, y, happening.t);
+    }
+    if (from.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
+    recall(from.system);
+    set_next(from.t);
+  }
+
+  bool due(double t) const { return checkpoints_ != nullptr && t >= next_; }
+  void keep(const Eigen::VectorXd& y, double t, std::vector<double> method) {
+    if (checkpoints_ == nullptr) return;
+    kept_.t = t;
+    kept_.y = y;
+    kept_.system = memory();
+    kept_.method = std::move(method);
+    checkpoints_->keep(kept_);
+    set_next(t);
+  }
+  void set_next(double t) {
+    if (checkpoints_ != nullptr) next_ = checkpoints_->every * (std::floor(t / checkpoints_->every) + 1);
+  }
+
+ private:
+  std::vector<double> memory() {
+    Memory memory;
+    ode_.exchange(memory);
+    return memory.numbers();
+  }
+  void recall(const std::vector<double>& numbers) {
+    Memory memory(numbers);
+    ode_.exchange(memory);
+    if (!memory.at_end()) throw std::out_of_range("a memory of other equations");
+  }
+  void remember(int guard, const Eigen::VectorXd& y, double t) {
+    if (checkpoints_ != nullptr) kept_.past.push_back({guard, t, y, memory()});
+  }
+
+  EventedOde& ode_;
+  const Checkpoints* checkpoints_;
+  Checkpoint kept_;
+  double next_ = 0;  ///< [s]
+};
+
 }  // namespace
 
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
-               const IntegrationOptions& options, SolverCounters& counters) {
+               const IntegrationOptions& options, SolverCounters& counters, const Checkpoints* checkpoints) {
+  if (checkpoints != nullptr && of_sundials(options.type)) {
+    refuse("/integrator/type", "a method of SUNDIALS, with checkpoints",
+           "it keeps its history to itself: take another method");
+  }
   const Method method(ode, options, counters.newton);
   Stepper* const stepper = method.stepper.get();
   SideStepper side(ode, options, counters.newton);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
   double dt = std::min(first_step(options), t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
-  Eigen::VectorXd before = y;
   double last_event = t - 1;
   int cascade = 0;
 
-  for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) ode.sample(y, t);
+  Herald herald(ode, checkpoints);
+  const auto exchange = [&](Memory& memory) {
+    memory(dt);
+    memory(last_event);
+    memory(cascade);
+    counters.exchange(memory);
+    stepper->exchange(memory);
+    side.exchange(memory);
+  };
+  if (checkpoints != nullptr && checkpoints->from) {
+    const Checkpoint& from = *checkpoints->from;
+    try {
+      herald.repeat(from);
+      y = from.y;
+      t = from.t;
+      Memory memory(from.method);
+      exchange(memory);
+      if (!memory.at_end()) throw std::out_of_range("a memory of another method");
+    } catch (const std::out_of_range& unfit) {
+      refuse("checkpoint", unfit.what(), "it must be of this scene and this program");
+    }
+    next_sample = std::upper_bound(sample_times.begin(), sample_times.end(), t);
+  } else {
+    for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) herald.sample(y, t);
+    herald.set_next(t);
+  }
+  Eigen::VectorXd before = y;
+
   while (t < t_end) {
     before = y;
     const double t_before = t;
@@ -263,7 +370,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       y = event.y;
     }
     for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
-      ode.sample(state_at(ode, side, *stepper, {t_before, before, t, y}, *next_sample), *next_sample);
+      herald.sample(state_at(ode, side, *stepper, {t_before, before, t, y}, *next_sample), *next_sample);
     }
     if (!cut && !last) {
       counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
@@ -275,11 +382,17 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       if (cascade > longest_cascade) {
         throw ComputationFailed("a cascade of length-control events without progress in time", t);
       }
-      ode.handle_event(event.index, y, t);
+      herald.event(event.index, y, t);
       stepper->reset();
       dt = tried;
     }
-    if (!ode.proceed(y, t)) return false;
+    const bool goes_on = ode.proceed(y, t);
+    if (herald.due(t) || !goes_on) {
+      Memory memory;
+      exchange(memory);
+      herald.keep(y, t, memory.numbers());
+    }
+    if (!goes_on) return false;
   }
   return true;
 }

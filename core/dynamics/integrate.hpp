@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/dynamics/checkpoint.hpp"
 #include "core/dynamics/energy_momentum.hpp"
 #include "core/dynamics/generalized_alpha.hpp"
 #include "core/dynamics/ode.hpp"
@@ -22,6 +23,8 @@ class EventedOde : public Ode {
   virtual void sample(const Eigen::VectorXd& y, double t) = 0;
   /// After each step, which ended at (t, y); false interrupts.
   virtual bool proceed(const Eigen::VectorXd& y, double t) = 0;
+  /// Writes or reads what it keeps beside the state since its last event.
+  virtual void exchange(Memory& /*memory*/) {}
 };
 
 struct IntegrationOptions {
@@ -40,7 +43,13 @@ struct IntegrationOptions {
 /// step, which leaves any method of first order. Where steps inside one cannot be taken, that one is halved. Returns
 /// false if interrupted. Throws ComputationFailed on step underflow and on a cascade of events without progress in
 /// time; `y` and `t` are then the last good state.
+///
+/// With `checkpoints` it may go on from one, with the digits of the run that left it: `ode` must then be as it was at
+/// the start of that run, and samples and events up to there happen to it once more. Checkpoints are kept at the first
+/// end of a step at or after each multiple of their interval: steps do not depend on them. Throws InvalidInput where a
+/// checkpoint does not fit these equations and options, or where the method has a memory that cannot be kept
+/// (SUNDIALS).
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
-               const IntegrationOptions& options, SolverCounters& counters);
+               const IntegrationOptions& options, SolverCounters& counters, const Checkpoints* checkpoints = nullptr);
 
 }  // namespace vlbeam

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dynamics/fields.hpp"
+#include "core/dynamics/memory.hpp"
 
 namespace vlbeam {
 
@@ -66,6 +67,16 @@ class NewtonStop {
   static void perturb(const Eigen::VectorXd& x, Eigen::VectorXd& perturbed);
   /// `change` is what a perturbation of all that the residual depends on does to the solution, near q.
   void set_noise(const Eigen::VectorXd& change, const Eigen::VectorXd& q);
+
+  /// Writes or reads all but the fields.
+  void exchange(Memory& memory) {
+    for (FieldNorms* norms : {&correction_, &before_, &increment_, &noise_}) memory(*norms);
+    memory(noise_known_);
+    memory(noise_age_);
+    memory(error_);
+    memory(contraction_);
+    memory(corrections_);
+  }
 
   double error() const { return error_; }  ///< last correction over the increment, the largest of all fields
   double contraction() const { return contraction_; }  ///< from the correction before; 0 after the first

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/dynamics/fields.hpp"
+#include "core/dynamics/memory.hpp"
 #include "core/dynamics/solver_counters.hpp"
 #include "core/dynamics/tallies.hpp"
 
@@ -76,6 +77,8 @@ class SecondOrderSystem {
   virtual double multiplier_unit() const { return 1; }
   /// Takes over what another view of the same equations has chosen on its way, so that both go on with equal digits.
   virtual void follow(const SecondOrderSystem& /*other*/) {}
+  /// Writes or reads what it has chosen on its way.
+  virtual void exchange(Memory& /*memory*/) {}
   /// Jacobian of the same equations in first order, y = (q, q', ...): Ode::jacobian().
   virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
   /// Residual of a step of length h from (q0, v0) at time t to (q1, v1), q1 = q0 + h (v0 + v1)/2, that keeps energy:

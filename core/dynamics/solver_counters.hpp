@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/dynamics/memory.hpp"
+
 namespace vlbeam {
 
 /// How far a state is from its constraints C(q) = 0, the largest of all.
@@ -18,6 +20,15 @@ struct NewtonCounters {
   std::vector<double> longest;      ///< corrections, relative to the increment, of the step that took most of them
   ConstraintResidual constraints;   ///< the largest of all steps
   std::vector<double> multipliers;  ///< of the last step, as the system scales them
+
+  void exchange(Memory& memory) {
+    memory(iterations);
+    memory(tangents);
+    memory(longest);
+    memory(constraints.position);
+    memory(constraints.velocity);
+    memory(multipliers);
+  }
 };
 
 /// What a run took.
@@ -27,6 +38,13 @@ struct SolverCounters {
   std::size_t rhs_evaluations = 0;
   double smallest_step = 0;  ///< [s], of the accepted steps that no event cut short
   NewtonCounters newton;     ///< of implicit methods
+
+  void exchange(Memory& memory) {
+    memory(steps);
+    memory(rejected);
+    memory(smallest_step);
+    newton.exchange(memory);
+  }
 };
 
 }  // namespace vlbeam

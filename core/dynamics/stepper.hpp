@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/dynamics/integrator_type.hpp"
+#include "core/dynamics/memory.hpp"
 #include "core/dynamics/ode.hpp"
 
 namespace vlbeam {
@@ -31,6 +32,8 @@ class Stepper {
   virtual void reset() = 0;
   /// Gets ready to repeat the last successful step of `other`, a stepper of the same method.
   virtual void resume(const Stepper& /*other*/) { reset(); }
+  /// Writes or reads what it keeps from one step to the next. Not between a failed step and its repetition.
+  virtual void exchange(Memory& memory) = 0;
 };
 
 /// A Boost.Odeint method, ready for its first step. Those that choose their step look at `tolerances`.

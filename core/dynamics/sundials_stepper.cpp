@@ -84,6 +84,8 @@ class SundialsStepper : public Stepper {
 
   void reset() override { handles_.reset(); }
 
+  void exchange(Memory& /*memory*/) override { throw std::logic_error("SUNDIALS keeps its history to itself"); }
+
  protected:
   virtual void start(Ode& ode, const State& y, double t) = 0;
   /// Integrates to `to`; false where it cannot.

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "core/dynamics/memory.hpp"
+
 namespace vlbeam {
 
 /// What has been supplied since the start, or its rate; the motion does not depend on it. Energies [J], unless said.
@@ -14,6 +16,12 @@ struct Tally {
   double mass = 0;        ///< in through the ends [kg]
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< of supports, loads, gravity, and in with the matter [N s]
   double spin_impulse = 0;                            ///< about the axis [N m s]
+
+  void exchange(Memory& memory) {
+    for (double* entry : {&dissipated, &loads, &ends, &supports, &mesh, &mass}) memory(*entry);
+    for (double& component : impulse) memory(component);
+    memory(spin_impulse);
+  }
 
   friend Tally operator+(const Tally& a, const Tally& b) {
     return {a.dissipated + b.dissipated,

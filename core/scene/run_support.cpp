@@ -83,14 +83,14 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
 }
 
 void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial, Stops& stops,
-                const IntegrationOptions& options, RunResult& result) {
+                const IntegrationOptions& options, const Checkpoints* checkpoints, RunResult& result) {
   double t = 0;
   Eigen::VectorXd y;
   const auto started = std::chrono::steady_clock::now();
   try {
     result.samples.reserve(stops.samples.size());
     y = initial();
-    if (!integrate(ode, y, t, scene.duration, stops.all(), options, result.solver)) {
+    if (!integrate(ode, y, t, scene.duration, stops.all(), options, result.solver, checkpoints)) {
       result.status = RunStatus::interrupted;
     }
   } catch (const ComputationFailed& failure) {

@@ -49,7 +49,7 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
 /// Runs to the end of the scene, from the state that `initial` makes, and notes how it went. The last sample of a run
 /// that fails is its last good state.
 void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::VectorXd()>& initial, Stops& stops,
-                const IntegrationOptions& options, RunResult& result);
+                const IntegrationOptions& options, const Checkpoints* checkpoints, RunResult& result);
 
 /// Follows the equilibria of a scene.
 template <int D>

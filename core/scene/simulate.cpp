@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/error.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/energy_ledger.hpp"
@@ -61,8 +62,8 @@ template <int D, class System>
 class Run {
  public:
   template <class... Parts>
-  Run(const Scene& scene, const ProgressCallback& progress, const Parts&... parts)
-      : scene_(scene), progress_(progress), stops_(scene), system_(parts...) {
+  Run(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints, const Parts&... parts)
+      : scene_(scene), progress_(progress), checkpoints_(checkpoints), stops_(scene), system_(parts...) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_.on_step = [this](double t) { return !progress_ || progress_(t); };
     if constexpr (!prescribed) system_.on_event = [this](const EventRecord<D>& record) { event(record); };
@@ -85,7 +86,7 @@ class Run {
         return system_.initial_state();
       }
     };
-    run_to_end(scene_, system_, initial, stops_, options, result_);
+    run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
     result_.timing.motion -= result_.timing.length_control + observing_;
     result_.solver.rhs_evaluations = system_.rhs_evaluations();
     return std::move(result_);
@@ -234,6 +235,7 @@ class Run {
 
   const Scene& scene_;
   ProgressCallback progress_;
+  const Checkpoints* checkpoints_;
   Stops stops_;
   System system_;
   RunResult result_;
@@ -241,17 +243,21 @@ class Run {
 };
 
 template <int D>
-RunResult simulate_in(const Scene& scene, const ProgressCallback& progress) {
+RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
   if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
-  if (flows(scene)) return Run<D, FlowingBeam<D>>(scene, progress, build_flowing_model<D>(scene))();
-  return Run<D, BeamSystem<D>>(scene, progress, build_model<D>(scene), build_chain<D>(scene))();
+  if (flows(scene)) return Run<D, FlowingBeam<D>>(scene, progress, checkpoints, build_flowing_model<D>(scene))();
+  return Run<D, BeamSystem<D>>(scene, progress, checkpoints, build_model<D>(scene), build_chain<D>(scene))();
 }
 
 }  // namespace
 
-RunResult simulate(const Scene& scene, const ProgressCallback& progress) {
+RunResult simulate(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
   validate(scene);
-  RunResult result = scene.dimension == 2 ? simulate_in<2>(scene, progress) : simulate_in<3>(scene, progress);
+  if (checkpoints != nullptr && scene.analysis == Analysis::statics) {
+    refuse("/analysis", "\"statics\" with checkpoints", "they are of runs in time");
+  }
+  RunResult result = scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints)
+                                          : simulate_in<3>(scene, progress, checkpoints);
   if (scene.analysis == Analysis::statics) return result;
   result.warnings = energy_warnings(scene, result);
   if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);

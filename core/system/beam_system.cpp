@@ -583,6 +583,15 @@ std::unique_ptr<SecondOrderSystem> BeamSystem<D>::new_second_order() {
 }
 
 template <int D>
+void BeamSystem<D>::exchange(Memory& memory) {
+  memory(rhs_evaluations_);
+  ramp_.exchange(memory);
+  bool viewed = implicit_ != nullptr;
+  memory(viewed);
+  if (viewed) second_order()->exchange(memory);
+}
+
+template <int D>
 OuterForces<D> BeamSystem<D>::forces(const Eigen::VectorXd& y, double t) {
   second_order();
   const std::size_t evaluations = rhs_evaluations_;  // those of the integrator

@@ -130,6 +130,7 @@ class BeamSystem final : public EventedOde {
     if (ramp_.due(t)) ramp_.advance(t, moment(y, t));
     return !on_step || on_step(t);
   }
+  void exchange(Memory& memory) override;
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
   std::function<void(const EventRecord<D>&)> on_event;

@@ -88,6 +88,10 @@ class FlowingBeam final : public EventedOde {
     }
     return !on_step || on_step(t);
   }
+  void exchange(Memory& memory) override {
+    memory(rhs_evaluations_);
+    ramp_.exchange(memory);
+  }
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
   std::function<bool(double t)> on_step;

@@ -689,6 +689,15 @@ void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
 }
 
 template <int D>
+void ImplicitBeam<D>::exchange(Memory& memory) {
+  refresh();
+  for (Conditions& conditions : slope_conditions_) {
+    memory(conditions.omitted_axis);
+    conditions.of = {system_.joint(conditions.joint).law.slopes, conditions.omitted_axis};
+  }
+}
+
+template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });

@@ -53,6 +53,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
   double multiplier_unit() const override { return reference_mass_; }
   void follow(const SecondOrderSystem& other) override;
+  void exchange(Memory& memory) override;
   double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                              const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override;
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/beam/mesh_motion.hpp"
+#include "core/dynamics/memory.hpp"
 #include "core/geometry/vec.hpp"
 
 namespace vlbeam {
@@ -19,6 +20,10 @@ class RampWork {
   RampWork() = default;
   RampWork(const Vec<double, D>& gravity, double duration)
       : gravity_(gravity), duration_(gravity.isZero(0) ? 0 : duration) {}
+
+  void exchange(Memory& memory) {
+    for (double* number : {&last_, &done_, &power_.value, &power_.rate}) memory(*number);
+  }
 
   /// Whether gravity grew since the last instant, and long enough to be worth a look.
   bool due(double t) const {

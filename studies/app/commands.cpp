@@ -13,6 +13,7 @@
 #include "core/scene/simulate.hpp"
 #include "studies/app/registry.hpp"
 #include "studies/app/run_outputs.hpp"
+#include "studies/harness/checkpoint_file.hpp"
 #include "studies/harness/claims.hpp"
 #include "studies/harness/converge.hpp"
 #include "studies/harness/files.hpp"
@@ -82,8 +83,10 @@ int run_command(const RunArguments& arguments) {
   const std::string report = arguments.report.value_or(""), csv = arguments.csv.value_or("");
   if (arguments.report && report.empty()) check_writable("--report", report);
   if (arguments.csv && csv.empty()) check_writable("--csv", csv);
-  RunOutputs outputs(arguments.scene, {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}},
-                     arguments.force);
+  RunOutputs outputs(
+      arguments.scene,
+      {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}, {"--checkpoint", arguments.checkpoint}},
+      arguments.force);
   const Scene scene = read_scene(arguments.scene);
   const bool in_time = scene.analysis == Analysis::dynamics;
   if ((!arguments.shape.empty() || !arguments.vtk.empty()) && in_time && scene.output.configurations.empty()) {
@@ -91,19 +94,40 @@ int run_command(const RunArguments& arguments) {
                        "list the times of some in /output/configurations");
   }
 
+  Checkpoints checkpoints;
+  std::string not_kept;  // why the last one was not
+  if (!arguments.restart.empty()) checkpoints.from = read_checkpoint(arguments.restart, scene);
+  if (arguments.every) checkpoints.every = *arguments.every;
+  if (arguments.checkpoint == "-") refuse("--checkpoint", "\"-\"", "it is written again and again: give a file");
+  if (!arguments.checkpoint.empty()) {
+    checkpoints.keep = [&](const Checkpoint& checkpoint) {
+      try {
+        write_checkpoint(arguments.checkpoint, scene, checkpoint);
+        not_kept.clear();
+      } catch (const std::runtime_error& error) {  // no reason to lose the run
+        not_kept = error.what();
+      }
+    };
+  }
+  const bool checks = checkpoints.from || checkpoints.keep;
+
   install_interrupt_handler();
   RunResult result;
   {
     Progress progress(printable(scene.title.empty() ? arguments.scene : scene.title));
-    result = simulate(scene, [&](double t) {
-      if (in_time) {
-        progress.update(t / scene.duration, "t = " + std::to_string(t) + " s");
-      } else {
-        progress.update(t, "load factor " + std::to_string(t));
-      }
-      return !interrupted();
-    });
+    result = simulate(
+        scene,
+        [&](double t) {
+          if (in_time) {
+            progress.update(t / scene.duration, "t = " + std::to_string(t) + " s");
+          } else {
+            progress.update(t, "load factor " + std::to_string(t));
+          }
+          return !interrupted();
+        },
+        checks ? &checkpoints : nullptr);
   }
+  if (!not_kept.empty()) outputs.attempt(arguments.checkpoint, [&] { throw std::runtime_error(not_kept); });
 
   // What goes into files first: who reads from standard output may be gone.
   const auto write_report = [&] {
@@ -131,7 +155,9 @@ int run_command(const RunArguments& arguments) {
     return computation_failed;
   }
   if (result.status == RunStatus::interrupted) {
-    std::cerr << "vlbeam: interrupted\n";
+    std::cerr << "vlbeam: interrupted"
+              << (checkpoints.keep && not_kept.empty() ? "; --restart " + arguments.checkpoint + " goes on" : "")
+              << '\n';
     return interrupted_exit_code();
   }
   return outputs.all_written() ? done : computation_failed;

@@ -18,11 +18,13 @@ struct RunArguments {
   std::string scene;                  ///< "-" is standard input
   std::optional<std::string> report;  ///< "-" is standard output
   std::optional<std::string> csv;
-  std::string shape;   ///< points along the axis; empty for none
-  std::string vtk;     ///< folder of a ParaView series; empty for none
-  int points = 8;      ///< intervals an element of these
-  bool force = false;  ///< a run that did not end well may replace an earlier result
-  bool quiet = false;  ///< no summary on standard error
+  std::string shape;                ///< points along the axis; empty for none
+  std::string vtk;                  ///< folder of a ParaView series; empty for none
+  std::string checkpoint, restart;  ///< files to go on from, to be written and to be read; empty for none
+  std::optional<double> every;      ///< [s] between checkpoints; without it there is one of a run that is interrupted
+  int points = 8;                   ///< intervals an element of these
+  bool force = false;               ///< a run that did not end well may replace an earlier result
+  bool quiet = false;               ///< no summary on standard error
 };
 
 struct StudyArguments {

@@ -41,6 +41,12 @@ int dispatch(int argc, char** argv) {
   run->add_option("--points", run_arguments.points, "Intervals an element of --shape and --vtk")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  CLI::Option* checkpoint = run->add_option("--checkpoint", run_arguments.checkpoint,
+                                            "Write here what the run can go on from: when it is stopped, and --every");
+  run->add_option("--every", run_arguments.every, "Simulated time between checkpoints [s]")
+      ->check(CLI::PositiveNumber)
+      ->needs(checkpoint);
+  run->add_option("--restart", run_arguments.restart, "Go on from this checkpoint of the scene, with the same digits");
   run->add_flag("--force", run_arguments.force, "A run that fails may replace an earlier result");
   run->add_flag("--quiet,-q", run_arguments.quiet, "No summary on standard error");
 
