@@ -24,6 +24,7 @@ struct Checkpoint {
   Eigen::VectorXd y;
   std::vector<double> system;  ///< what the equations remember
   std::vector<double> method;  ///< what the integration, and its steppers, do
+  double seconds = 0;          ///< wall time it took to get there
 };
 
 /// Where an integration starts from, and when it leaves something to start from.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -246,6 +247,7 @@ class Herald {
     }
     if (from.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
     recall(from.system);
+    earlier_ = from.seconds;
     set_next(from.t);
   }
 
@@ -256,6 +258,7 @@ class Herald {
     kept_.y = y;
     kept_.system = memory();
     kept_.method = std::move(method);
+    kept_.seconds = earlier_ + std::chrono::duration<double>(Clock::now() - started_).count();
     checkpoints_->keep(kept_);
     set_next(t);
   }
@@ -278,10 +281,14 @@ class Herald {
     if (checkpoints_ != nullptr) kept_.past.push_back({guard, t, y, memory()});
   }
 
+  using Clock = std::chrono::steady_clock;
+
   EventedOde& ode_;
   const Checkpoints* checkpoints_;
   Checkpoint kept_;
-  double next_ = 0;  ///< [s]
+  Clock::time_point started_ = Clock::now();
+  double earlier_ = 0;  ///< [s], before that
+  double next_ = 0;     ///< [s]
 };
 
 }  // namespace

@@ -114,7 +114,8 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
     result.failure_time = t;
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  result.timing.motion = elapsed.count();
+  result.timing.motion =
+      elapsed.count() + (checkpoints != nullptr && checkpoints->from ? checkpoints->from->seconds : 0);
 }
 
 }  // namespace vlbeam

@@ -176,7 +176,7 @@ int study_command(const StudyArguments& arguments) {
                                                  .jobs = jobs_or_processors(arguments.jobs),
                                                  .force = arguments.force});
   if (verdict.status == "interrupted") {
-    std::cerr << "vlbeam: study " << study.name << " interrupted; nothing in " << printable(out) << " has changed\n";
+    std::cerr << "vlbeam: study " << study.name << " interrupted; nothing in " << printable(out) << " has changed; the same command goes on\n";
     return interrupted_exit_code();
   }
   std::cout << gates_text(study.name + " (" + arguments.profile + "): " + verdict.status, verdict.gates);

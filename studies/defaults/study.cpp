@@ -72,7 +72,7 @@ struct Ratios {
 StudyReport run(const StudyContext& context) {
   const auto cases = read_cases(context.config);
   const auto outcomes = context.sweep(
-      cases, [](const Case& item) { return simulate(item.run, StudyContext::until_interrupted()); },
+      cases, [](const Case& item) { return StudyContext::simulate_until_interrupted(item.run); },
       [](const Case& item) { return item.run.beam.elements * item.run.beam.elements * item.run.duration; });
 
   StudyReport report;

@@ -136,7 +136,7 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 StudyReport run(const StudyContext& context) {
   const auto cases = read_cases(context.config);
   const auto outcomes = context.sweep(
-      cases, [](const Case& item) { return simulate(item.scene, StudyContext::until_interrupted()); },
+      cases, [](const Case& item) { return StudyContext::simulate_until_interrupted(item.scene); },
       [](const Case& item) { return item.judged ? 1 : 10; });
 
   StudyReport report;

@@ -68,6 +68,7 @@ Checkpoint checkpoint_from(const Json& json) {
   checkpoint.y = unpacked<Eigen::VectorXd>(json.at("y"));
   checkpoint.system = unpacked<std::vector<double>>(json.at("system"));
   checkpoint.method = unpacked<std::vector<double>>(json.at("method"));
+  checkpoint.seconds = json.at("seconds").get<double>();
   return checkpoint;
 }
 
@@ -83,6 +84,7 @@ void write_checkpoint(const std::filesystem::path& file, const Scene& scene, con
   json["y"] = packed(checkpoint.y);
   json["system"] = packed(checkpoint.system);
   json["method"] = packed(checkpoint.method);
+  json["seconds"] = checkpoint.seconds;
   std::string text(head);
   Json::to_cbor(json, text);
   text += checksum_of(text);

@@ -13,6 +13,7 @@
 #include "core/scene/names.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/interrupt.hpp"
+#include "studies/harness/kept_runs.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/provenance.hpp"
 
@@ -107,8 +108,12 @@ ProgressCallback StudyContext::until_interrupted() {
   return [](double) { return !interrupted(); };
 }
 
+RunResult StudyContext::simulate_until_interrupted(const Scene& scene) {
+  return simulate_kept(scene, until_interrupted());
+}
+
 RunResult StudyContext::simulate_to_the_end(const Scene& scene) {
-  RunResult result = simulate(scene, until_interrupted());
+  RunResult result = simulate_until_interrupted(scene);
   if (result.status == RunStatus::failed) {
     throw std::runtime_error("t = " + std::to_string(result.failure_time) + " s: " + result.failure);
   }
@@ -129,6 +134,7 @@ StudyVerdict run_study(const Study& study, const StudyRun& run) {
   const ReportFiles files{.out = run.out, .study = study.name};
   check_writable("--out", files.report());
 
+  const KeptRuns kept(run.out / ("." + study.name + "." + profile_name + ".kept"));
   StudyReport report;
   StudyVerdict verdict{.status = "completed"};
   const auto fail = [&verdict](const std::string& why) {
@@ -168,6 +174,7 @@ StudyVerdict run_study(const Study& study, const StudyRun& run) {
                                       {"timing", report.timing}}));
   write_text(staged.report(), pretty(json));
   staging.publish(staged.report());
+  kept.discard();
   std::filesystem::remove(beside);
   verdict.report = files.report();
   return verdict;

@@ -38,7 +38,10 @@ struct StudyContext {
   /// Pass to simulate(): a run ends early once the user interrupts the study.
   static ProgressCallback until_interrupted();
 
-  /// simulate(), where a run that broke down or was interrupted throws std::runtime_error: a case of a sweep then
+  /// simulate(), which ends early then, and goes on where an earlier run of the study ended.
+  static RunResult simulate_until_interrupted(const Scene& scene);
+
+  /// The same, where a run that broke down or was interrupted throws std::runtime_error: a case of a sweep then
   /// fails.
   static RunResult simulate_to_the_end(const Scene& scene);
 };

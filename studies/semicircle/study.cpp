@@ -38,7 +38,7 @@ bool apart(const SceneCase& item) {
 /// A breakdown of the equations as printed is a finding, of all others an error.
 RunResult run_case(const SceneCase& item) {
   if (item.sweep != "printed") return StudyContext::simulate_to_the_end(item.scene);
-  RunResult run = simulate(item.scene, StudyContext::until_interrupted());
+  RunResult run = StudyContext::simulate_until_interrupted(item.scene);
   if (run.status == RunStatus::interrupted) throw std::runtime_error("interrupted");
   return run;
 }

@@ -85,7 +85,7 @@ class Report {
             [](const Case& item) {
               // without length control a run is meant to fail: where it does is the finding
               return item.scene.length_control.enabled ? StudyContext::simulate_to_the_end(item.scene)
-                                                       : simulate(item.scene, StudyContext::until_interrupted());
+                                                       : StudyContext::simulate_until_interrupted(item.scene);
             },
             cost)) {}
 

@@ -68,6 +68,7 @@ done
 round=after
 "$vlbeam" run scene.json --report results/r.json --csv results/r.csv 2> /dev/null || failed "the run"
 "$vlbeam" study quadrature --profile ci --out studies > /dev/null 2>&1 || failed "the study"
+[[ -z $(find studies -name '*.kept') ]] || failed "runs are kept of a study that is complete"
 [[ -z $(find studies -name '*.part') ]] || failed "parts of studies are left: $(find studies -name '*.part')"
 [[ $failures -eq 0 ]] && echo "$count ends, nothing lost"
 exit "$((failures > 0))"
