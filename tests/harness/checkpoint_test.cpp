@@ -99,9 +99,9 @@ std::vector<Case> cases() {
   return all;
 }
 
-class Checkpoints_ : public ::testing::TestWithParam<Case> {};
+class Continued : public ::testing::TestWithParam<Case> {};
 
-TEST_P(Checkpoints_, ChangeNoDigit) {
+TEST_P(Continued, ChangeNoDigit) {
   Json json = falling();
   GetParam().change(json);
   const Scene scene = scene_from_json(json);
@@ -130,7 +130,7 @@ TEST_P(Checkpoints_, ChangeNoDigit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Checkpoints_, ::testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(All, Continued, ::testing::ValuesIn(cases()));
 
 TEST(Checkpoint, IsLeftWhereARunIsStopped) {
   Json json = falling();
