@@ -176,7 +176,8 @@ int study_command(const StudyArguments& arguments) {
                                                  .jobs = jobs_or_processors(arguments.jobs),
                                                  .force = arguments.force});
   if (verdict.status == "interrupted") {
-    std::cerr << "vlbeam: study " << study.name << " interrupted; nothing in " << printable(out) << " has changed; the same command goes on\n";
+    std::cerr << "vlbeam: study " << study.name << " interrupted; nothing in " << printable(out)
+              << " has changed; the same command goes on\n";
     return interrupted_exit_code();
   }
   std::cout << gates_text(study.name + " (" + arguments.profile + "): " + verdict.status, verdict.gates);
@@ -271,7 +272,8 @@ int converge_command(const ConvergeArguments& arguments) {
                                              .relative = arguments.relative,
                                              .at = arguments.at,
                                              .horizon = arguments.horizon,
-                                             .jobs = jobs_or_processors(arguments.jobs)});
+                                             .jobs = jobs_or_processors(arguments.jobs),
+                                             .seconds = arguments.limit});
   if (interrupted()) {
     std::cerr << "vlbeam: interrupted; nothing was written\n";
     return interrupted_exit_code();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,8 +56,9 @@ struct ConvergeArguments {
   bool relative = false;
   std::optional<double> at;
   bool horizon = false;
-  std::string report, csv, figure;  ///< empty for none; "-" is standard output
-  int jobs = 0;                     ///< 0: one a processor
+  std::string report, csv, figure;                         ///< empty for none; "-" is standard output
+  int jobs = 0;                                            ///< 0: one a processor
+  double limit = std::numeric_limits<double>::infinity();  ///< wall time [s]
 };
 
 struct SweepArguments {

@@ -87,6 +87,8 @@ int dispatch(int argc, char** argv) {
   converge->add_option("--figure", converge_arguments.figure, "Draw it here (SVG or PNG)");
   converge->add_option("--jobs,-j", converge_arguments.jobs, "Runs at a time (default: one a processor)")
       ->check(CLI::NonNegativeNumber);
+  converge->add_option("--limit", converge_arguments.limit, "Wall time, after which it says what it knows [s]")
+      ->check(CLI::PositiveNumber);
 
   vlbeam::SweepArguments sweep_arguments;
   CLI::App* sweep =

@@ -1,6 +1,7 @@
 #include "studies/harness/converge.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -30,6 +31,7 @@ constexpr double least_tolerance = 1e-13, most_steps = 1e7;
 constexpr int least_elements = 2;
 constexpr double perturbation = 1e-8;
 constexpr const char* absent = "the quantity is not there at this time";
+constexpr const char* no_time = "stopped: no time was left";
 
 bool has_step(const Scene& scene) { return has_fixed_step(scene.integrator.type) && !scene.integrator.adaptive; }
 
@@ -69,6 +71,7 @@ class Converger {
     }
     scene_.output.configurations.clear();
     const Setting own = setting_of(scene_);
+    found_.answer = found_.uncertainty = nan;  // until something is known
     found_.quantity = quantity_.name;
     found_.unit = quantity_.unit;
     found_.t = scene_.duration;
@@ -88,6 +91,8 @@ class Converger {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   [[noreturn]] void too_small(double error) const {
     throw InvalidInput("--error", number_text(error),
                        "no level can show it: doubles have 16 digits; ask for at least " + number_text(rounding) +
@@ -106,14 +111,14 @@ class Converger {
   ConvergeLevel run(const Setting& setting, Refined refined) const {
     ConvergeLevel level{setting, refined, "", nan, {}, 0, 0, 0};
     const Scene scene = with_setting(scene_, setting);
-    const RunResult result = simulate(scene, [](double) { return !interrupted(); });
+    const RunResult result = simulate(scene, [this](double) { return !interrupted() && !late(); });
     level.work = static_cast<double>(result.solver.rhs_evaluations) * setting.elements * setting.points;
     level.events = result.events.size();
     for (const Sample& sample : result.samples) level.series.push_back(quantity_.of(sample));
     if (result.status == RunStatus::failed) {
       level.failure = result.failure;
     } else if (result.status == RunStatus::interrupted) {
-      level.failure = "interrupted";
+      level.failure = interrupted() ? "interrupted" : no_time;
     } else {
       level.value = level.series.back();
       if (!std::isfinite(level.value)) level.failure = absent;
@@ -143,8 +148,16 @@ class Converger {
       found_.levels.back().seconds = outcomes[i].seconds;
       work_ += found_.levels.back().work;
     }
-    if (interrupted()) found_.reason = "interrupted";
+    const auto stopped = [](const ConvergeLevel& level) { return level.failure == no_time; };
+    if (interrupted()) {
+      found_.reason = "interrupted";
+    } else if (!found_.reached && std::any_of(found_.levels.begin(), found_.levels.end(), stopped)) {
+      found_.reason = "the " + number_text(options_.seconds) + " s allowed are used up";
+    }
   }
+
+  /// No time is left.
+  bool late() const { return std::chrono::duration<double>(Clock::now() - started_).count() >= options_.seconds; }
 
   const ConvergeLevel* at(const Setting& setting) const {
     const auto level = std::ranges::find(found_.levels, setting, &ConvergeLevel::setting);
@@ -344,7 +357,8 @@ class Converger {
       if (found_.reason.empty()) found_.reason = finest->failure;
       found_.answer = found_.uncertainty = nan;
     }
-    if (interrupted() || finest == nullptr) return;
+    const bool nothing_known = late() && found_.finest.elements == 0;
+    if (interrupted() || finest == nullptr || nothing_known) return;
     predict(*finest);
     if (options_.horizon) look_for_horizon(*finest);
     if (found_.reached) choose_cheapest();
@@ -418,6 +432,7 @@ class Converger {
   Quantity quantity_;
   Setting now_;
   Convergence found_;
+  Clock::time_point started_ = Clock::now();
   double work_ = 0;
   std::vector<int> meshes_;      ///< the finest ones, as they were refined
   std::vector<double> history_;  ///< of the mesh's uncertainty on each

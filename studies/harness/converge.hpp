@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct ConvergeOptions {
   int jobs = 1;                   ///< runs at a time; the answer does not depend on it
   int most_elements = 1280;       ///< of the finest mesh
   double budget = 15;             ///< all runs together, in runs of the finest setting
+  double seconds =
+      std::numeric_limits<double>::infinity();  ///< wall time, after which what is known then is the answer
 };
 
 /// What a level refines.

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "core/error.hpp"
+#include "core/scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_library.hpp"
 
@@ -58,6 +59,27 @@ TEST(Converge, TheCheapestSettingKeepsTheError) {
     }
   }
   EXPECT_LT(found.cheapest->elements, found.finest.elements);
+}
+
+TEST(Converge, SaysWhatItKnowsWhenTheTimeIsUsedUp) {
+  Scene scene = library_scene("falling_beam");
+  scene.duration = 0.4;
+  scene.output.configurations.clear();
+  const ConvergeOptions options{.quantity = "end.y", .error = 1e-9, .jobs = 2};
+  ConvergeOptions none = options, some = options;
+  none.seconds = 1e-6;
+  const Convergence nothing = converge(scene, none);
+  EXPECT_FALSE(nothing.reached);
+  EXPECT_TRUE(std::isnan(nothing.answer) && std::isnan(nothing.uncertainty));
+  EXPECT_EQ(nothing.reason, "the 1e-06 s allowed are used up");
+  some.seconds = 2;
+  const Convergence something = converge(scene, some);
+  EXPECT_FALSE(something.reached);
+  EXPECT_EQ(something.reason, "the 2 s allowed are used up");
+  if (!std::isnan(something.answer)) {
+    EXPECT_GT(something.uncertainty, 1e-9);
+    EXPECT_NEAR(something.answer, simulate(scene).samples.back().end[1], 1e-2);
+  }
 }
 
 TEST(Converge, DoesNotDependOnJobs) {
