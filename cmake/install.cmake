@@ -14,6 +14,7 @@ if(VLBEAM_BUILD_STUDIES)
 endif()
 
 if(VLBEAM_BUILD_STUDIES)
+  add_custom_target(vlbeam_program DEPENDS vlbeam)  # all that `make build` makes, and is installed
   # Man pages of the program and of each of its commands, from what --help says.
   find_program(HELP2MAN help2man)
   if(HELP2MAN)
@@ -24,6 +25,7 @@ if(VLBEAM_BUILD_STUDIES)
       DEPENDS vlbeam ${PROJECT_SOURCE_DIR}/cmake/man_pages.sh
       VERBATIM)
     add_custom_target(vlbeam_man ALL DEPENDS ${pages}/vlbeam.1)
+    add_dependencies(vlbeam_program vlbeam_man)
     install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   endif()
   install(FILES ${PROJECT_SOURCE_DIR}/cmake/completion.bash

@@ -67,10 +67,13 @@ struct SideStepUnderflow {
   double t, dt;
 };
 
-[[noreturn]] void underflow(double t, double dt) {
+[[noreturn]] void underflow(double t, double dt, bool implicit) {
   std::ostringstream what;
-  what << "step underflow: the integrator needs steps below " << dt
-       << " s; the scene may be too stiff for an explicit method, an element too short or the curve degenerate";
+  what << "step underflow: the integrator needs steps below " << dt << " s; "
+       << (implicit ? "Newton's iteration does not converge even then: "
+                    : "the scene may be too stiff for an explicit method, ")
+       << "an element " << (implicit ? "may be too short, the motion too violent for the step, " : "too short ")
+       << "or the curve degenerate";
   throw ComputationFailed(what.str(), t);
 }
 
@@ -345,7 +348,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (!stepper->try_step(ode, y, t, dt)) {
       ++counters.rejected;
       shorten(dt, tried, *stepper);
-      if (dt < smallest) underflow(t, smallest);
+      if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
     }
     if (!y.allFinite()) {  // a trial state outside the domain of the equations: not an error estimate, so not rejected
@@ -354,7 +357,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 10;
       ++counters.rejected;
       stepper->reset();
-      if (dt < smallest) underflow(t, smallest);
+      if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
     }
     if (last) t = t_end;
@@ -368,7 +371,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 2;
       ++counters.rejected;
       stepper->resume(*stepper);
-      if (dt < smallest) underflow(stuck.t, stuck.dt);
+      if (dt < smallest) underflow(stuck.t, stuck.dt, method.system != nullptr);
       continue;
     }
     const bool cut = event.index >= 0 && event.t < t;

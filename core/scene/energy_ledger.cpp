@@ -6,8 +6,10 @@
 #include <sstream>
 #include <string>
 
+#include "core/error.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/names.hpp"
+#include "core/scene/validate.hpp"
 
 namespace vlbeam {
 namespace {
@@ -40,12 +42,25 @@ std::string in_proportion(double energy, double kinetic) {
   return text.str();
 }
 
+/// Whether the scene allows this: advice must not be refused.
+bool allowed(const Scene& scene) {
+  try {
+    validate(scene);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
 std::string better_transfer(const Scene& scene) {
   std::string text;
-  if (scene.length_control.velocities != VelocityTransfer::conservative) {
+  Scene conserving = scene, least = scene;
+  conserving.length_control.velocities = VelocityTransfer::conservative;
+  least.length_control.merge = MergePolicy::least_change;
+  if (scene.length_control.velocities != VelocityTransfer::conservative && allowed(conserving)) {
     text += "/length_control/velocities \"conservative\", which keeps the total energy; ";
   }
-  if (merge_policy(scene) != MergePolicy::least_change) {
+  if (merge_policy(scene) != MergePolicy::least_change && allowed(least)) {
     text += "/length_control/merge \"least-change\", which keeps the strain energy; ";
   }
   return text + "more elements, which make each event smaller";

@@ -2,9 +2,12 @@
 
 /// All that a program of one's own needs to run scenes: what the library of vlbeam offers to others.
 ///
-///   const vlbeam::Scene scene = vlbeam::parse_scene(text);          // or read_scene("scene.json"); throws
-///   InvalidInput const vlbeam::RunResult result = vlbeam::simulate(scene);       // result.status says how it ended
-///   std::cout << vlbeam::report(scene, result);                     // JSON, as `vlbeam schema run` describes it
+///     const vlbeam::Scene scene = vlbeam::parse_scene(text);     // or read_scene(file)
+///     const vlbeam::RunResult result = vlbeam::simulate(scene);  // result.status
+///     std::cout << vlbeam::report(scene, result);                // JSON: vlbeam schema run
+///
+/// A scene that is not understood throws InvalidInput. A motion that breaks down does not: result.status and
+/// result.failure say how the run ended.
 
 #include <string>
 #include <string_view>

@@ -335,8 +335,9 @@ int sweep_command(const SweepArguments& arguments) {
     }
   }
   const std::size_t unwell = folder.collect();
-  std::cerr << plan.cases.size() << " cases, " << unwell << " did not end well\n  written         "
-            << printable((out / "sweep.csv").string()) << "\n  written         "
+  std::cerr << plan.cases.size() << " cases, "
+            << (unwell == 0 ? "all of them ended well" : std::to_string(unwell) + " did not end well")
+            << "\n  written         " << printable((out / "sweep.csv").string()) << "\n  written         "
             << printable((out / "sweep.json").string()) << '\n';
   return unwell == 0 ? done : computation_failed;
 }
