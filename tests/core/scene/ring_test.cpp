@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/scene/energy_ledger.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam {
@@ -29,6 +30,19 @@ Scene through(SupportType support, ElementKind element = ElementKind::ale_ancf) 
   scene.duration = 0.1;
   scene.output.interval = 0.01;
   return scene;
+}
+
+/// A scene is not told to take what it would be refused for.
+TEST(Ring, IsNotAdvisedToConserveAtEvents) {
+  RunResult result;
+  result.samples.resize(2);
+  result.max_kinetic = 1;
+  Event& event = result.events.emplace_back();
+  event.energy_jump.kinetic = 0.1;
+  const auto advice = [&](const Scene& scene) { return energy_warnings(scene, result).at(0).remedy; };
+  const Scene ring = through(SupportType::pin), mass = test::falling_beam(ElementKind::ale_ancf, 10);
+  EXPECT_EQ(advice(ring).find("conservative"), std::string::npos) << advice(ring);
+  EXPECT_NE(advice(mass).find("conservative"), std::string::npos) << advice(mass);
 }
 
 TEST(Ring, HoldsThePlaceAndASleeveTheDirection) {
