@@ -275,6 +275,7 @@ int converge_command(const ConvergeArguments& arguments) {
                                              .jobs = jobs_or_processors(arguments.jobs),
                                              .seconds = arguments.limit});
   if (interrupted()) {
+    if (!std::isnan(found.answer)) std::cerr << convergence_summary(scene, found);
     std::cerr << "vlbeam: interrupted; nothing was written\n";
     return interrupted_exit_code();
   }

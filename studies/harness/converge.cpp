@@ -358,10 +358,12 @@ class Converger {
       found_.answer = found_.uncertainty = nan;
     }
     const bool nothing_known = late() && found_.finest.elements == 0;
-    if (interrupted() || finest == nullptr || nothing_known) return;
-    predict(*finest);
-    if (options_.horizon) look_for_horizon(*finest);
-    if (found_.reached) choose_cheapest();
+    if (finest == nullptr) return;
+    if (!interrupted() && !nothing_known) {
+      predict(*finest);
+      if (options_.horizon) look_for_horizon(*finest);
+      if (found_.reached) choose_cheapest();
+    }
     found_.cost = finest->work > 0 ? work_ / finest->work : nan;
   }
 

@@ -358,6 +358,10 @@ Scene scene_from_json(Json json) {
   const bool automatic =
       in_time && json.is_object() && (!json.contains("integrator") || json.at("integrator") == "auto");
   if (automatic) json.erase("integrator");
+  if (json.is_object() && json.contains("integrator") && json.at("integrator").is_string()) {
+    throw InvalidInput("/integrator", excerpt(json.at("integrator")),
+                       "it must be \"auto\", or an object like {\"type\": \"dopri5\"}");
+  }
   const Reader reader(std::move(json));
   Scene scene;
   visit_options(reader, scene);
