@@ -29,10 +29,9 @@ struct Checkpoint {
 
 /// Where an integration starts from, and when it leaves something to start from.
 struct Checkpoints {
-  std::optional<Checkpoint> from;  ///< in place of the initial state
-  double every =
-      std::numeric_limits<double>::infinity();  ///< [s]; one is also kept where the integration is interrupted
-  std::function<void(const Checkpoint&)> keep;  ///< none are where it is empty
+  std::optional<Checkpoint> from;                          ///< in place of the initial state
+  double every = std::numeric_limits<double>::infinity();  ///< [s]
+  std::function<void(const Checkpoint&)> keep;             ///< where interrupted, too; none are kept if it is empty
 };
 
 }  // namespace vlbeam

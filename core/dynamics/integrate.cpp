@@ -254,9 +254,9 @@ class Herald {
     set_next(from.t);
   }
 
-  bool due(double t) const { return checkpoints_ != nullptr && t >= next_; }
+  /// Whether one is to be kept at the end of a step, after which the integration goes on or is interrupted.
+  bool due(double t, bool goes_on) const { return checkpoints_ != nullptr && (t >= next_ || !goes_on); }
   void keep(const Eigen::VectorXd& y, double t, std::vector<double> method) {
-    if (checkpoints_ == nullptr) return;
     kept_.t = t;
     kept_.y = y;
     kept_.system = memory();
@@ -397,7 +397,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried;
     }
     const bool goes_on = ode.proceed(y, t);
-    if (herald.due(t) || !goes_on) {
+    if (herald.due(t, goes_on)) {
       Memory memory;
       exchange(memory);
       herald.keep(y, t, memory.numbers());

@@ -308,7 +308,6 @@ void check_held_joint(const Scene& scene, std::size_t which) {
   }
 }
 
-/// A joint whose way along the beam is given.
 /// A guide may lead off a free end, but not into a support.
 void check_way(const Scene& scene, const SlidingJointSpec& joint, const std::string& at) {
   const TimeFunction way = time_function(*joint.x);
@@ -324,6 +323,7 @@ void check_way(const Scene& scene, const SlidingJointSpec& joint, const std::str
   }
 }
 
+/// A joint whose way along the beam is given.
 void check_guided_joint(const Scene& scene, std::size_t which) {
   const SlidingJointSpec& joint = scene.sliding_joints[which];
   if (!joint.x) return;

@@ -361,7 +361,7 @@ class Converger {
     if (finest == nullptr) return;
     if (!interrupted() && !nothing_known) {
       predict(*finest);
-      if (options_.horizon) look_for_horizon(*finest);
+      if (options_.horizon && !late()) look_for_horizon(*finest);
       if (found_.reached) choose_cheapest();
     }
     found_.cost = finest->work > 0 ? work_ / finest->work : nan;
@@ -387,7 +387,8 @@ class Converger {
     Scene scene = with_setting(scene_, found_.finest);
     (scene.beam.section.type == Section::Type::circle ? scene.beam.material.density : scene.beam.section.rhoA) *=
         1 + perturbation;
-    const RunResult result = simulate(scene, [](double) { return !interrupted(); });
+    const RunResult result = simulate(scene, [this](double) { return !interrupted() && !late(); });
+    if (result.status == RunStatus::interrupted) return;
     work_ += finest.work;
     double until = 0;
     for (std::size_t i = 0; i < std::min(result.samples.size(), finest.series.size()); ++i) {

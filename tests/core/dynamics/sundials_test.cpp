@@ -59,6 +59,14 @@ TEST_P(Sundials, TakesAbsoluteTolerancesByKind) {
   }
 }
 
+TEST_P(Sundials, IsInterruptedAndKeepsNoCheckpoint) {
+  const Scene scene = scene_for(GetParam(), 1e-6);
+  EXPECT_EQ(simulate(scene, [](double t) { return t < 0.1; }).status, RunStatus::interrupted);
+  Checkpoints checkpoints;
+  checkpoints.keep = [](const Checkpoint&) { ADD_FAILURE(); };
+  EXPECT_THROW(simulate(scene, {}, &checkpoints), InvalidInput);
+}
+
 TEST_P(Sundials, AgreesWithFehlbergToItsTolerance) {
   const RunResult exact = finished(scene_for(IntegratorType::fehlberg78, 1e-12));
   ASSERT_GE(exact.events.size(), 2u);
