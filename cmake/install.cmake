@@ -64,7 +64,20 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies DESTINATION ${data}
         FILES_MATCHING PATTERN "*.json" PATTERN "*.gp" PATTERN "README.md"
         PATTERN app EXCLUDE PATTERN harness EXCLUDE PATTERN site EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/reference DESTINATION ${data} FILES_MATCHING PATTERN "*.json" PATTERN "*.csv")
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Documents stand to each other as in the sources, so that their links lead somewhere, the report site with them.
+foreach(file README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff)
+  install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endforeach()
+foreach(folder core docs examples python/examples reference reports scenes studies tests/mutants)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
+          FILES_MATCHING PATTERN "*.md" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js" PATTERN "*.svg"
+          PATTERN "*.json" PATTERN "*.csv"
+          PATTERN "*.kept" EXCLUDE PATTERN "*.timing.json" EXCLUDE PATTERN "CMakeFiles" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+endforeach()
+foreach(folder examples python/examples)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
+          FILES_MATCHING PATTERN "*.cpp" PATTERN "*.py")
+endforeach()
 
 # make package: a Debian package, build/vlbeam_VERSION_ARCHITECTURE.deb
 set(CPACK_GENERATOR DEB)

@@ -20,10 +20,13 @@ class InvalidInput : public std::runtime_error {
   /// `field` is a JSON pointer into the scene ("/sliding_mass/position"), `value` what stands there,
   /// `allowed` what may stand there.
   InvalidInput(std::string field_, std::string value_, std::string allowed_)
-      : std::runtime_error(field_ + ": " + value_ + " is not allowed; " + allowed_),
+      : std::runtime_error(field_ + ": " + (value_ == missing ? "is missing; " : value_ + " is not allowed; ") +
+                           allowed_),
         field(std::move(field_)),
         value(std::move(value_)),
         allowed(std::move(allowed_)) {}
+
+  static constexpr const char* missing = "a missing key";  ///< `value` of what should be there and is not
 
   std::string field;
   std::string value;

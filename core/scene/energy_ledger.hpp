@@ -24,6 +24,15 @@ struct EnergyLedger {
 };
 EnergyLedger energy_ledger(const RunResult& result);
 
+/// All the energy there is at a sample [J]: stored (of gravity what has changed since the `first` one), dissipated and
+/// supplied, in magnitude.
+double energy_there_is(const Sample& first, const Sample& now);
+
+/// Ends a run that gains more than half of the energy there is, at the instant when it is most, from nowhere: an
+/// unstable computation. `gain` is that of the model's own energy between events at `t`, over what is supplied [J].
+/// Throws ComputationFailed.
+void check_source_of_energy(const Scene& scene, double most, double gain, double t);
+
 /// A warning for each of: energy at events, energy between them, energy that nothing explains, that is more than 1 % of
 /// the largest kinetic energy; and for events that should have kept the energy and could not.
 std::vector<Warning> energy_warnings(const Scene& scene, const RunResult& result);

@@ -83,8 +83,12 @@ struct Option {
   Range range = {};
   int components = 0;  ///< length of a Point as written: the scene's dimension
   Condition when = {};
-  bool required = false;          ///< where its parent is given
-  std::string_view instead = "";  ///< a key beside it with which it is not required
+  bool required = false;           ///< where its parent is given
+  std::string_view instead = "";   ///< a key beside it with which it is not required
+  std::string_view without = "";   ///< of the names there are one that means nothing here
+  std::string_view standard = "";  ///< the name that is the default, where it is not that of the scene at hand
+
+  bool allows(std::string_view name) const { return name != without; }
 };
 
 /// An option that takes a choice of names, or is left out.
@@ -100,7 +104,9 @@ std::string allowed_text(const Option& option) {
   const std::string unit = option.unit.empty() ? "" : " [" + std::string(option.unit) + "]";
   if constexpr (NamedEnum<T>) {
     std::string text;
-    for (const auto& entry : names(T{})) text += (text.empty() ? "\"" : ", \"") + std::string(entry.name) + "\"";
+    for (const auto& entry : names(T{})) {
+      if (option.allows(entry.name)) text += (text.empty() ? "\"" : ", \"") + std::string(entry.name) + "\"";
+    }
     return (names(T{}).size() > 1 ? "one of " : "") + text;
   } else if constexpr (OptionalEnum<T>) {
     return allowed_text<typename T::value_type>(option);
@@ -405,7 +411,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
   const auto support = [&](const std::string& entry, auto& at) {
     const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
                       direction = motion + "/direction", angle = motion + "/angle";
-    visitor(Option{.pointer = type, .unit = "", .description = "how the end is held", .required = true}, at.type);
+    visitor(Option{.pointer = type,
+                   .unit = "",
+                   .description =
+                       "how the end is held: clamp, position and slope; pin, position; slide, all of the position but "
+                       "along the axis's tangent at t = 0; or free",
+                   .required = true},
+            at.type);
     visitor(Option{.pointer = clamp,
                    .unit = "",
                    .description = "what a clamp holds: the slope's direction, or the whole slope vector",
@@ -516,7 +528,9 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
         Option{.pointer = held,
                .unit = "",
                .description = "free, with a mass; pin: a ring, held where the beam is at t = 0; clamp: a sleeve, which "
-                              "holds the beam's direction, too"},
+                              "holds the beam's direction, too",
+               .without = "slide",
+               .standard = "free"},
         joint.support);
     const bool guided = visitor.present(
         Option{.pointer = at + "/x",

@@ -264,6 +264,7 @@ struct IntegratorSpec {
   double newton_tolerance = 1e-8;                       ///< generalized-alpha: what Newton leaves, over the increment
   bool adaptive = false;                                ///< generalized-alpha: the step follows rtol and atol
   bool locate_events = true;
+  bool automatic = false;  ///< chosen for the scene ("auto"), not by its writer
 };
 
 /// What is recorded.

@@ -141,9 +141,11 @@ class Run {
       if (result_.samples.empty()) first_total_ = sample.discrete_total;
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       const double supplied = sample.energy.supplied + seen.load_work + seen.end_work + seen.mesh_work;
-      result_.max_energy_drift =
-          std::max(result_.max_energy_drift, std::abs(sample.discrete_total - supplied - first_total_ - jumps_));
+      const double gain = sample.discrete_total - supplied - first_total_ - jumps_;
+      result_.max_energy_drift = std::max(result_.max_energy_drift, std::abs(gain));
       result_.samples.push_back(std::move(sample));
+      most_energy_ = std::max(most_energy_, energy_there_is(result_.samples.front(), result_.samples.back()));
+      check_source_of_energy(scene_, most_energy_, gain, t);
     }
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
@@ -239,7 +241,7 @@ class Run {
   Stops stops_;
   System system_;
   RunResult result_;
-  double first_total_ = 0, jumps_ = 0, observing_ = 0;
+  double first_total_ = 0, jumps_ = 0, most_energy_ = 0, observing_ = 0;
 };
 
 template <int D>

@@ -20,6 +20,7 @@ constexpr double bending = 8400;
 constexpr double many_steps = 1e4;
 constexpr double near = 0.6;        // of the limit: a mean step as long is held by stability at least now and then
 constexpr double worth_while = 20;  // explicit steps that an implicit one must replace
+constexpr double automatic_tolerance = 1e-6;  // of the beam's length, for implicit steps
 
 /// Mean step times largest frequency of runs that stability limits, measured on steel wires at tolerances of 1e-9 to
 /// 1e-3; 0 for methods that it does not limit.
@@ -47,18 +48,27 @@ double largest_frequency(const Scene& scene) {
 }
 
 IntegratorSpec automatic_integrator(const Scene& scene) {
-  Scene implicit = scene;
-  implicit.integrator = {};
-  implicit.integrator.type = IntegratorType::generalized_alpha;
-  implicit.integrator.step = std::min(implicit.integrator.step, scene.duration);
+  IntegratorSpec dopri5;
+  dopri5.automatic = true;
+  IntegratorSpec implicit = dopri5;
+  implicit.type = IntegratorType::generalized_alpha;
+  implicit.step = std::min(implicit.step, scene.duration);
   const double explicit_step = stability_limit(IntegratorType::dopri5) / largest_frequency(scene);
-  if (implicit.integrator.step < worth_while * explicit_step) return {};
+  if (implicit.step < worth_while * explicit_step) return dopri5;
+  implicit.adaptive = true;
+  implicit.rtol = automatic_tolerance;
+  const double length = automatic_tolerance * beam_length(scene);
+  implicit.atol_by_kind.emplace();
+  implicit.atol_by_kind->length = length;
+  implicit.atol_by_kind->velocity = length / implicit.step;
+  Scene tried = scene;
+  tried.integrator = implicit;
   try {
-    validate(implicit);
+    validate(tried);
   } catch (const InvalidInput&) {
-    return {};
+    return dopri5;
   }
-  return implicit.integrator;
+  return implicit;
 }
 
 std::optional<Warning> stability_warning(const Scene& scene, const RunResult& result) {

@@ -13,7 +13,8 @@ double largest_frequency(const Scene& scene);
 
 /// What `"integrator": "auto"` stands for: "generalized-alpha" where at least 20 of the steps that stability leaves to
 /// "dopri5" go into one of its own, as long as IntegratorSpec has it by default, or into the duration if that is
-/// shorter; else, or where the scene has what it cannot do, "dopri5".
+/// shorter; no step is longer than this, and they are as short as tolerances of 1e-6 of each position and of the beam's
+/// length ask for. Else, or where the scene has what it cannot do, "dopri5".
 IntegratorSpec automatic_integrator(const Scene& scene);
 
 /// Where an explicit run has taken many steps, and stability, not accuracy, made them as short as they are.

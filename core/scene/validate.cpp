@@ -276,7 +276,7 @@ void check_held_joint(const Scene& scene, std::size_t which) {
     }
     return;
   }
-  if (joint.support == SupportType::slide) {
+  if (joint.support == SupportType::slide) {  // of a scene that was not read
     refuse(key + "/support", support, "it must be \"free\", \"pin\" (a ring) or \"clamp\" (a sleeve)");
   }
   if (joint.velocity != 0) {
@@ -587,7 +587,7 @@ void check_loads(const Scene& scene) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
     if (load.type == LoadType::torque && !scene.spin) {
-      refuse("/spin", "a missing key",
+      refuse("/spin", InvalidInput::missing,
              at + " is a torque, which turns the section about the axis: it needs this object");
     }
     const TimeSpec& size = load.magnitude;

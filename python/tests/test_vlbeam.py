@@ -39,6 +39,9 @@ def test_samples_are_those_of_the_report(falling):
         np.testing.assert_array_equal(here, expected, err_msg=name)
     np.testing.assert_array_equal(r["end.y"], r.end[:, 1])
     assert r.units["energy.total"] == "J"
+    assert r.units["end"] == r.units["end.y"] == "m"
+    with pytest.raises(KeyError):
+        r.units["wind.y"]
 
 
 def test_numbers_are_the_programs(falling, tmp_path):
@@ -48,6 +51,16 @@ def test_numbers_are_the_programs(falling, tmp_path):
     r = vlbeam.run(falling)
     assert r.joint_position.tolist() == samples["joint_position"]
     assert r.energy.total.tolist() == samples["energy"]["total"]
+
+
+def test_scenes_may_hold_arrays(falling):
+    plain = vlbeam.run(falling)
+    falling["gravity"] = np.array([0, -9.81])
+    falling["duration"] = np.float64(0.3)
+    falling["beam"]["elements"] = np.int64(10)
+    assert vlbeam.run(falling).end.tolist() == plain.end.tolist()
+    with pytest.raises(TypeError, match="a scene cannot hold a set"):
+        vlbeam.run({"beam": {1, 2}})
 
 
 def test_arrays_own_their_numbers_and_outlive_the_run(falling):

@@ -41,6 +41,16 @@ class Record(dict):
             raise AttributeError(name) from None
 
 
+class _OfSamples(dict):
+    """What is known of samples by name; what is known of "end" holds for "end.y", too."""
+
+    def __missing__(self, name):
+        whole = name.rpartition(".")[0] if isinstance(name, str) else ""
+        if not whole:
+            raise KeyError(name)
+        return self[whole]
+
+
 class _Part:
     """Samples below a path: `r.energy` with `r.energy.total`."""
 
@@ -68,7 +78,7 @@ class Result(_Part):
     where a quantity is not there, like `joint_position` once the mass has left the beam."""
 
     def __init__(self, run):
-        tree, self.units, self.descriptions = {}, {}, {}
+        tree, self.units, self.descriptions = {}, _OfSamples(), _OfSamples()
         for path, unit, description in run.paths():
             branch = tree
             for segment in path.split("/"):
@@ -118,8 +128,15 @@ class Result(_Part):
         _Path(path).write_text(self._run.report(), encoding="utf-8")
 
 
+def _plain(value):
+    """A numpy array or number as what JSON can say."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"a scene cannot hold a {type(value).__name__}: {value!r:.60}")
+
+
 def _text(scene):
-    return scene if isinstance(scene, str) else _json.dumps(scene)
+    return scene if isinstance(scene, str) else _json.dumps(scene, default=_plain)
 
 
 def run(scene):
@@ -157,7 +174,7 @@ def sweep(scene, over, *, quantities=None, combine="product", jobs=0):
     plan = {"schema": "vlbeam.sweep/1", "scene": _json.loads(_text(scene)), "combine": combine, "over": over}
     if quantities is not None:
         plan["quantities"] = list(quantities)
-    found = _json.loads(_vlbeam.sweep(_json.dumps(plan), jobs))
+    found = _json.loads(_vlbeam.sweep(_json.dumps(plan, default=_plain), jobs))
     cases = found["cases"]
 
     def numbers(values):

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <thread>
 
 #include "core/error.hpp"
@@ -28,6 +29,7 @@
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_library.hpp"
 #include "studies/harness/schema.hpp"
+#include "studies/harness/schema_text.hpp"
 #include "studies/harness/source_folder.hpp"
 #include "studies/harness/subprocess.hpp"
 #include "studies/harness/sweep.hpp"
@@ -273,7 +275,11 @@ int converge_command(const ConvergeArguments& arguments) {
                                              .at = arguments.at,
                                              .horizon = arguments.horizon,
                                              .jobs = jobs_or_processors(arguments.jobs),
-                                             .seconds = arguments.limit});
+                                             .seconds = arguments.limit,
+                                             .on_level = [&](const ConvergeLevel& level) {
+                                               if (!arguments.quiet)
+                                                 std::cerr << level_line(scene, level) << std::flush;
+                                             }});
   if (interrupted()) {
     if (!std::isnan(found.answer)) std::cerr << convergence_summary(scene, found);
     std::cerr << "vlbeam: interrupted; nothing was written\n";
@@ -385,22 +391,16 @@ int plot_command(const PlotArguments& arguments) {
   return done;
 }
 
-int schema_command(const std::string& of) {
-  if (of == "scene") {
-    std::cout << pretty(scene_schema());
-  } else if (of == "run") {
-    std::cout << pretty(run_schema());
-  } else if (of == "study") {
-    std::cout << pretty(study_schema());
-  } else if (of == "gates") {
-    std::cout << pretty(gates_schema());
-  } else if (of == "converge") {
-    std::cout << pretty(converge_schema());
-  } else if (of == "sweep") {
-    std::cout << pretty(sweep_schema());
-  } else {
-    throw InvalidInput("schema", "\"" + of + "\"", "there are: scene, run, study, gates, converge, sweep");
+int schema_command(const SchemaArguments& arguments) {
+  const std::map<std::string, Json (*)()> all{{"scene", scene_schema},       {"run", run_schema},
+                                              {"study", study_schema},       {"gates", gates_schema},
+                                              {"converge", converge_schema}, {"sweep", sweep_schema}};
+  const auto found = all.find(arguments.of);
+  if (found == all.end()) {
+    throw InvalidInput("schema", "\"" + arguments.of + "\"", "there are: scene, run, study, gates, converge, sweep");
   }
+  const Json schema = part_of_schema(found->second(), arguments.part);
+  std::cout << (arguments.text ? schema_text(schema, arguments.part) : pretty(schema));
   return done;
 }
 

@@ -59,6 +59,7 @@ struct ConvergeArguments {
   std::string report, csv, figure;                         ///< empty for none; "-" is standard output
   int jobs = 0;                                            ///< 0: one a processor
   double limit = std::numeric_limits<double>::infinity();  ///< wall time [s]
+  bool quiet = false;                                      ///< nothing while it computes
 };
 
 struct SweepArguments {
@@ -92,6 +93,12 @@ struct PlotArguments {
   std::string figure;
 };
 
+struct SchemaArguments {
+  std::string of;
+  std::string part;   ///< JSON pointer; empty: all of it
+  bool text = false;  ///< to read, in place of JSON
+};
+
 /// The commands of the program; each returns its exit code. They throw InvalidInput for what is not understood, before
 /// any file is written.
 int run_command(const RunArguments& arguments);
@@ -105,6 +112,6 @@ int sweep_command(const SweepArguments& arguments);
 int compare_command(const CompareArguments& arguments);
 int score_command(const ScoreArguments& arguments);
 int plot_command(const PlotArguments& arguments);
-int schema_command(const std::string& of);
+int schema_command(const SchemaArguments& arguments);
 
 }  // namespace vlbeam

@@ -1,9 +1,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -11,23 +15,30 @@
 #include "studies/app/commands.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/messages.hpp"
+#include "studies/harness/nearest.hpp"
 #include "studies/harness/provenance.hpp"
 
 namespace {
 
+constexpr const char* exit_codes =
+    "Exit codes: 0 done and gates held, 1 a gate failed or the error wanted was not reached, 2 bad input,\n"
+    "3 the computation failed or a file could not be written, 128 + n stopped by signal n (130 for Ctrl-C)";
+
+/// Says which command was meant where the first word is none.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string word = argv[1];
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  vlbeam::refuse("command", "\"" + word + "\"",
+                 "the nearest there is is \"" + vlbeam::nearest_of(word, known) +
+                     "\" (there are: " + vlbeam::quoted_list(known) + ")");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("vlbeam: beams along which something slides, and how far their numbers can be trusted");
   app.set_version_flag("--version", vlbeam::provenance().at("program").get<std::string>());
-  app.footer(
-      "Examples:\n"
-      "  vlbeam scene falling_beam > scene.json                    print a scene to change\n"
-      "  vlbeam run scene.json --report r.json --csv r.csv         run it\n"
-      "  vlbeam plot r.json -o shapes.svg                          draw it\n"
-      "  vlbeam converge scene.json --quantity end.y --error 1e-3  how far can that be trusted?\n"
-      "  vlbeam schema scene                                       every key, its unit, range and default\n"
-      "\n"
-      "Exit codes: 0 done and gates held, 1 a gate failed or the error wanted was not reached, 2 bad input,\n"
-      "3 the computation failed or a file could not be written, 128 + n stopped by signal n (130 for Ctrl-C)");
   app.require_subcommand(1);
 
   vlbeam::RunArguments run_arguments;
@@ -90,6 +101,8 @@ int dispatch(int argc, char** argv) {
   converge->add_option("--limit", converge_arguments.limit, "Wall time, after which it says what it knows [s]")
       ->check(CLI::PositiveNumber);
 
+  converge->add_flag("--quiet,-q", converge_arguments.quiet, "Nothing about the runs while they go on");
+
   vlbeam::SweepArguments sweep_arguments;
   CLI::App* sweep =
       app.add_subcommand("sweep", "Run a scene for many values of its options; goes on where it was stopped");
@@ -145,10 +158,59 @@ int dispatch(int argc, char** argv) {
   gate->add_option("--studies", gate_arguments.studies, studies_help);
   claims->add_option("--studies", claims_arguments.studies, studies_help);
 
-  std::string schema_of;
+  vlbeam::SchemaArguments schema_arguments;
   CLI::App* schema = app.add_subcommand("schema", "Print a JSON Schema");
-  schema->add_option("of", schema_of, "scene, run, study, gates, converge or sweep")->required();
+  schema->add_option("of", schema_arguments.of, "scene, run, study, gates, converge or sweep")->required();
+  schema->add_option("part", schema_arguments.part, "Only what is below this key: /beam/material");
+  schema->add_flag("--text", schema_arguments.text, "A line a key, to read: what it may be, unit and default");
 
+  const auto examples = [](CLI::App* command, const std::string& lines) {
+    command->footer("Examples:\n" + lines + "\n" + exit_codes);
+  };
+  examples(&app,
+           "  vlbeam scene falling_beam > scene.json                    print a scene to change\n"
+           "  vlbeam run scene.json --report r.json --csv r.csv         run it\n"
+           "  vlbeam plot r.json -o shapes.svg                          draw it\n"
+           "  vlbeam converge scene.json --quantity end.y --error 1e-3  how far can that be trusted?\n"
+           "  vlbeam schema scene --text                                every key, its unit, range and default\n"
+           "  vlbeam COMMAND --help                                     options of a command, and examples\n");
+  examples(
+      run,
+      "  vlbeam run scene.json                                     a summary only\n"
+      "  vlbeam run scene.json --report r.json --csv r.csv         and what it is of\n"
+      "  vlbeam run scene.json --shape shapes.csv --points 20      the axis at the times of output.configurations\n"
+      "  vlbeam run scene.json --checkpoint c.json --every 0.5     a long run, which\n"
+      "  vlbeam run scene.json --restart c.json --report r.json    goes on from there\n");
+  examples(study,
+           "  vlbeam study falling_beam                                 as its figures in reports/ are made\n"
+           "  vlbeam study falling_beam --profile ci                    the small one\n");
+  examples(list, "  vlbeam list\n");
+  examples(scene, "  vlbeam scene falling_beam > scene.json\n");
+  examples(converge,
+           "  vlbeam converge scene.json --quantity end.y --error 1e-3\n"
+           "  vlbeam converge scene.json --quantity end.y --error 1e-4 --relative --at 0.2 --limit 60\n"
+           "  vlbeam converge scene.json --quantity energy.kinetic --error 1e-3 --report c.json --figure c.svg\n");
+  examples(sweep,
+           "  vlbeam sweep sweep.json                                   all cases, into sweep/\n"
+           "  vlbeam sweep sweep.json --case 3                          one of them, as a job of a cluster\n"
+           "  vlbeam sweep sweep.json --collect                         join those that are there\n");
+  examples(compare, "  vlbeam compare a.json b.json --tol 1e-6\n");
+  examples(score,
+           "  vlbeam score falling_beam_engineering their.csv\n"
+           "  vlbeam score falling_beam_engineering their.csv --column joint_position=s --column t=time\n");
+  examples(plot,
+           "  vlbeam run scene.json --report r.json                     a plot is of a report, not of a scene\n"
+           "  vlbeam plot r.json -o shapes.svg\n"
+           "  vlbeam plot r.json --what energy -o energy.png\n"
+           "  vlbeam plot r.json --quantity end.x --quantity end.y -o end.svg\n");
+  examples(gate, "  vlbeam gate                                               the reports in reports/\n");
+  examples(claims, "  vlbeam claims\n");
+  examples(schema,
+           "  vlbeam schema scene --text                                every key, its unit, range and default\n"
+           "  vlbeam schema scene /beam/material --text                 those of the material\n"
+           "  vlbeam schema run                                         the JSON Schema of reports\n");
+
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -165,7 +227,7 @@ int dispatch(int argc, char** argv) {
   if (*plot) return vlbeam::plot_command(plot_arguments);
   if (*gate) return vlbeam::gate_command(gate_arguments);
   if (*claims) return vlbeam::claims_command(claims_arguments);
-  return vlbeam::schema_command(schema_of);
+  return vlbeam::schema_command(schema_arguments);
 }
 
 int answer(int argc, char** argv) {

@@ -26,6 +26,7 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // of 
 constexpr double mesh_order = 4;       // of displacements of cubic elements; what converges faster is not trusted to
 constexpr double step_order = 2;       // of generalized-alpha and energy-momentum
 constexpr double tolerance_order = 1;  // the global error follows the tolerance of a step
+constexpr double adaptive_order = 2.0 / 3;  // that of steps h of generalized-alpha, h^2, whose own error is h^3
 constexpr int most_points = 20, extra_points = 2;
 constexpr double least_tolerance = 1e-13, most_steps = 1e7;
 constexpr int least_elements = 2;
@@ -40,6 +41,11 @@ double finer(const Scene& scene, double accuracy) { return accuracy / (has_step(
 double coarser(const Scene& scene, double accuracy) { return accuracy * (has_step(scene) ? 2 : 10); }
 
 std::string accuracy_name(const Scene& scene) { return has_step(scene) ? "step" : "rtol"; }
+
+std::string setting_text(const Scene& scene, const Setting& s) {
+  return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
+         accuracy_name(scene) + " " + six_digits(s.accuracy);
+}
 
 int renumbered(int node, int from, int to, const std::string& field) {
   const long scaled = static_cast<long>(node) * to;
@@ -148,6 +154,11 @@ class Converger {
       found_.levels.back().seconds = outcomes[i].seconds;
       work_ += found_.levels.back().work;
     }
+    if (options_.on_level) {
+      for (std::size_t i = found_.levels.size() - missing.size(); i < found_.levels.size(); ++i) {
+        options_.on_level(found_.levels[i]);
+      }
+    }
     const auto stopped = [](const ConvergeLevel& level) { return level.failure == no_time; };
     if (interrupted()) {
       found_.reason = "interrupted";
@@ -193,7 +204,7 @@ class Converger {
   double expected_order(Refined refined) const {
     if (refined == Refined::mesh) return mesh_order;
     if (refined == Refined::quadrature) return 0;
-    if (!has_step(scene_)) return tolerance_order;
+    if (!has_step(scene_)) return scene_.integrator.adaptive ? adaptive_order : tolerance_order;
     return scene_.integrator.type == IntegratorType::adams_bashforth_moulton ? 0 : step_order;
   }
 
@@ -476,10 +487,15 @@ Scene with_setting(const Scene& scene, const Setting& setting) {
   for (LoadSpec& load : changed.loads) {
     if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, to, "/loads");
   }
+  for (PointMassSpec& mass : changed.point_masses) mass.node = renumbered(mass.node, from, to, "/point_masses");
   if (has_step(scene)) {
     changed.integrator.step = setting.accuracy;
   } else {
     const double share = setting.accuracy / scene.integrator.rtol;
+    // where the longest step allowed holds, the tolerance alone would refine nothing
+    if (scene.integrator.adaptive) {
+      changed.integrator.step = std::min(scene.integrator.step * std::cbrt(share), scene.duration);
+    }
     changed.integrator.atol *= share;
     if (auto& atol = changed.integrator.atol_by_kind) {
       atol->length *= share;
@@ -548,12 +564,15 @@ std::string convergence_table(const Scene& scene, const Convergence& found) {
   return text;
 }
 
+std::string level_line(const Scene& scene, const ConvergeLevel& level) {
+  constexpr std::size_t width = 12;
+  const std::string refined = refined_names[static_cast<std::size_t>(level.refined)];
+  return "  " + refined + std::string(width - refined.size(), ' ') + setting_text(scene, level.setting) + ": " +
+         (level.failure.empty() ? digits(level.value, 10) : level.failure) + ", " + digits(level.seconds, 2) + " s\n";
+}
+
 std::string convergence_summary(const Scene& scene, const Convergence& found) {
   std::ostringstream text;
-  const auto setting = [&](const Setting& s) {
-    return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
-           accuracy_name(scene) + " " + number_text(s.accuracy);
-  };
   text << found.quantity << " at t = " << number_text(found.t) << " s: " << digits(found.answer, 10) << " +- "
        << digits(found.uncertainty, 2) << " " << found.unit << '\n';
   for (std::size_t i = 0; i < refined_names.size(); ++i) {
@@ -565,7 +584,7 @@ std::string convergence_summary(const Scene& scene, const Convergence& found) {
   }
   if (found.reached) {
     text << "  the error wanted, " << digits(found.error, 3) << ", is reached\n";
-    if (found.cheapest) text << "  cheapest    " << setting(*found.cheapest) << '\n';
+    if (found.cheapest) text << "  cheapest    " << setting_text(scene, *found.cheapest) << '\n';
   } else {
     text << "  the error wanted, " << digits(found.error, 3) << ", is NOT reached: " << found.reason
          << "\n  it is kept until t = " << number_text(found.predictable_until) << " s\n";
@@ -574,7 +593,7 @@ std::string convergence_summary(const Scene& scene, const Convergence& found) {
     text << "  horizon     a density changed in its 8th digit matters less than that until t = "
          << number_text(*found.horizon) << " s\n";
   }
-  text << "  finest      " << setting(found.finest) << '\n'
+  text << "  finest      " << setting_text(scene, found.finest) << '\n'
        << "  cost        " << found.levels.size() << " runs, worth " << digits(found.cost, 3) << " of the finest\n";
   return text.str();
 }

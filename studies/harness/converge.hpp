@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,7 +17,7 @@ struct Setting {
   int elements = 0;
   int points = 0;       ///< of quadrature, an element
   double accuracy = 0;  ///< step [s] of methods that do not choose it, else the relative tolerance; the absolute one
-                        ///< keeps its ratio to it
+                        ///< keeps its ratio to it, and the longest step of generalized-alpha, cubed
 
   bool operator==(const Setting&) const = default;
 };
@@ -27,20 +28,6 @@ Setting setting_of(const Scene& scene);
 /// The scene in another setting. Node numbers name the same material points on the new mesh. Throws InvalidInput where
 /// a node would fall between two others, or the scene cannot be modelled so.
 Scene with_setting(const Scene& scene, const Setting& setting);
-
-/// What is asked of a scene, and what it may cost.
-struct ConvergeOptions {
-  std::string quantity;
-  double error = 0;               ///< wanted, in the quantity's unit, or of its magnitude
-  bool relative = false;          ///< the latter
-  std::optional<double> at = {};  ///< [s]; the scene's duration if not given
-  bool horizon = false;           ///< also until when the motion can be predicted at all
-  int jobs = 1;                   ///< runs at a time; the answer does not depend on it
-  int most_elements = 1280;       ///< of the finest mesh
-  double budget = 15;             ///< all runs together, in runs of the finest setting
-  double seconds =
-      std::numeric_limits<double>::infinity();  ///< wall time, after which what is known then is the answer
-};
 
 /// What a level refines.
 enum class Refined { mesh, time, quadrature };
@@ -55,6 +42,21 @@ struct ConvergeLevel {
   double work = 0;             ///< evaluations of the right-hand side or residual, times elements and points
   std::size_t events = 0;
   double seconds = 0;
+};
+
+/// What is asked of a scene, and what it may cost.
+struct ConvergeOptions {
+  std::string quantity;
+  double error = 0;               ///< wanted, in the quantity's unit, or of its magnitude
+  bool relative = false;          ///< the latter
+  std::optional<double> at = {};  ///< [s]; the scene's duration if not given
+  bool horizon = false;           ///< also until when the motion can be predicted at all
+  int jobs = 1;                   ///< runs at a time; the answer does not depend on it
+  int most_elements = 1280;       ///< of the finest mesh
+  double budget = 15;             ///< all runs together, in runs of the finest setting
+  double seconds =
+      std::numeric_limits<double>::infinity();              ///< wall time, after which what is known then is the answer
+  std::function<void(const ConvergeLevel&)> on_level = {};  ///< called after each, in their order
 };
 
 /// How far the quantity can be trusted.
@@ -83,7 +85,8 @@ Convergence converge(const Scene& scene, const ConvergeOptions& options);
 Json convergence_to_json(const Scene& scene, const Convergence& found);
 std::string convergence_table(const Scene& scene, const Convergence& found);
 
-/// For a reader at the terminal.
+/// For a reader at the terminal: of one level, with a line's end, and of all.
+std::string level_line(const Scene& scene, const ConvergeLevel& level);
 std::string convergence_summary(const Scene& scene, const Convergence& found);
 
 }  // namespace vlbeam

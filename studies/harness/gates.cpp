@@ -32,7 +32,7 @@ class Fields {
 
   bool has(const char* key) const { return object_.contains(key); }
   const Json& at(const char* key) const {
-    if (!has(key)) throw InvalidInput(at_ + "/" + key, "a missing key", "every gate needs it");
+    if (!has(key)) throw InvalidInput(at_ + "/" + key, InvalidInput::missing, "every gate needs it");
     return object_.at(key);
   }
   std::string text(const char* key) const {
@@ -72,7 +72,7 @@ void judge_bounds(const Fields& gate, const Json& report, GateVerdict& verdict) 
     u = given.is_string() ? std::abs(quantity(report, given.get<std::string>())) : gate.number("uncertainty");
     verdict.uncertainty = u;
   } else if (verdict.kind == GateKind::self) {
-    throw InvalidInput(gate.where() + "/uncertainty", "a missing key",
+    throw InvalidInput(gate.where() + "/uncertainty", InvalidInput::missing,
                        "self-convergence is judged with its uncertainty");
   }
   bool holds = true;

@@ -232,7 +232,7 @@ GridConvergence grid_convergence(std::string quantity, std::vector<double> level
     near = near && coarser && near_expected(*coarser);
   }
   if (expected > 0 && (*order < expected / 2 || *order > 2 * expected)) {
-    found.refusal = "the order " + number_text(*order) + " is far from the expected " + number_text(expected);
+    found.refusal = "the order " + six_digits(*order) + " is far from the expected " + number_text(expected);
     return found;
   }
   found.order = *order;

@@ -99,14 +99,14 @@ SweepPlan plan_from(Json file, const fs::path& folder) {
     throw InvalidInput("/schema", excerpt(file.value("schema", Json())), "it must be \"vlbeam.sweep/1\"");
   }
   if (!file.contains("scene"))
-    throw InvalidInput("/scene", "a missing key", "it must be a scene, or the name of its file");
+    throw InvalidInput("/scene", InvalidInput::missing, "it must be a scene, or the name of its file");
   if (file.at("scene").is_string()) file["scene"] = read_json(folder / file.at("scene").get<std::string>());
   const std::string combine = file.value("combine", "product");
   if (combine != "product" && combine != "zip") {
     throw InvalidInput("/combine", "\"" + combine + "\"", "it must be one of \"product\", \"zip\"");
   }
   if (!file.contains("over"))
-    throw InvalidInput("/over", "a missing key", "it must be an object of options and their values");
+    throw InvalidInput("/over", InvalidInput::missing, "it must be an object of options and their values");
   check_keys(file.at("over"), "/over", [&] {
     std::vector<std::string> keys;
     if (file.at("over").is_object()) {

@@ -206,6 +206,24 @@ Series masses_at(const RunFile& run, const std::vector<Configuration>& shapes, s
   return masses;
 }
 
+/// The point masses of the shapes, which keep their material points; those are nodes of the even mesh at t = 0.
+Series point_masses_at(const RunFile& run, const std::vector<Configuration>& shapes, std::size_t across,
+                       std::size_t up) {
+  Series masses{run.scene.point_masses.size() == 1 ? "point mass" : "point masses", {}, {}, Series::Style::points};
+  const double l = beam_length(run.scene) / run.scene.beam.elements;
+  for (const Configuration& shape : shapes) {
+    const std::vector<ShapePoint> points = points_along(run.scene, shape, points_an_element);
+    for (const PointMassSpec& mass : run.scene.point_masses) {
+      const double x = mass.node * l;
+      const auto nearest =
+          std::ranges::min_element(points, {}, [x](const ShapePoint& point) { return std::abs(point.x - x); });
+      masses.x.push_back(nearest->r[across]);
+      masses.y.push_back(nearest->r[up]);
+    }
+  }
+  return masses;
+}
+
 Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shapes) {
   const auto [across, up] = axes_of(run, shapes);
   constexpr std::array names{"X (m)", "Y (m)", "Z (m)"};
@@ -231,6 +249,7 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
   for (std::size_t i = 0; i < sliding_joints(run.scene).size(); ++i) {
     diagram.series.push_back(masses_at(run, shapes, across, up, i));
   }
+  if (!run.scene.point_masses.empty()) diagram.series.push_back(point_masses_at(run, shapes, across, up));
   return diagram;
 }
 

@@ -17,7 +17,8 @@ double Quantity::of(const Sample& sample) const {
 
 std::vector<double> Quantity::of(const Json& samples) const {
   const Json::json_pointer where("/" + sampled.path);
-  if (!samples.contains(where)) throw InvalidInput("/samples/" + sampled.path, "a missing key", "the report lacks it");
+  if (!samples.contains(where))
+    throw InvalidInput("/samples/" + sampled.path, InvalidInput::missing, "the report lacks it");
   std::vector<double> values;
   for (const Json& entry : samples.at(where)) {
     const auto part = [](const Json& list, std::size_t i) -> const Json& {

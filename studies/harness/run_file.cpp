@@ -73,6 +73,10 @@ RunFile read_run_file(const std::filesystem::path& path) {
   file.json = read_json(path);
   understanding(path, [&file] {
     const Json version = file.json.is_object() ? file.json.value("schema_version", Json()) : file.json;
+    if (version.is_null() && file.json.is_object() && file.json.contains("beam")) {
+      throw InvalidInput("/schema_version", InvalidInput::missing,
+                         "this is a scene; run it first, vlbeam run --report REPORT.json, and give the report");
+    }
     if (version != "vlbeam.run/1") {
       throw InvalidInput("/schema_version", excerpt(version), "it must be \"vlbeam.run/1\", the report of a run");
     }

@@ -262,13 +262,17 @@ std::string beam_text(const Scene& scene) {
   }
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";
-  if (!scene.point_masses.empty()) text += "; " + std::to_string(scene.point_masses.size()) + " point masses";
-  if (!scene.loads.empty()) text += "; bears " + std::to_string(scene.loads.size()) + " loads";
+  if (const auto count = scene.point_masses.size(); count > 0) {
+    text += "; " + std::to_string(count) + (count == 1 ? " point mass" : " point masses");
+  }
+  if (const auto count = scene.loads.size(); count > 0) {
+    text += "; bears " + std::to_string(count) + (count == 1 ? " load" : " loads");
+  }
   return text;
 }
 
 std::string integrator_text(const IntegratorSpec& integrator) {
-  const std::string type(to_string(integrator.type));
+  const std::string type = std::string(to_string(integrator.type)) + (integrator.automatic ? " (auto)" : "");
   const bool fixed = has_fixed_step(integrator.type) && !integrator.adaptive;
   if (fixed) return type + ", steps of " + number_text(integrator.step) + " s";
   const auto& by_kind = integrator.atol_by_kind;
@@ -286,6 +290,16 @@ std::string events_text(const std::vector<Event>& events) {
   return text.empty() ? "none" : text;
 }
 
+/// When the run failed, or what slides left the beam.
+std::string when_text(const RunResult& result) {
+  if (result.status == RunStatus::failed) return " at t = " + short_number(result.failure_time) + " s";
+  std::string text;
+  for (const Event& event : result.events) {
+    if (event.type == EventType::separation) text += (text.empty() ? " at t = " : ", ") + short_number(event.t) + " s";
+  }
+  return text;
+}
+
 /// How many steps there were and what made them as short as they are.
 std::string steps_text(const Scene& scene, const RunResult& result) {
   const SolverCounters& s = result.solver;
@@ -298,8 +312,26 @@ std::string steps_text(const Scene& scene, const RunResult& result) {
   return text + "the step given" + (s.rejected > 0 ? " and, where rejected, by Newton's iteration" : "");
 }
 
-std::string ledger_text(const EnergyLedger& ledger) {
-  const auto joules = [](double energy) { return short_number(energy, 4) + " J"; };
+/// Energy [J] beside others, the largest of which is `size`: what is rounding of those is shown as 0.
+std::string energy_text(double energy, double size, int digits) {
+  constexpr double shown = 1e-14;
+  return short_number(std::abs(energy) > shown * size ? energy : 0, digits) + " J";
+}
+
+/// The largest of all energies of a run [J].
+double largest_energy(const RunResult& result) {
+  double size = 0;
+  for (const Sample& sample : result.samples) {
+    const Energy& e = sample.energy;
+    for (const double part : {e.kinetic, e.axial, e.bending, e.torsion, e.gravity, e.dissipated, e.supplied}) {
+      size = std::max(size, std::abs(part));
+    }
+  }
+  return size;
+}
+
+std::string ledger_text(const EnergyLedger& ledger, double size) {
+  const auto joules = [size](double energy) { return energy_text(energy, size, 4); };
   return "changed by " + joules(ledger.change) + " = supplied " + joules(ledger.supplied) + ", at events " +
          joules(ledger.at_events) + (ledger.at_contacts != 0 ? ", at contacts " + joules(ledger.at_contacts) : "") +
          ", unexplained " + joules(ledger.unexplained) + " (at most " + joules(ledger.largest_unexplained) +
@@ -423,8 +455,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
     text << "  " << name << std::string(16 - std::string_view(name).size(), ' ') << value << '\n';
   };
   text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
-  line("status", std::string(to_string(result.status)) +
-                     (result.status == RunStatus::failed ? " at t = " + short_number(result.failure_time) + " s" : ""));
+  line("status", std::string(to_string(result.status)) + when_text(result));
   line("beam", beam_text(scene));
   line("integrator", integrator_text(scene.integrator));
   if (!result.samples.empty()) {
@@ -433,10 +464,11 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
     line("end of beam", point_text(last.end, scene.dimension));
     if (last.joint_position) line("joint position", short_number(*last.joint_position, 8) + " m");
     if (last.mass_position) line("mass position", point_text(*last.mass_position, scene.dimension));
-    line("total energy", short_number(last.energy.total(), 8) + " J, at the start " +
-                             short_number(result.samples.front().energy.total(), 8) + " J, kinetic up to " +
-                             short_number(result.max_kinetic, 4) + " J");
-    line("energy ledger", ledger_text(energy_ledger(result)));
+    const double size = largest_energy(result);
+    line("total energy", energy_text(last.energy.total(), size, 8) + ", at the start " +
+                             energy_text(result.samples.front().energy.total(), size, 8) + ", kinetic up to " +
+                             energy_text(result.max_kinetic, size, 4));
+    line("energy ledger", ledger_text(energy_ledger(result), size));
   }
   line("events", events_text(result.events));
   line("steps", steps_text(scene, result));

@@ -140,7 +140,7 @@ class Canonical {
       if (!entry.is_object()) throw InvalidInput(entry_shown, excerpt(entry), "it must be an object");
 
       const std::string key_shown = entry_shown + "/" + discriminator;
-      if (!entry.contains(discriminator)) throw InvalidInput(key_shown, "a missing key", allowed);
+      if (!entry.contains(discriminator)) throw InvalidInput(key_shown, InvalidInput::missing, allowed);
       const Json& value = entry.at(discriminator);
       const std::string key = discriminator + "=" + (value.is_string() ? value.get<std::string>() : "");
       if (!node.contains(key)) throw InvalidInput(key_shown, excerpt(value), allowed);
@@ -170,7 +170,7 @@ class Reader {
     const std::string field = file_.in_file(option.pointer);
     if (value == nullptr) {
       if (option.required && option.when.holds && file_.has_parent(option.pointer)) {
-        throw InvalidInput(field, "a missing key", "it must be " + allowed_text<T>(option));
+        throw InvalidInput(field, InvalidInput::missing, "it must be " + allowed_text<T>(option));
       }
     } else if (!option.when.holds) {
       throw InvalidInput(field, "this key",
@@ -207,7 +207,7 @@ class Reader {
 
   void section(const Option& option) const {
     if (!option.required || file_.find(option.pointer) != nullptr) return;
-    throw InvalidInput(std::string(option.pointer), "a missing key",
+    throw InvalidInput(std::string(option.pointer), InvalidInput::missing,
                        "every scene needs this object: " + std::string(option.description));
   }
 
@@ -216,8 +216,9 @@ class Reader {
   static bool read(const Json& value, const Option& option, T& member) {
     if constexpr (NamedEnum<T>) {
       const auto choice = value.is_string() ? from_string<T>(value.get_ref<const std::string&>()) : std::nullopt;
-      if (choice) member = *choice;
-      return choice.has_value();
+      const bool known = choice && option.allows(to_string(*choice));
+      if (known) member = *choice;
+      return known;
     } else if constexpr (OptionalEnum<T>) {
       return read(value, option, member.emplace());
     } else if constexpr (std::same_as<T, bool>) {

@@ -100,7 +100,7 @@ class SceneSchemaBuilder {
     const bool setting = option.pointer == "/setting";
     schema["description"] = description(option) + (setting ? "" : paper_.text(option, value_of(member)));
     if constexpr (NamedEnum<T>) {
-      schema["default"] = to_string(member);
+      if (!option.required) schema["default"] = option.standard.empty() ? to_string(member) : option.standard;
     } else if constexpr (std::same_as<T, Point>) {
       schema["default"] = Json::array();
       for (int i = 0; i < option.components; ++i) schema["default"].push_back(member[static_cast<std::size_t>(i)]);
@@ -173,7 +173,9 @@ class SceneSchemaBuilder {
   static Json type(const Option& option) {
     if constexpr (NamedEnum<T>) {
       Json choices = Json::array();
-      for (const auto& entry : names(T{})) choices.push_back(entry.name);
+      for (const auto& entry : names(T{})) {
+        if (option.allows(entry.name)) choices.push_back(entry.name);
+      }
       return {{"enum", choices}};
     } else if constexpr (OptionalEnum<T>) {
       return type<typename T::value_type>(option);

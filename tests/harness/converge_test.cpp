@@ -131,6 +131,30 @@ TEST(Converge, NodesNameTheSamePointsOnEveryMesh) {
   EXPECT_THROW(with_setting(scene, setting), InvalidInput);
 }
 
+TEST(Converge, PointMassesStayOnTheirPoints) {
+  Scene scene = library_scene("pendulum");
+  scene.point_masses = {{scene.beam.elements, 0.1}};
+  Setting setting = setting_of(scene);
+  setting.elements *= 2;
+  EXPECT_EQ(with_setting(scene, setting).point_masses.front().node, 2 * scene.beam.elements);
+}
+
+// Where the longest step allowed holds, tolerances alone would refine nothing and time would seem free of error.
+TEST(Converge, TheLongestStepIsRefinedWithTheTolerance) {
+  Scene scene = library_scene("pendulum");
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.adaptive = true;
+  scene.integrator.rtol = scene.integrator.atol = 1e-3;
+  scene.integrator.step = 1e-2;
+  Setting setting = setting_of(scene);
+  setting.accuracy /= 1000;
+  EXPECT_NEAR(with_setting(scene, setting).integrator.step, 1e-3, 1e-15);
+  const Convergence found = converge(scene, {.quantity = "end.y", .error = 1e-4});
+  const Convergence exact = converge(library_scene("pendulum"), {.quantity = "end.y", .error = 1e-6});
+  EXPECT_TRUE(found.reached) << found.reason;
+  EXPECT_LE(std::abs(found.answer - exact.answer), found.uncertainty + exact.uncertainty);
+}
+
 TEST(Converge, RefusesWhatItCannotShow) {
   const Scene scene = library_scene("pulled_bar");
   const auto field_of = [&](const ConvergeOptions& options) {

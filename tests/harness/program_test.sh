@@ -38,6 +38,35 @@ check "its report" 1 "$(grep -c '"status": "interrupted"' long.out)"
 
 check "no command" 2 "$(exit_of "$vlbeam")"
 check "an unknown command" 2 "$(exit_of "$vlbeam" dance)"
+check "and the nearest" 1 "$(exit_of "$vlbeam" runn > /dev/null; grep -c 'nearest there is is "run"' err.txt)"
+check "a plot of a scene" 2 "$(exit_of "$vlbeam" plot scene.json -o p.svg)"
+check "which says what to do" 1 "$(grep -c 'this is a scene; run it first' err.txt)"
+check "one part of a schema, to read" 0 "$(exit_of "$vlbeam" schema scene /beam/material --text)"
+check "its lines" 1 "$(grep -c '^/beam/material/density  number > 0.0  default 7200.0$' out.txt)"
+check "nothing else" 0 "$(grep -c '^/gravity' out.txt)"
+check "a part that is not there" 2 "$(exit_of "$vlbeam" schema scene /beam/materal)"
+check "and the nearest" 1 "$(grep -c '"material"' err.txt)"
+check "converge" 0 "$(exit_of "$vlbeam" converge scene.json --quantity end.y --error 1e-3)"
+check "says each level" 1 "$(($(grep -c '^  mesh .* s$' err.txt) >= 3))"
+
+# A step of 1 ms is unstable where this mass slides; the integrator that the scene chooses is not.
+cat > shaken.json << 'SCENE'
+{"beam": {"elements": 128, "section": {"radius": 0.005},
+          "material": {"density": 1100, "youngs_modulus": 2e9, "damping": 1e-4}},
+ "supports": [{"at": "start", "type": "clamp",
+               "motion": {"direction": [0, 1], "amplitude": 0.02, "frequency": 3, "ramp": 0.5}}],
+ "point_masses": [{"node": 128, "mass": 0.1}],
+ "sliding_mass": {"mass": 0.05, "position": 0.3, "friction": {"coefficient": 0.1}},
+ "duration": 0.4, "output": {"interval": 0.01}}
+SCENE
+check "a scene that chooses its steps" 0 "$(exit_of "$vlbeam" run shaken.json)"
+check "which it says" 1 "$(grep -c 'generalized-alpha (auto), rtol 1e-06' err.txt)"
+check "and no warning" 0 "$(grep -c warning err.txt)"
+sed 's/"duration"/"integrator": {"type": "generalized-alpha"}, "duration"/' shaken.json > unstable.json
+check "an unstable computation" 3 "$(exit_of "$vlbeam" run unstable.json --report u.json)"
+check "which it says" 1 "$(grep -c 'the computation is unstable: of .* come from nowhere' err.txt)"
+check "and keeps what there is" 1 "$(grep -c '"status": "failed"' u.json)"
+
 check "help" 0 "$(exit_of "$vlbeam" --help)"
 check "list" 0 "$(exit_of "$vlbeam" list)"
 check "an unknown study" 2 "$(exit_of "$vlbeam" study no-such-study)"

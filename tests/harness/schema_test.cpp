@@ -41,6 +41,9 @@ TEST(SceneSchema, ComesFromTheOptionTable) {
   EXPECT_EQ(at("/properties/beam/properties/element/enum"), (Json{"ALE-RANCF", "ALE-ANCF", "RANCF", "ANCF"}));
   EXPECT_EQ(at("/properties/sliding_mass/required"), (Json{"mass", "position"}));
   EXPECT_EQ(at("/properties/supports/items/properties/at/enum"), (Json{"start", "end"}));
+  EXPECT_FALSE(at("/properties/supports/items/properties/type").contains("default")) << "it is required";
+  EXPECT_EQ(at("/properties/sliding_joints/items/properties/support/enum"), (Json{"clamp", "pin", "free"}));
+  EXPECT_EQ(at("/properties/sliding_joints/items/properties/support/default"), "free");
   EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/rtol/minimum"), 1e-14);
   EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/atol/type"), (Json{"number", "object"}));
   EXPECT_EQ(at("/properties/integrator/anyOf/1/properties/atol/required"), (Json{"length", "velocity"}));

@@ -20,6 +20,13 @@ mv "$root" "$scratch/elsewhere" && root=$scratch/elsewhere
 cmp "$scratch/scene.json" "$sources/scenes/pendulum.json"
 "$root/bin/vlbeam" gate --help > /dev/null
 
+# The documents' links lead somewhere there, too.
+for document in $(find "$root/share/doc" -name '*.md'); do
+  while read -r link; do
+    [[ -e $(dirname "$document")/$link ]] || says "$document: its link to $link"
+  done < <(sed -e '/^ *```/,/^ *```/d' -e 's/`[^`]*`//g' "$document" | grep -oP '\]\(\K[^)#\s]+' | grep -v '://' || true)
+done
+
 # Man pages of all commands, where help2man was there to write them, and completion that knows them.
 commands=$("$root/bin/vlbeam" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p')
 [[ $(wc -w <<< "$commands") -ge 12 ]] || says "the commands in --help"
@@ -35,7 +42,7 @@ completed() {
     "$root/share/bash-completion/completions/vlbeam" "$@"
 }
 [[ $(completed vlbeam conv) == converge ]] || says "completion of a command"
-[[ $(completed vlbeam converge --q) == --quantity ]] || says "completion of an option"
+[[ $(completed vlbeam converge --qua) == --quantity ]] || says "completion of an option"
 [[ $(completed vlbeam scene pend) == pendulum ]] || says "completion of a scene"
 
 # A project of its own.

@@ -46,6 +46,15 @@ TEST(Stiffness, AutoTakesTheImplicitMethodForSteel) {
   EXPECT_EQ(automatic_integrator(kinked).type, IntegratorType::dopri5);
 }
 
+TEST(Stiffness, AutoChoosesImplicitStepsByTheBeamsLength) {
+  const IntegratorSpec metres = automatic_integrator(wire(steel));
+  EXPECT_TRUE(metres.adaptive && metres.automatic && metres.atol_by_kind);
+  Scene longer = wire(steel);
+  longer.beam.curve.end = {1000, 0};
+  longer.beam.elements = 10000;
+  EXPECT_NEAR(automatic_integrator(longer).atol_by_kind->length, 1000 * metres.atol_by_kind->length, 1e-12);
+}
+
 TEST(Stiffness, ARunWarnsWhereStabilityLimitsItsSteps) {
   Scene scene = wire(steel);
   scene.integrator.rtol = scene.integrator.atol = 1e-5;
