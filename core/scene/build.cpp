@@ -313,9 +313,9 @@ BeamModel<D> build_model(const Scene& scene) {
   const Axis<D> axis = build_axis<D>(scene);
   model.start = build_support<D>(scene.start, axis.tangent(0));
   model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
-  const auto motion_of = [&scene](const SupportSpec& spec) -> SupportMotion<D> {
-    if (!spec.motion) return {};
-    const auto& [direction, displacement, angle] = *spec.motion;
+  const auto motion_of = [&scene](const std::optional<SupportMotionSpec>& spec) -> SupportMotion<D> {
+    if (!spec) return {};
+    const auto& [direction, displacement, angle] = *spec;
     SupportMotion<D> motion;
     if (angle) motion.angle = time_function(*angle);
     if (direction == Point{}) return motion;
@@ -323,8 +323,8 @@ BeamModel<D> build_model(const Scene& scene) {
     motion.displacement = acting(displacement, scene.analysis);
     return motion;
   };
-  model.start_motion = motion_of(scene.start);
-  model.end_motion = motion_of(scene.end);
+  model.start_motion = motion_of(scene.start.motion);
+  model.end_motion = motion_of(scene.end.motion);
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
   for (const SlidingJointSpec& spec : sliding_joints(scene)) {
@@ -334,6 +334,7 @@ BeamModel<D> build_model(const Scene& scene) {
     if (spec.support == SupportType::clamp) {
       joint.support = Support<D>::direction_clamp(axis.tangent(spec.position));
     }
+    joint.motion = motion_of(spec.motion);
     joint.separation_distance = separation_distance(scene, spec);
     joint.at_support = {spec.at_support, spec.restitution};
     if (spec.x) joint.x = travelling(spec.position, time_function(*spec.x));

@@ -532,6 +532,20 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                .without = "slide",
                .standard = "free"},
         joint.support);
+    const std::string motion = at + "/motion", direction = motion + "/direction";
+    if (visitor.present(Option{.pointer = motion,
+                               .unit = "",
+                               .description = "displacement of a ring or a sleeve as a function of time, from where it "
+                                              "is at t = 0 and from rest"},
+                        joint.motion)) {
+      visitor(Option{.pointer = direction,
+                     .unit = "-",
+                     .description = "of the displacement; it need not have unit length",
+                     .components = scene.dimension,
+                     .required = true},
+              joint.motion->direction);
+      time_function(motion, "m", {}, joint.motion->displacement);
+    }
     const bool guided = visitor.present(
         Option{.pointer = at + "/x",
                .unit = "",

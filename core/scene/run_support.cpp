@@ -99,8 +99,8 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
     result.failure_time = failure.t;
     try {
       if (y.size() > 0 && stops.end_at(t)) ode.sample(y, t);
-    } catch (const ComputationFailed&) {
-      // looking at it is what failed
+    } catch (const ComputationFailed& unstable) {  // looking at it is what failed, or shows why
+      if (result.failure != unstable.what()) result.failure += "; there, " + std::string(unstable.what());
     }
   } catch (const std::domain_error& refused) {  // a merge that cannot be made
     result.status = RunStatus::failed;

@@ -151,6 +151,7 @@ struct SlidingJointSpec : SlidingMassSpec {
   SlidingJointSpec() { mass = 0; }
 
   SupportType support = SupportType::free;
+  std::optional<SupportMotionSpec> motion;  ///< of what holds it, without an angle
   std::optional<TimeSpec> x;  ///< way of the joint along the beam as a function of time, counted from `position` [m]
 };
 

@@ -11,9 +11,14 @@ namespace vlbeam {
 /// along the axis sqrt(170.1 EA/rhoA)/l, or in bending sqrt(8400 EI/rhoA)/l^2, by consistent masses.
 double largest_frequency(const Scene& scene);
 
+/// The longest step of "generalized-alpha" that follows what a scene is known to do without running it [s]: 1/250 of
+/// the periods of its first bending vibration, of a cantilever or else of a beam with two clamps, of torsion of what
+/// spins, and of what is driven or loaded periodically; 1/500 of a swing under gravity, and of the duration; 1/10 of
+/// the time that a body takes to pass through where friction fades.
+double longest_implicit_step(const Scene& scene);
+
 /// What `"integrator": "auto"` stands for: "generalized-alpha" where at least 20 of the steps that stability leaves to
-/// "dopri5" go into one of its own, as long as IntegratorSpec has it by default, or into the duration if that is
-/// shorter; no step is longer than this, and they are as short as tolerances of 1e-6 of each position and of the beam's
+/// "dopri5" go into one of its longest; they are as short as tolerances of 1e-7 of each position and of the beam's
 /// length ask for. Else, or where the scene has what it cannot do, "dopri5".
 IntegratorSpec automatic_integrator(const Scene& scene);
 

@@ -534,35 +534,53 @@ void check_turning(const Scene& scene, const std::string& at, const SupportSpec&
   }
 }
 
+/// Of what moves as `motion`, which stands at `at`.
+void check_motion(const Scene& scene, const std::string& at, SupportType type, const SupportMotionSpec& motion) {
+  if (type != SupportType::clamp && type != SupportType::pin) {
+    refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(to_string(type)));
+  }
+  const TimeSpec& displacement = motion.displacement;
+  if (motion.direction == Point{} && !(motion.angle && is_zero(displacement))) {
+    refuse(at + "/direction", "a vector of zeros", "it must have a direction");
+  }
+  const double most = largest_rate(displacement);
+  if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
+    refuse(
+        at, "a velocity of " + number_text(rate) + " m/s at t = 0",
+        "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 degrees");
+  }
+  if (scene.integrator.type == IntegratorType::energy_momentum) {
+    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+           "it keeps an energy that moving supports change: take any other integrator");
+  }
+  if (sliding_joint(scene) && scene.length_control.velocities == VelocityTransfer::conservative) {
+    refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
+           "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
+  }
+  if (flows(scene)) refuse(at, "this key", "it goes together with neither /flow nor rotary inertia");
+}
+
 void check_support_motion(const Scene& scene) {
   const auto check = [&](const std::string& at, const SupportSpec& support) {
     if (!support.motion) return;
-    if (support.type != SupportType::clamp && support.type != SupportType::pin) {
-      refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(to_string(support.type)));
-    }
-    const TimeSpec& displacement = support.motion->displacement;
     if (support.motion->angle) check_turning(scene, at, support);
-    if (support.motion->direction == Point{} && !(support.motion->angle && is_zero(displacement))) {
-      refuse(at + "/direction", "a vector of zeros", "it must have a direction");
-    }
-    const double most = largest_rate(displacement);
-    if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
-      refuse(
-          at, "a velocity of " + number_text(rate) + " m/s at t = 0",
-          "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 degrees");
-    }
-    if (scene.integrator.type == IntegratorType::energy_momentum) {
-      refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
-             "it keeps an energy that moving supports change: take any other integrator");
-    }
-    if (sliding_joint(scene) && scene.length_control.velocities == VelocityTransfer::conservative) {
-      refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
-             "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
-    }
-    if (flows(scene)) refuse(at, "this key", "it goes together with neither /flow nor rotary inertia");
+    check_motion(scene, at, support.type, *support.motion);
   };
   check("/supports/at=start/motion", scene.start);
   check("/supports/at=end/motion", scene.end);
+  for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+    const SlidingJointSpec& joint = scene.sliding_joints[i];
+    if (!joint.motion) continue;
+    const std::string at = joint_key(scene, i) + "/motion";
+    if (scene.dimension == 2 && joint.motion->direction[2] != 0) {
+      refuse(at + "/direction", "a component out of the plane", "in a planar scene there is none");
+    }
+    if (scene.analysis == Analysis::statics) refuse(at, "this key", "in statics rings and sleeves stay where they are");
+    if (scene.integrator.type == IntegratorType::ida) {
+      refuse("/integrator/type", "\"ida\"", "it knows no joint that is moved: take any other");
+    }
+    check_motion(scene, at, joint.support, *joint.motion);
+  }
 }
 
 void check_loads(const Scene& scene) {

@@ -1,6 +1,7 @@
 #include "core/system/beam_system.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <limits>
 
 #include "core/error.hpp"
@@ -309,6 +310,12 @@ void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
     y[places_[i].mark] = guide->value;
     y[coordinates_ + places_[i].mark] = guide->rate;
   }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto point = driven_joint(i, t);
+    if (!point) continue;
+    position<D>(y.data(), places_[i].node) = joint_anchor(i).template head<D>() + point->value;
+    position<D>(y.data() + coordinates_, places_[i].node) = point->rate;
+  }
   const auto points = driven_points(t);
   const auto standing = supports(points);
   for (const std::size_t end : {0, 1}) {
@@ -354,7 +361,7 @@ std::array<double*, 4> BeamSystem<D>::vectors_of(double* q, int k) const {
 }
 
 /// M a = F with some accelerations a_s given: the others follow from M a = F - M a_s, and what holds a_s is M a - F.
-/// Only the element at a support couples a_s to anything.
+/// Only the elements at a support or at a joint that is held couple a_s to anything.
 template <int D>
 class BeamSystem<D>::Pull {
  public:
@@ -363,60 +370,54 @@ class BeamSystem<D>::Pull {
   Pull(const BeamSystem& system, const JointElements& at_joints, const double* q, const double* rate, double* force,
        double t)
       : system_(&system) {
-    const auto points = system.driven_points(t);
-    const auto standing = system.supports(points);
-    for (const std::size_t e : {0, 1}) {
-      End& end = ends_[e] = end_element(static_cast<int>(e), at_joints);
-      const auto parts = system_->vectors_of(force, end.element);
-      end.parts[0] = {Eigen::Map<const Vector>(parts[end.held]), points[e].rate, points[e].acceleration};
-      if (!(e == 0 ? system.model_.start_motion : system.model_.end_motion).turns()) continue;
-      const int node = end.element + (end.held == 0 ? 0 : 1);
-      const Vector s = slope<D>(q, node), s_rate = slope<D>(rate, node);
-      end.parts[1] = {Eigen::Map<const Vector>(parts[end.held + 1]),
-                      DrivenPoint<D>::held(standing[e], points[e].slope_rate(s)),
-                      DrivenPoint<D>::held(standing[e], points[e].slope_acceleration(s, s_rate))};
-      end.driven = 2;
-    }
-    for (const End& end : ends_) {
-      const auto parts = system_->vectors_of(force, end.element);
-      for (std::size_t k = 0; k < end.driven; ++k) {
+    add_supports(at_joints, q, rate, force, t);
+    add_joints(at_joints, force, t);
+    for (const Side& side : sides_) {
+      const auto parts = system_->vectors_of(force, side.element);
+      for (std::size_t k = 0; k < side.driven; ++k) {
+        const std::size_t row = side.held + k;
         for (std::size_t i = 0; i < 4; ++i) {
-          Eigen::Map<Vector>(parts[i]) -= end.mass[i][end.held + k] * end.parts[k].acceleration;
+          Eigen::Map<Vector>(parts[i]) -= side.mass[i][row] * side.parts[k].acceleration;
         }
-        if (end.mark >= 0) force[end.mark] -= end.by_joint[end.held + k].dot(end.parts[k].acceleration);
+        for (std::size_t j = 0; j < 2; ++j) {
+          if (side.marks[j] >= 0) force[side.marks[j]] -= side.by_joint[j][row].dot(side.parts[k].acceleration);
+        }
       }
     }
   }
 
   /// Completes the accelerations `a`.
   void complete(double* a) const {
-    for (const End& end : ends_) {
-      const auto parts = system_->vectors_of(a, end.element);
-      for (std::size_t k = 0; k < end.driven; ++k) {
-        Eigen::Map<Vector>(parts[end.held + k]) += end.parts[k].acceleration;
+    for (const Side& side : sides_) {
+      if (!side.of_node) continue;
+      const auto parts = system_->vectors_of(a, side.element);
+      for (std::size_t k = 0; k < side.driven; ++k) {
+        Eigen::Map<Vector>(parts[side.held + k]) += side.parts[k].acceleration;
       }
     }
   }
 
   /// `on_rider` acts on the rider, whose shape functions are `s`, and its opposite on the beam.
   void add_rider(const Vector& on_rider, const std::array<double, 4>& s) {
-    for (End& end : ends_) {
-      if (end.element != system_->rider_->element) continue;
-      for (std::size_t k = 0; k < end.driven; ++k) end.parts[k].force -= s[end.held + k] * on_rider;
+    for (Side& side : sides_) {
+      if (side.element != system_->rider_->element) continue;
+      for (std::size_t k = 0; k < side.driven; ++k) side.parts[k].force -= s[side.held + k] * on_rider;
     }
   }
 
   /// Power of the supports at the accelerations `a` [W].
   double power(double* a) const {
     double sum = 0;
-    for (const End& end : ends_) {
-      const auto parts = system_->vectors_of(a, end.element);
-      for (std::size_t k = 0; k < end.driven; ++k) {
-        const std::size_t row = end.held + k;
-        Vector reaction = -end.parts[k].force;
-        if (end.mark >= 0) reaction += end.by_joint[row] * a[end.mark];
-        for (std::size_t i = 0; i < 4; ++i) reaction += end.mass[row][i] * Eigen::Map<const Vector>(parts[i]);
-        sum += reaction.dot(end.parts[k].rate);
+    for (const Side& side : sides_) {
+      const auto parts = system_->vectors_of(a, side.element);
+      for (std::size_t k = 0; k < side.driven; ++k) {
+        const std::size_t row = side.held + k;
+        Vector reaction = -side.parts[k].force + side.lumped * Eigen::Map<const Vector>(parts[row]);
+        for (std::size_t j = 0; j < 2; ++j) {
+          if (side.marks[j] >= 0) reaction += side.by_joint[j][row] * a[side.marks[j]];
+        }
+        for (std::size_t i = 0; i < 4; ++i) reaction += side.mass[row][i] * Eigen::Map<const Vector>(parts[i]);
+        sum += reaction.dot(side.parts[k].rate);
       }
     }
     return sum;
@@ -427,41 +428,81 @@ class BeamSystem<D>::Pull {
   struct Part {
     Vector force = Vector::Zero(), rate = Vector::Zero(), acceleration = Vector::Zero();
   };
-  /// The element at a support, by its mass matrix (order r_A, s_A, r_B, s_B) and its coupling to x_i.
-  struct End {
+  /// The element on one side of what is held, by its mass matrix (order r_A, s_A, r_B, s_B) and its coupling to the
+  /// material coordinates of joints at its ends.
+  struct Side {
     int element = 0;
-    std::size_t held = 0;                         ///< row of the support's point
-    std::array<std::array<double, 4>, 4> mass{};  ///< [kg m^k]
-    std::array<Vector, 4> by_joint;               ///< zero away from joints
-    Eigen::Index mark = -1;                       ///< where the x of its joint stands, if it has one
-    std::size_t driven = 1;                       ///< 2 where it drives the slope, too
-    std::array<Part, 2> parts;                    ///< position and slope
+    std::size_t held = 0;                           ///< row of the point that is held
+    bool of_node = true;                            ///< the first of its node: what the node has but once is here
+    double lumped = 0;                              ///< mass at the node [kg]
+    std::array<std::array<double, 4>, 4> mass{};    ///< [kg m^k]
+    std::array<std::array<Vector, 4>, 2> by_joint;  ///< of the joint at A, at B
+    std::array<Eigen::Index, 2> marks{-1, -1};      ///< where their x stand, if there are any
+    std::size_t driven = 1;                         ///< 2 where the slope is driven, too
+    std::array<Part, 2> parts;                      ///< position and slope
   };
+  static constexpr std::size_t usual = 6;  // sides: two supports and two joints
 
-  End end_element(int end, const JointElements& at_joints) const {
-    End result;
-    result.element = end == 0 ? 0 : system_->mesh_.elements() - 1;
-    result.held = end == 0 ? 0 : 2;
-    result.by_joint.fill(Vector::Zero());
+  void add_supports(const JointElements& at_joints, const double* q, const double* rate, double* force, double t) {
+    const auto points = system_->driven_points(t);
+    const auto standing = system_->supports(points);
+    for (const std::size_t e : {0, 1}) {
+      Side& side = sides_.emplace_back(side_of(e == 0 ? 0 : system_->mesh_.elements() - 1, e == 0 ? 0 : 2, at_joints));
+      const auto parts = system_->vectors_of(force, side.element);
+      side.parts[0] = {Eigen::Map<const Vector>(parts[side.held]), points[e].rate, points[e].acceleration};
+      if (!(e == 0 ? system_->model_.start_motion : system_->model_.end_motion).turns()) continue;
+      const int node = side.element + (side.held == 0 ? 0 : 1);
+      const Vector s = slope<D>(q, node), s_rate = slope<D>(rate, node);
+      side.parts[1] = {Eigen::Map<const Vector>(parts[side.held + 1]),
+                       DrivenPoint<D>::held(standing[e], points[e].slope_rate(s)),
+                       DrivenPoint<D>::held(standing[e], points[e].slope_acceleration(s, s_rate))};
+      side.driven = 2;
+    }
+  }
+
+  void add_joints(const JointElements& at_joints, const double* force, double t) {
+    for (std::size_t i = 0; i < system_->places_.size(); ++i) {
+      const auto point = system_->driven_joint(i, t);
+      if (!point) continue;
+      const int node = system_->places_[i].node;
+      for (const bool before : {true, false}) {
+        Side& side = sides_.emplace_back(side_of(before ? node - 1 : node, before ? 2 : 0, at_joints));
+        side.parts[0] = {Vector::Zero(), point->rate, point->acceleration};
+        side.of_node = before;
+        if (!before) continue;
+        side.parts[0].force = position<D>(force, node);
+        side.lumped = system_->joint(i).law.mass;
+      }
+    }
+  }
+
+  Side side_of(int element, std::size_t held, const JointElements& at_joints) const {
+    Side result;
+    result.element = element;
+    result.held = held;
     const auto& parts = system_->parts_;
-    const std::size_t at = end == 0 ? 0 : parts.size() - 1;
-    if (!parts.empty() && parts[at].element == result.element) {
-      const bool by_a = parts[at].a >= 0;
-      result.mass = at_joints[at].mass;
-      result.by_joint = by_a ? at_joints[at].mass_a : at_joints[at].mass_b;
-      result.mark = system_->places_[static_cast<std::size_t>(by_a ? parts[at].a : parts[at].b)].mark;
+    const auto moving =
+        std::find_if(parts.begin(), parts.end(), [&](const MovingPart& part) { return part.element == element; });
+    if (moving != parts.end()) {
+      const auto& eq = at_joints[static_cast<std::size_t>(moving - parts.begin())];
+      result.mass = eq.mass;
+      result.by_joint = {eq.mass_a, eq.mass_b};
+      const auto mark = [&](int joint) {
+        return joint < 0 ? Eigen::Index{-1} : system_->places_[static_cast<std::size_t>(joint)].mark;
+      };
+      result.marks = {mark(moving->a), mark(moving->b)};
     } else {
-      result.mass = system_->end_inertia_[static_cast<std::size_t>(end)].mass;
+      result.mass = system_->end_inertia_[held == 0 ? 0 : 1].mass;
       for (auto& row : result.mass) {
         for (double& entry : row) entry *= system_->model_.section.rhoA;
       }
-      add_point_masses(system_->model_.masses.points, system_->mesh_, result.element, result.mass);
+      add_point_masses(system_->model_.masses.points, system_->mesh_, element, result.mass);
     }
     return result;
   }
 
   const BeamSystem* system_;
-  std::array<End, 2> ends_;
+  boost::container::small_vector<Side, usual> sides_;
 };
 
 template <int D>

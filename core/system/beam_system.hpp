@@ -32,6 +32,7 @@ struct ModelJoint {
   SlidingJoint law;
   /// What holds the place of its node in space: of a ring, a pin; of a sleeve, a clamp of the direction.
   std::optional<Support<D>> support = std::nullopt;
+  SupportMotion<D> motion = {};    ///< of what holds it; it does not turn
   double separation_distance = 0;  ///< [m]
   Impact at_support = {};          ///< where it may not leave
   TimeFunction x = {};             ///< its material coordinate, where a guide prescribes it [m]
@@ -73,7 +74,10 @@ struct BeamModel {
   bool guides() const {
     return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return static_cast<bool>(joint.x); });
   }
-  bool supports_move() const { return start_motion || end_motion; }
+  bool supports_move() const {
+    return start_motion || end_motion ||
+           std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return bool{joint.motion}; });
+  }
   /// Whether something moves as prescribed, and so does work.
   bool driven() const { return supports_move() || guides(); }
   bool turns() const { return start_motion.turns() || end_motion.turns(); }
@@ -262,6 +266,12 @@ class BeamSystem final : public EventedOde {
   /// What the supports at start and end prescribe at time t.
   std::array<DrivenPoint<D>, 2> driven_points(double t) const {
     return {model_.start_motion.at(model_.start, t), model_.end_motion.at(model_.end, t)};
+  }
+  /// What holds a joint prescribes there; nothing where nothing moves it.
+  std::optional<DrivenPoint<D>> driven_joint(std::size_t which, double t) const {
+    const ModelJoint<D>& joint = this->joint(which);
+    if (!joint.support || !joint.motion) return std::nullopt;
+    return joint.motion.at(*joint.support, t);
   }
   /// The supports at start and end as they stand then.
   std::array<Support<D>, 2> supports(const std::array<DrivenPoint<D>, 2>& at) const {

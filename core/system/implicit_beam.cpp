@@ -5,7 +5,7 @@
 
 namespace vlbeam {
 template <int D>
-double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const {
+double ImplicitBeam<D>::Constraint::value(const double* q, const DrivenPoints& driven) const {
   const Eigen::Map<const NodeVector> here(q + Eigen::Index{B} * node), next(q + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
   const double off = direction.dot(here - anchor);
@@ -13,8 +13,7 @@ double ImplicitBeam<D>::Constraint::value(const double* q, const std::array<Driv
 }
 
 template <int D>
-double ImplicitBeam<D>::Constraint::rate(const double* q, const double* v,
-                                         const std::array<DrivenPoint<D>, 2>& driven) const {
+double ImplicitBeam<D>::Constraint::rate(const double* q, const double* v, const DrivenPoints& driven) const {
   const Eigen::Map<const NodeVector> here(v + Eigen::Index{B} * node), next(v + Eigen::Index{B} * (node + 1));
   if (tied) return direction.dot(here - next);
   const double off = direction.dot(here);
@@ -31,11 +30,21 @@ void ImplicitBeam<D>::stand(double t) const {
   const auto driven = system_.driven_points(t);
   standing_ = system_.supports(driven);
   for (Constraint& constraint : constraints_) {
-    if (constraint.end < 0 || constraint.slope < 0) continue;
+    if (constraint.end < 0 || constraint.end > 1 || constraint.slope < 0) continue;
     const auto end = static_cast<std::size_t>(constraint.end);
     constraint.direction.template tail<D>() = standing_[end].frame.col(constraint.slope);
     constraint.anchor.template tail<D>() = driven[end].turned(system_.anchors()[end].template tail<D>());
   }
+}
+
+template <int D>
+const typename ImplicitBeam<D>::DrivenPoints& ImplicitBeam<D>::driven_points(double t) const {
+  const auto ends = system_.driven_points(t);
+  driven_points_.assign(ends.begin(), ends.end());
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    driven_points_.push_back(system_.driven_joint(i, t).value_or(DrivenPoint<D>{}));
+  }
+  return driven_points_;
 }
 
 template <int D>
@@ -53,7 +62,7 @@ void ImplicitBeam<D>::rebuild() const {
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
   if (!with_multipliers()) return;
   at_held_nodes([&](int node, const Support<D>& support, int joint) {
-    const int end = joint >= 0 ? -1 : node == 0 ? 0 : 1;
+    const int end = joint >= 0 ? 2 + joint : node == 0 ? 0 : 1;
     const bool twice = joint >= 0;
     const NodeVector& anchor = joint >= 0 ? system_.joint_anchor(static_cast<std::size_t>(joint))
                                           : system_.anchors()[static_cast<std::size_t>(end)];
@@ -332,7 +341,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   if (!with_multipliers()) project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
   if (const Spin* spin = system_.spin()) spin->drive(a.data() + after_nodes(), t, r.data() + after_nodes());
-  const auto driven = system_.driven_points(t);
+  const DrivenPoints& driven = driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
     const Eigen::Index at = first + static_cast<Eigen::Index>(i);
@@ -361,7 +370,7 @@ template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
   stand(t);
-  const auto driven = system_.driven_points(t);
+  const DrivenPoints& driven = driven_points(t);
   ConstraintResidual largest;
   for (const auto& constraint : constraints_) {
     largest.position = std::max(largest.position, std::abs(constraint.value(q.data(), driven)));
@@ -381,7 +390,7 @@ template <int D>
 void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
   stand(t);
-  const auto driven = system_.driven_points(t);
+  const DrivenPoints& driven = driven_points(t);
   Eigen::Index at = rates.size() - multipliers();
   for (const auto& constraint : constraints_) rates[at++] = constraint.rate(q.data(), v.data(), driven);
   for (const Conditions& conditions : slope_conditions_) {
@@ -409,6 +418,12 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
     const Vec<double, D> turned = points[end].turned(system_.anchors()[end].template tail<D>());
     slope<D>(offset.data(), node) = DrivenPoint<D>::held(support, slope<D>(q.data(), node) - turned);
   });
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const auto point = system_.driven_joint(i, t);
+    if (!point) continue;
+    position<D>(offset.data(), first_copy(i)) =
+        position<D>(q.data(), first_copy(i)) - system_.joint_anchor(i).template head<D>() - point->value;
+  }
   return true;
 }
 
@@ -441,6 +456,13 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     add(position<D>(free_.data(), node), position<D>(v.data(), node), support.free_position);
     if (motion.turns()) add(slope<D>(free_.data(), node), slope<D>(v.data(), node), support.free_slope);
   });
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const auto point = system_.driven_joint(i, t);
+    if (!point) continue;
+    Vec<double, D> force = position<D>(free_.data(), first_copy(i));
+    if (places()[i].cut) force += position<D>(free_.data(), first_copy(i) + 1);
+    power.supports += force.dot(point->rate);
+  }
   return power;
 }
 

@@ -68,19 +68,21 @@ class ImplicitBeam final : public SecondOrderSystem {
   using Block = Eigen::Matrix<double, B, B>;
   using NodeVector = Eigen::Matrix<double, B, 1>;
 
+  using DrivenPoints = std::vector<DrivenPoint<D>>;  ///< of the supports at start and end, and of the joints
+
   /// direction . (q of `node` - anchor - what its support prescribes) = 0, or, tied, direction . (q of `node` - q of
   /// the next node) = 0.
   struct Constraint {
     int node;
     NodeVector direction;
     NodeVector anchor;
-    int end;  ///< of the beam, 0 or 1, whose support holds it; -1 for another
+    int end;  ///< of the beam, 0 or 1, whose support holds it; 2 + i: joint i; -1: nothing
     bool tied = false;
     bool twice = false;  ///< what it holds is there twice
     int slope = -1;      ///< component, in the frame of a support, of the slope that it holds
 
-    double value(const double* q, const std::array<DrivenPoint<D>, 2>& driven) const;
-    double rate(const double* q, const double* v, const std::array<DrivenPoint<D>, 2>& driven) const;
+    double value(const double* q, const DrivenPoints& driven) const;
+    double rate(const double* q, const double* v, const DrivenPoints& driven) const;
   };
 
   using JointSlopeConditions = SlopeConditions<D>;
@@ -197,6 +199,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   double wave_time() const;       ///< of an axial wave through such an element [s]
   template <class Function>
   void at_end_nodes(const Function& function) const;
+  const DrivenPoints& driven_points(double t) const;
   /// The nodes at the ends, and those at joints that are held.
   template <class Function>
   void at_held_nodes(const Function& function) const;
@@ -205,6 +208,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable std::array<Support<D>, 2> standing_;  ///< the supports, at the time that was looked at last
+  mutable DrivenPoints driven_points_;          ///< of that time
   mutable std::vector<JointPlace> places_;      ///< of the joints in these coordinates
   mutable std::vector<Constraint> constraints_;
   mutable std::vector<Conditions> slope_conditions_;  ///< behind them

@@ -121,6 +121,12 @@ void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::Matri
     dfdy.col(places()[i].mark).setZero();
     dfdy.col(coordinates() + places()[i].mark).setZero();
   });
+  for (std::size_t i = 0; i < system_.places().size(); ++i) {
+    if (!system_.driven_joint(i, t)) continue;
+    const Eigen::Index position = Eigen::Index{B} * system_.places()[i].node;
+    dfdy.middleCols<D>(position).setZero();
+    dfdy.middleCols<D>(coordinates() + position).setZero();
+  }
   for (const bool start : {true, false}) {
     if (!(start ? model.start_motion : model.end_motion)) continue;
     const Support<D>& support = start ? model.start : model.end;  // its frame does not matter for its point

@@ -92,7 +92,7 @@ class Result(_Part):
         return self._run.column(name)
 
     def __dir__(self):
-        return [*self._tree, "units", "descriptions", "status", "shape", "shape_times", "report", "csv", "save"]
+        return [*self._tree, "units", "descriptions", "status", "warnings", "events", "shape", "shape_times", "report", "csv", "save"]
 
     def __repr__(self):
         return self._run.summary()
@@ -112,12 +112,22 @@ class Result(_Part):
         tension, curvature."""
         times = self._run.shape_times()
         if not -len(times) <= index < len(times):
-            raise IndexError(f"there are {len(times)} shapes: list their times in /output/configurations")
+            raise IndexError(f"{len(times)} shapes were kept, numbered from 0: list their times in /output/configurations")
         return Record(self._run.shape(index % len(times), points))
 
     def report(self):
         """The report as `vlbeam run --report` writes it (`vlbeam.schema("run")`), as a dictionary."""
         return _json.loads(self._run.report())
+
+    @property
+    def warnings(self):
+        """What the run warns of: records with `kind`, `message` and `remedy`."""
+        return _json.loads(self._run.report(), object_hook=Record)["warnings"]
+
+    @property
+    def events(self):
+        """Length-control events and what else happened, as the report has them."""
+        return _json.loads(self._run.report(), object_hook=Record)["events"]
 
     def csv(self):
         """The samples as CSV text, units in the first line."""
@@ -136,7 +146,11 @@ def _plain(value):
 
 
 def _text(scene):
-    return scene if isinstance(scene, str) else _json.dumps(scene, default=_plain)
+    if not isinstance(scene, str):
+        return _json.dumps(scene, default=_plain)
+    if "{" not in scene:
+        raise ValueError(f"{scene!r:.60} is no JSON text; a scene in a file is json.load(open(path))")
+    return scene
 
 
 def run(scene):

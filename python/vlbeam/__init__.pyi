@@ -59,6 +59,8 @@ class Result:
     reactions: Any
     flow: Any
     units: dict[str, str]
+    warnings: list[Record]
+    events: list[Record]
     descriptions: dict[str, str]
     def __getitem__(self, name: str) -> Array: ...
     @property

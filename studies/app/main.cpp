@@ -31,9 +31,9 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
   if (std::find(known.begin(), known.end(), word) != known.end()) return;
-  vlbeam::refuse("command", "\"" + word + "\"",
-                 "the nearest there is is \"" + vlbeam::nearest_of(word, known) +
-                     "\" (there are: " + vlbeam::quoted_list(known) + ")");
+  vlbeam::refuse(
+      "command", "\"" + word + "\"",
+      "the nearest is \"" + vlbeam::nearest_of(word, known) + "\" (there are: " + vlbeam::quoted_list(known) + ")");
 }
 
 int dispatch(int argc, char** argv) {

@@ -365,9 +365,9 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
   } else if (what == "curvature") {
     diagram = along_diagram(run, &ShapePoint::curvature, "curvature from the rest shape (1/m)");
   } else {
-    throw InvalidInput("--what", "\"" + what + "\"",
-                       "the nearest there is is \"" + nearest_of(what, plot_kinds()) +
-                           "\" (there are: " + quoted_list(plot_kinds()) + ")");
+    throw InvalidInput(
+        "--what", "\"" + what + "\"",
+        "the nearest is \"" + nearest_of(what, plot_kinds()) + "\" (there are: " + quoted_list(plot_kinds()) + ")");
   }
   check_not_empty(diagram, what);
   draw_diagram(diagram, figure);

@@ -62,11 +62,11 @@ class ReportWriter {
 void write_number(double value, ReportWriter& out) {
   if (!std::isfinite(value)) {
     out << "null";
-  } else if (value == std::trunc(value) && std::abs(value) < 1e15) {
-    out << value << ".0";
-  } else {
-    out << value;
+    return;
   }
+  const std::string text = number_text(value);
+  out << text;
+  if (text.find_first_of(".e") == std::string::npos) out << ".0";
 }
 
 std::vector<std::string> segments_of(const std::string& path) {
@@ -276,9 +276,10 @@ std::string integrator_text(const IntegratorSpec& integrator) {
   const bool fixed = has_fixed_step(integrator.type) && !integrator.adaptive;
   if (fixed) return type + ", steps of " + number_text(integrator.step) + " s";
   const auto& by_kind = integrator.atol_by_kind;
-  const std::string atol = by_kind ? number_text(by_kind->length) + " m, " + number_text(by_kind->velocity) + " m/s"
-                                   : number_text(integrator.atol);
-  return type + ", rtol " + number_text(integrator.rtol) + ", atol " + atol;
+  const std::string atol = by_kind ? short_number(by_kind->length) + " m, " + short_number(by_kind->velocity) + " m/s"
+                                   : short_number(integrator.atol);
+  const std::string longest = integrator.adaptive ? ", steps up to " + short_number(integrator.step) + " s" : "";
+  return type + ", rtol " + short_number(integrator.rtol) + ", atol " + atol + longest;
 }
 
 std::string events_text(const std::vector<Event>& events) {
@@ -307,7 +308,7 @@ std::string steps_text(const Scene& scene, const RunResult& result) {
                      short_number(s.smallest_step, 3) + " s; limited by ";
   if (!has_fixed_step(scene.integrator.type)) return text + "the error tolerance";
   if (scene.integrator.type == IntegratorType::generalized_alpha && scene.integrator.adaptive) {
-    return text + "the error tolerance and the step given";
+    return text + "the error tolerance and the longest step";
   }
   return text + "the step given" + (s.rejected > 0 ? " and, where rejected, by Newton's iteration" : "");
 }

@@ -65,6 +65,7 @@ std::string unknown_key_hint(const std::string& key, const Json& node, const std
     if (!item.key().empty()) known.push_back(item.key());
   }
   if (!discriminator.empty()) known.push_back(discriminator);
+  if (key == "schema_version") return "this is a report; its scene stands in it under \"scene\"";
   return "the nearest known key is \"" + nearest_of(key, known) + "\" (known here: " + quoted_list(known) + ")";
 }
 
@@ -95,7 +96,10 @@ class Canonical {
   Json object(Json& file, const Json& node, const std::string& here, const std::string& shown,
               const std::string& discriminator) {
     if (!file.is_object()) {
-      throw InvalidInput(shown.empty() ? "the top level" : shown, excerpt(file), "it must be an object");
+      const bool of_time = file.is_number() && node.contains("value") && node.contains("ramp");
+      throw InvalidInput(shown.empty() ? "the top level" : shown, excerpt(file),
+                         of_time ? "it must be an object, a function of time: {\"value\": " + excerpt(file) + "}"
+                                 : "it must be an object");
     }
     Json result = Json::object();
     result.get_ref<Json::object_t&>().reserve(file.size());  // as it grows it copies what it holds
@@ -343,6 +347,7 @@ Scene scene_with_every_part() {
   scene.sliding_joints.emplace_back().support = SupportType::pin;  // one that needs no mass
   scene.sliding_joints.back().friction.emplace();
   scene.sliding_joints.back().x.emplace();
+  scene.sliding_joints.back().motion.emplace();
   for (SupportSpec* support : {&scene.start, &scene.end}) support->motion.emplace().angle.emplace();
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();

@@ -22,9 +22,8 @@ std::string library_scene_text(const std::filesystem::path& folder, const std::s
   std::vector<std::string> names;
   for (const LibraryScene& scene : library_scenes(folder)) names.push_back(scene.name);
   if (std::ranges::find(names, name) == names.end()) {
-    throw InvalidInput(
-        "scene", "\"" + name + "\"",
-        "the nearest there is is \"" + nearest_of(name, names) + "\" (there are: " + quoted_list(names) + ")");
+    throw InvalidInput("scene", "\"" + name + "\"",
+                       "the nearest is \"" + nearest_of(name, names) + "\" (there are: " + quoted_list(names) + ")");
   }
   return read_text(folder / (name + ".json"));
 }

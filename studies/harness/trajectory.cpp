@@ -205,8 +205,9 @@ std::string comparison_text(const Json& comparison) {
   }
   text << "samples: " << comparison.at("common_samples") << " in common; the largest difference of each quantity\n";
   for (const Json& row : comparison.at("quantities")) {
-    text << "  " << row.at("quantity").get<std::string>() << ": " << digits(row.at("largest")) << " "
-         << row.at("unit").get<std::string>() << " at t = " << digits(row.at("at"), 6) << " s";
+    text << "  " << row.at("quantity").get<std::string>() << ": " << digits(row.at("largest"))
+         << (row.at("unit") == "-" ? "" : " " + row.at("unit").get<std::string>())
+         << " at t = " << digits(row.at("at"), 6) << " s";
     if (row.at("only_in_one") > 0) text << "; in one run only at " << row.at("only_in_one") << " samples";
     text << '\n';
   }
@@ -236,9 +237,8 @@ std::vector<std::string> case_names(const std::filesystem::path& folder) {
 CertifiedCase read_case(const std::filesystem::path& folder, const std::string& name) {
   const auto names = case_names(folder);
   if (std::ranges::find(names, name) == names.end()) {
-    throw InvalidInput(
-        "case", "\"" + name + "\"",
-        "the nearest there is is \"" + nearest_of(name, names) + "\" (there are: " + quoted_list(names) + ")");
+    throw InvalidInput("case", "\"" + name + "\"",
+                       "the nearest is \"" + nearest_of(name, names) + "\" (there are: " + quoted_list(names) + ")");
   }
   const Json json = read_json(folder / (name + ".json"));
   const auto numbers = [](const Json& list) {

@@ -65,6 +65,12 @@ const std::vector<Feature>& features() {
       {"sliding mass", [](Scene& s) { mass(s); }},
       {"ring", [](Scene& s) { held(s, SupportType::pin); }},
       {"sleeve", [](Scene& s) { held(s, SupportType::clamp); }},
+      {"ring that is moved",
+       [](Scene& s) {
+         held(s, SupportType::pin);
+         s.sliding_joints.back().motion = {.direction = {0.2, 1, 0},
+                                           .displacement = {.amplitude = 0.01, .frequency = 20, .phase_degrees = 90}};
+       }},
       {"guided joint",
        [](Scene& s) {
          held(s, SupportType::free);
