@@ -19,8 +19,9 @@ constexpr double axial = 170.12490249604053;  // the larger root of x^2 - 180 x 
 constexpr double bending = 8400;
 
 constexpr double many_steps = 1e4;
-constexpr double near = 0.6;        // of the limit: a mean step as long is held by stability at least now and then
-constexpr double worth_while = 20;  // explicit steps that an implicit one must replace
+constexpr double too_many_steps = 1e5;  // seconds of a run
+constexpr double near = 0.6;            // of the limit: a mean step as long is held by stability at least now and then
+constexpr double worth_while = 20;      // explicit steps that an implicit one must replace
 constexpr double automatic_tolerance = 1e-7;  // of the beam's length, for implicit steps
 constexpr double steps_a_period = 250;        // of a vibration: generalized-alpha is off by 1e-4 radians a radian
 constexpr double steps_of_motion = 500;       // of the run, or of a swing under gravity
@@ -115,7 +116,8 @@ IntegratorSpec automatic_integrator(const Scene& scene) {
   const double fastest = largest_frequency(scene);
   const double damped = damping_limit / (scene.beam.material.damping * fastest * fastest);
   const double explicit_step = std::min(stability_limit(IntegratorType::dopri5) / fastest, damped);
-  if (!(implicit.step >= worth_while * explicit_step)) return dopri5;
+  if (!(implicit.step >= worth_while * explicit_step && scene.duration >= too_many_steps * explicit_step))
+    return dopri5;
   implicit.adaptive = true;
   implicit.rtol = automatic_tolerance;
   const double length = two_digits(automatic_tolerance * beam_length(scene));
@@ -135,7 +137,8 @@ IntegratorSpec automatic_integrator(const Scene& scene) {
 std::optional<Warning> stability_warning(const Scene& scene, const RunResult& result) {
   const auto steps = static_cast<double>(result.solver.steps);
   const double limit = stability_limit(scene.integrator.type);
-  if (limit == 0 || steps < many_steps || result.samples.empty()) return std::nullopt;
+  const double many = scene.integrator.automatic ? too_many_steps : many_steps;
+  if (limit == 0 || steps < many || result.samples.empty()) return std::nullopt;
   const double reached = result.status == RunStatus::failed ? result.failure_time : result.samples.back().t;
   const double share = reached / steps * largest_frequency(scene) / limit;
   if (share < near) return std::nullopt;

@@ -17,9 +17,9 @@ double largest_frequency(const Scene& scene);
 /// the time that a body takes to pass through where friction fades.
 double longest_implicit_step(const Scene& scene);
 
-/// What `"integrator": "auto"` stands for: "generalized-alpha" where at least 20 of the steps that stability leaves to
-/// "dopri5" go into one of its longest; they are as short as tolerances of 1e-7 of each position and of the beam's
-/// length ask for. Else, or where the scene has what it cannot do, "dopri5".
+/// What `"integrator": "auto"` stands for: "generalized-alpha" where stability would force "dopri5" to more than 1e5
+/// steps, of which at least 20 go into one of its longest; they are as short as tolerances of 1e-7 of each position and
+/// of the beam's length ask for. Else, or where the scene has what it cannot do, "dopri5".
 IntegratorSpec automatic_integrator(const Scene& scene);
 
 /// Where an explicit run has taken many steps, and stability, not accuracy, made them as short as they are.

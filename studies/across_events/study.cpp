@@ -34,6 +34,7 @@ std::vector<Case> read_cases(const Json& config) {
     for (const auto& newton : names(NewtonKind{})) {
       for (const double step : config.at("steps").get<std::vector<double>>()) {
         Case& item = cases.emplace_back(Case{sweep, scene, false});
+        item.scene.integrator = {};
         item.scene.integrator.type = IntegratorType::generalized_alpha;
         item.scene.integrator.newton = newton.value;
         item.scene.integrator.step = step;

@@ -47,6 +47,7 @@ std::vector<Case> read_cases(const Json& config) {
       // the joint runs into its neighbour, whose element shrinks to nothing: explicit steps would do so too
       Scene& uncontrolled = with(element, 1.5, 0.001);
       uncontrolled.length_control.enabled = false;
+      uncontrolled.integrator = {};
       uncontrolled.integrator.type = IntegratorType::generalized_alpha;
       uncontrolled.integrator.step = 1e-4;
     }

@@ -45,6 +45,7 @@ std::vector<Case> read_cases(const Json& config) {
       const Json& implicit = config.at("implicit");
       for (const double step : implicit.at("steps").get<std::vector<double>>()) {
         auto& integrator = with("implicit", implicit.at("elements"), element, velocities.value).scene.integrator;
+        integrator = {};
         integrator.type = IntegratorType::generalized_alpha;
         integrator.step = step;
         integrator.rho_inf = implicit.at("rho_inf");
