@@ -381,7 +381,8 @@ Json scene_schema() {
   Json& integrator = schema["properties"]["integrator"];
   const Json automatic = {
       {"const", "auto"},
-      {"description", "generalized-alpha where stability would force dopri5 to 20 times as many steps, and many, else dopri5"}};
+      {"description",
+       "generalized-alpha where stability would force dopri5 to 20 times as many steps, and many, else dopri5"}};
   integrator = {{"description", integrator.at("description")},
                 {"default", automatic.at("const")},
                 {"anyOf", {automatic, integrator}}};
