@@ -368,6 +368,11 @@ Scene scene_from_json(Json json) {
     throw InvalidInput("/integrator", excerpt(json.at("integrator")),
                        "it must be \"auto\", or an object like {\"type\": \"dopri5\"}");
   }
+  if (json.is_object() && json.contains("integrator") && json.at("integrator").is_object() &&
+      json.at("integrator").value("type", Json()) == "auto") {
+    throw InvalidInput("/integrator/type", "\"auto\"",
+                       "what the scene chooses has no options: write \"integrator\": \"auto\", or name a method");
+  }
   const Reader reader(std::move(json));
   Scene scene;
   visit_options(reader, scene);

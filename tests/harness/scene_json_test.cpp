@@ -95,6 +95,8 @@ TEST(SceneJson, AutoStandsForTheIntegratorThatTheEchoShows) {
   EXPECT_EQ(scene_to_json(scene_from_json(json))["integrator"]["type"], "dopri5");
   json["integrator"] = "fast";
   EXPECT_THROW(scene_from_json(json), InvalidInput);
+  json["integrator"] = {{"type", "auto"}};
+  EXPECT_THROW(scene_from_json(json), InvalidInput);
 }
 
 TEST(SceneJson, TheIntegratorLeftOutIsAuto) {
