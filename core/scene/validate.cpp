@@ -80,6 +80,10 @@ void check_plane(const Scene& scene) {
   }
   if (scene.start.motion) in_plane("/supports/at=start/motion/direction", scene.start.motion->direction);
   if (scene.end.motion) in_plane("/supports/at=end/motion/direction", scene.end.motion->direction);
+  for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+    const auto& motion = scene.sliding_joints[i].motion;
+    if (motion) in_plane(joint_key(scene, i) + "/motion/direction", motion->direction);
+  }
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     in_plane("/loads/" + std::to_string(i) + "/direction", scene.loads[i].direction);
   }
@@ -572,9 +576,6 @@ void check_support_motion(const Scene& scene) {
     const SlidingJointSpec& joint = scene.sliding_joints[i];
     if (!joint.motion) continue;
     const std::string at = joint_key(scene, i) + "/motion";
-    if (scene.dimension == 2 && joint.motion->direction[2] != 0) {
-      refuse(at + "/direction", "a component out of the plane", "in a planar scene there is none");
-    }
     if (scene.analysis == Analysis::statics) refuse(at, "this key", "in statics rings and sleeves stay where they are");
     if (scene.integrator.type == IntegratorType::ida) {
       refuse("/integrator/type", "\"ida\"", "it knows no joint that is moved: take any other");

@@ -1,5 +1,6 @@
 #include "studies/harness/schema_text.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
