@@ -58,6 +58,7 @@ void JointChain<D>::layout(const Span<D>& first, const Span<D>& last, const std:
   share_.assign(joints_.size(), 0);
   stretch_.assign(joints_.size(), 0);
   normal_.assign(joints_.size(), 0);
+  pull_.assign(joints_.size(), Vec<double, D>::Zero());
   influence_.resize(D * static_cast<Eigen::Index>(joints_.size()), static_cast<Eigen::Index>(joints_.size()));
 }
 
@@ -204,6 +205,20 @@ double JointChain<D>::guide_force(std::size_t which) const {
 }
 
 template <int D>
+void JointChain<D>::keep_rows(std::size_t which) {
+  Station& station = stations_[which];
+  station.held_rows.reset();
+  if (station.joint < 0) return;
+  const Joint& joint = joints_[static_cast<std::size_t>(station.joint)];
+  if (joint.held == nullptr || !joint.law->friction) return;
+  auto& rows = station.held_rows.emplace();
+  rows.own = station.diagonal.template topRows<D>();
+  if (which > 0) rows.previous = stations_[which - 1].upper.template leftCols<D>().transpose();
+  if (which + 1 < stations_.size()) rows.next = station.upper.template topRows<D>();
+  rows.force = station.rhs.template head<D>();
+}
+
+template <int D>
 bool JointChain<D>::factor() {
   for (std::size_t k = 0; k < stations_.size(); ++k) {
     Station& station = stations_[k];
@@ -232,14 +247,27 @@ void JointChain<D>::substitute() {
   }
 }
 
+template <int D>
+Vec<double, D> JointChain<D>::lacking(std::size_t which, bool with_forces) const {
+  const auto& rows = stations_[which].held_rows;
+  if (!rows) return Vec<double, D>::Zero();
+  Vec<double, D> sum = -rows->own * stations_[which].rhs;
+  if (with_forces) sum += rows->force;
+  if (which > 0) sum -= rows->previous * stations_[which - 1].rhs;
+  if (which + 1 < stations_.size()) sum -= rows->next * stations_[which + 1].rhs;
+  return sum;
+}
+
 /// The normal force at one joint depends on the friction at the others, but little: by rounds over them all.
 template <int D>
 std::optional<double> JointChain<D>::add_friction(const std::vector<JointMotion<D>>& motion) {
   for (Station& station : stations_) station.answer = station.rhs;
   const auto count = joints_.size();
-  const auto contact_at = [&](std::size_t j) {
-    return Contact<double, D>((motion[j].slopes.template head<D>() + motion[j].slopes.template tail<D>()) / 2);
-  };
+  const auto contact_at = [&](std::size_t j) { return motion[j].contact(*joints_[j].law); };
+  for (std::size_t j = 0; j < count; ++j) {  // by the beam on the joint
+    pull_[j] = joints_[j].law->mass * (stations_[of_joint_[j]].rhs.template head<D>() - motion[j].gravity) +
+               lacking(of_joint_[j], true);
+  }
   const auto push = [&](std::size_t j, double force) {
     Station& station = stations_[of_joint_[j]];
     if (!station.guided) station.rhs[station.mark] += stretch_[j] * force;
@@ -247,15 +275,16 @@ std::optional<double> JointChain<D>::add_friction(const std::vector<JointMotion<
   for (std::size_t j = 0; j < count; ++j) {
     const Contact<double, D> contact = contact_at(j);
     const auto& friction = joints_[j].law->friction;
-    stretch_[j] = contact.stretch;
-    share_[j] = friction ? friction->share(contact.stretch * motion[j].x_rate) : 0;
+    stretch_[j] = contact.stretch();
+    share_[j] = friction ? contact.share(*friction, motion[j].x_rate) : 0;
     if (share_[j] == 0) continue;
     for (Station& station : stations_) station.rhs.setZero();
     push(j, 1);
     substitute();
     for (std::size_t i = 0; i < count; ++i) {
       influence_.template block<D, 1>(D * static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          contact_at(i).normal_part(joints_[i].law->mass * stations_[of_joint_[i]].rhs.template head<D>());
+          contact_at(i).pressing(joints_[i].law->mass * stations_[of_joint_[i]].rhs.template head<D>() +
+                                 lacking(of_joint_[i], false));
     }
   }
   const auto influence = [&](std::size_t on, std::size_t by) -> Vec<double, D> {
@@ -268,12 +297,11 @@ std::optional<double> JointChain<D>::add_friction(const std::vector<JointMotion<
     change = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (share_[i] == 0) continue;
-      Vec<double, D> pull = contact_at(i).normal_part(
-          joints_[i].law->mass * (stations_[of_joint_[i]].answer.template head<D>() - motion[i].gravity));
+      Vec<double, D> pull = contact_at(i).pressing(pull_[i]);
       for (std::size_t j = 0; j < count; ++j) {
         if (j != i && share_[j] != 0) pull -= share_[j] * normal_[j] * influence(i, j);
       }
-      const auto normal = normal_force<D>(pull, influence(i, i), share_[i]);
+      const auto normal = pressing_force<D>(pull, influence(i, i), share_[i]);
       if (!normal) return std::nullopt;
       change = std::max(change, std::abs(*normal - normal_[i]));
       largest = std::max(largest, *normal);
@@ -314,6 +342,7 @@ std::optional<JointPower> JointChain<D>::solve(const std::vector<MovingEquations
     stations_[of_joint_[j]].guided.reset();
     if (const auto& given = motion[j].x_acceleration) guide(of_joint_[j], *given);
   }
+  for (std::size_t k = 0; k < stations_.size(); ++k) keep_rows(k);
   for (std::size_t k = 0; k < stations_.size(); ++k) {
     if (stations_[k].held != nullptr) hold(*stations_[k].held, stations_[k], k > 0 ? &stations_[k - 1] : nullptr);
   }

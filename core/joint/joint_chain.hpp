@@ -73,17 +73,27 @@ class JointChain {
       double force = 0;
     };
     std::optional<Guided> guided = {};
+    /// Of a joint that rubs and is held: the rows of M of its place, by itself and its neighbours, and the force there.
+    struct HeldRows {
+      Eigen::Matrix<double, D, Eigen::Dynamic, 0, D, most> own, previous, next;
+      Vec<double, D> force;
+    };
+    std::optional<HeldRows> held_rows = {};
   };
 
   void assemble(const std::vector<MovingEquations<double, D>>& equations, const std::vector<JointMotion<D>>& motion);
   /// Gives a joint's material coordinate its acceleration.
   void guide(std::size_t station, double acceleration);
+  /// Remembers what the node of a held joint that rubs has for equations.
+  void keep_rows(std::size_t station);
   /// With what a guide acts on the material coordinate [N], less what it bears of friction.
   double guide_force(std::size_t station) const;
   bool factor();
   /// Solves in place of each station's `rhs`.
   void substitute();
   std::optional<double> add_friction(const std::vector<JointMotion<D>>& motion);
+  /// What acts on the node of a held joint that rubs, less what the accelerations in `rhs` take of it [N]; 0 elsewhere.
+  Vec<double, D> lacking(std::size_t station, bool with_forces) const;
   static void hold(const Support<D>& held, Station& station, Station* previous);
 
   const Span<D>*first_ = nullptr, *last_ = nullptr;
@@ -93,7 +103,8 @@ class JointChain {
   std::vector<Station> stations_;
   std::vector<std::size_t> of_joint_, of_part_;  ///< which station is a joint's, and that of a part's end A
   std::vector<double> normal_, share_, stretch_;
-  Eigen::MatrixXd influence_;  ///< by friction at one joint, the accelerations there and at others
+  std::vector<Vec<double, D>> pull_;  ///< by the beam on a joint without friction [N]
+  Eigen::MatrixXd influence_;         ///< by friction at one joint, the accelerations there and at others
 };
 
 extern template class JointChain<2>;

@@ -89,7 +89,8 @@ RiderForce<Real, D> rider_residual(const RiderMotion<Real, D>& at, const NodalCu
   force.dissipation = Real(0);
   force.x = held ? Real(a_x * joint.mass) : Real(at.r_x.dot(pull) * joint.mass);
   if (!held && joint.friction) {
-    const auto friction = friction_force<Real, D>(*joint.friction, joint.mass, pull, at.r_x, at.x_rate);
+    const auto friction =
+        friction_force<Real, D>(*joint.friction, pull * Real(joint.mass), Contact<Real, D>(at.r_x), at.x_rate);
     force.x -= friction.force;
     force.dissipation = friction.dissipation;
   }
@@ -142,8 +143,9 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> rider_tangent(const RiderMotion<doub
     active_pull[c] = Real(pull[c], N, c);
     active_slope[c] = Real(at.r_x[c], N, D + c);
   }
-  const Real force =
-      friction_force<Real, D>(*joint.friction, m, active_pull, active_slope, Real(at.x_rate, N, 2 * D)).force;
+  const Real force = friction_force<Real, D>(*joint.friction, active_pull * Real(m), Contact<Real, D>(active_slope),
+                                             Real(at.x_rate, N, 2 * D))
+                         .force;
   if (force.derivatives().size() == 0) return tangent;
   const Vector by_pull = force.derivatives().template head<D>(), by_slope = force.derivatives().template segment<D>(D);
   for (int i = 0; i < 4; ++i) {
@@ -232,12 +234,12 @@ std::optional<RiderSolution<D>> solve_with_rider(const RiderMass<D>& mass, const
     solved.force += solved.x * by_x;
     if (friction && joint.friction) {
       const Contact<double, D> contact(at.r_x);
-      const double v = contact.stretch * at.x_rate, share = joint.friction->share(v), x_1 = contact.stretch / stiffness;
-      const auto normal = normal_force<D>(contact.normal_part(solved.force), contact.normal_part(x_1 * by_x), share);
-      if (!normal) return std::nullopt;
-      solved.x -= share * *normal * x_1;
-      solved.force -= share * *normal * x_1 * by_x;
-      solved.dissipation = share * *normal * v;
+      const double share = contact.share(*joint.friction, at.x_rate), x_1 = contact.stretch() / stiffness;
+      const auto pressing = pressing_force<D>(contact.pressing(solved.force), contact.pressing(x_1 * by_x), share);
+      if (!pressing) return std::nullopt;
+      solved.x -= share * *pressing * x_1;
+      solved.force -= share * *pressing * x_1 * by_x;
+      solved.dissipation = share * *pressing * contact.stretch() * at.x_rate;
     }
   }
   mass.add(at.s, -solved.force, a);

@@ -175,20 +175,29 @@ std::optional<double> solve(const Span<D>& left, const Span<D>& right, const Mov
   JointSide<D, unknowns, behind> right_side(right, right_element, 0);
   left_side.eliminate(force, mass, rhs);
   right_side.eliminate(force, mass, rhs);
+  const Eigen::Matrix<double, D, unknowns> row = mass.template topRows<D>();
+  const Vec<double, D> on_node = rhs.template head<D>();
   if (held != nullptr) hold<D, unknowns>(*held, mass, rhs);
   const Equations equations(mass, joint, motion);
   if (!equations.positive_definite()) return std::nullopt;
   Column a = equations.solve(rhs, true);
   double dissipation = 0;
   if (joint.friction) {
-    const Contact<double, D> contact((motion.slopes.template head<D>() + motion.slopes.template tail<D>()) / 2);
-    const double v = contact.stretch * motion.x_rate, share = joint.friction->share(v);
-    const Column by_friction = equations.solve(contact.stretch * Column::Unit(x), false);
-    const auto normal = normal_force<D>(contact.normal_part(joint.mass * (a.template head<D>() - motion.gravity)),
-                                        contact.normal_part(joint.mass * by_friction.template head<D>()), share);
-    if (!normal) return std::nullopt;
-    a -= share * *normal * by_friction;
-    dissipation = share * *normal * v;
+    // the beam pulls at the joint by what accelerates its mass, and by what its node lacks where that is held
+    const auto pull = [&](const Column& by, const Vec<double, D>& acting, const Vec<double, D>& gravity) {
+      Vec<double, D> sum = joint.mass * (by.template head<D>() - gravity);
+      if (held != nullptr) sum += acting - row * by;
+      return sum;
+    };
+    const Vec<double, D> none = Vec<double, D>::Zero();
+    const auto contact = motion.contact(joint);
+    const double share = contact.share(*joint.friction, motion.x_rate);
+    const Column by_friction = equations.solve(contact.stretch() * Column::Unit(x), false);
+    const auto pressing = pressing_force<D>(contact.pressing(pull(a, on_node, motion.gravity)),
+                                            contact.pressing(pull(by_friction, none, none)), share);
+    if (!pressing) return std::nullopt;
+    a -= share * *pressing * by_friction;
+    dissipation = share * *pressing * contact.stretch() * motion.x_rate;
   }
   left_side.substitute(a, force);
   right_side.substitute(a, force);

@@ -19,11 +19,17 @@ struct SlidingJoint {
 
   /// The beam has two slopes at the joint.
   bool kinked() const { return slopes != JointSlopes::continuous; }
+  /// The beam may have two directions there.
+  bool turns() const { return slopes == JointSlopes::equal_stretch || slopes == JointSlopes::free; }
 };
 
 /// What the equations of a joint need to know of its motion.
 template <int D>
 struct JointMotion {
+  Contact<double, D> contact(const SlidingJoint& joint) const {
+    return {slopes.template head<D>(), slopes.template tail<D>(), joint.turns()};
+  }
+
   Eigen::Matrix<double, 2 * D, 1> slopes, slope_rates;  ///< r_x before and behind the joint
   double x_rate;                                        ///< [m/s]
   Vec<double, D> gravity;                               ///< [m/s^2]

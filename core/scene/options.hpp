@@ -476,13 +476,16 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                                   "magnitudes, a kink with one magnitude, or independent",
                    .source = "Ding & Ouyang 2022, Eq. 39-40"},
             mass.slopes);
-    if (visitor.present(Option{.pointer = friction,
-                               .unit = "",
-                               .description = "Coulomb friction between mass and beam, mu N tanh(v/velocity)"},
-                        mass.friction)) {
+    if (visitor.present(
+            Option{.pointer = friction,
+                   .unit = "",
+                   .description = "Coulomb friction along the beam, mu N tanh(v/velocity); around a kink of a cable by "
+                                  "Euler and Eytelwein, tensions in the ratio e^(mu angle)"},
+            mass.friction)) {
       visitor(Option{.pointer = coefficient,
                      .unit = "-",
-                     .description = "mu, friction over the contact force normal to the beam",
+                     .description =
+                         "mu, friction over the contact force normal to the beam (of what is held, its reaction)",
                      .range = Range::non_negative(),
                      .required = true},
               mass.friction->coefficient);

@@ -286,7 +286,10 @@ void check_held_joint(const Scene& scene, std::size_t which) {
   if (joint.velocity != 0) {
     refuse(key + "/velocity", number_text(joint.velocity), "what is held starts at rest, with the beam in it");
   }
-  if (joint.friction) refuse(key + "/friction", "this key", "only of a joint that is \"free\", so far");
+  if (joint.friction && joint.slopes == JointSlopes::equal_stretch) {
+    refuse(key + "/slopes", quoted(to_string(joint.slopes)),
+           "friction makes the tensions differ on the two sides of what is held: take \"free\"");
+  }
   if (joint.at_support != AtSupport::stop) {
     refuse(key + "/at_support", quoted(to_string(joint.at_support)), "of a joint that is held it must be \"stop\"");
   }

@@ -300,12 +300,13 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     for (std::size_t i = 0; i < places().size(); ++i) {
       const SlidingJoint& joint = system_.joint(i).law;
       const int node = first_copy(i);
-      const Vec<double, D> pull = position<D>(a.data(), node) - gravity;
-      position<D>(r.data(), node) += joint.mass * pull;
+      const Vec<double, D> inertia = joint.mass * (position<D>(a.data(), node) - gravity);
+      const Vec<double, D> pull = system_.held(i) == nullptr ? inertia : Vec<double, D>(-on_joint_node(i, r));
+      position<D>(r.data(), node) += inertia;
       if (!joint.friction) continue;
       const Slopes slopes = joint_slopes(i, q.data());
-      const Vec<double, D> mean = (slopes.template head<D>() + slopes.template tail<D>()) / 2;
-      const auto friction = friction_force<double, D>(*joint.friction, joint.mass, pull, mean, v[places()[i].mark]);
+      const Contact<double, D> contact(slopes.template head<D>(), slopes.template tail<D>(), joint.turns());
+      const auto friction = friction_force<double, D>(*joint.friction, pull, contact, v[places()[i].mark]);
       r[places()[i].mark] -= friction.force;
       dissipation += friction.dissipation;
     }
@@ -459,9 +460,7 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   for (std::size_t i = 0; i < places().size(); ++i) {
     const auto point = system_.driven_joint(i, t);
     if (!point) continue;
-    Vec<double, D> force = position<D>(free_.data(), first_copy(i));
-    if (places()[i].cut) force += position<D>(free_.data(), first_copy(i) + 1);
-    power.supports += force.dot(point->rate);
+    power.supports += on_joint_node(i, free_).dot(point->rate);
   }
   return power;
 }
@@ -541,7 +540,6 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     const SlidingJoint& joint = system_.joint(i).law;
     tangent_.diagonal[static_cast<std::size_t>(first_copy(i))].template topLeftCorner<D, D>().diagonal().array() +=
         by_a * joint.mass;
-    if (joint.friction) add_friction_tangent(i, q, v, a, t, by_v, by_a);
   }
   if (const auto& rider = system_.rider()) {
     tangent_.add_border(rider->element);
@@ -567,6 +565,20 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   model.loads.add_tangent(beam, t, add_point);
   model.drag.add_tangent(beam, by_v, add_point);
   model.masses.add_tangent(beam, a.data(), system_.gravity(t), by_v, by_a, add_point);
+  if (!model.rubs()) return;
+  bool held = false;
+  for (std::size_t i = 0; i < places().size(); ++i) held = held || system_.held(i) != nullptr;
+  if (held) {
+    free_.resize(q.size());
+    free_residual(q, v, a, t, free_);
+  }
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const SlidingJoint& joint = system_.joint(i).law;
+    if (!joint.friction) continue;
+    Vec<double, D> pull = joint.mass * (position<D>(a.data(), first_copy(i)) - system_.gravity(t));
+    if (system_.held(i) != nullptr) pull -= on_joint_node(i, free_);
+    add_friction_tangent(i, pull, q, v, by_v, by_a);
+  }
 }
 
 template <int D>
@@ -587,32 +599,54 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   return tangent_.factor();
 }
 
-/// Friction acts on the joint's material coordinate alone.
+/// Friction acts on the joint's material coordinate alone. Where its node is held, the beam pulls at it by what the
+/// node's own equations lack, whose rows stand in the tangent.
 template <int D>
-void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                           const Eigen::VectorXd& a, double t, double by_v, double by_a) {
-  constexpr int N = 2 * D + 1;  // by the mass's acceleration, the mean slope and x'
+void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
+                                           const Eigen::VectorXd& v, double by_v, double by_a) {
+  constexpr int N = 3 * D + 1;  // by the pull, the slopes and x'
   using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
   const SlidingJoint& joint = system_.joint(which).law;
   const JointPlace& place = places()[which];
   const int j = first_copy(which), far = j + (place.cut ? 1 : 0);
-  const Vec<double, D> pull = position<D>(a.data(), j) - system_.gravity(t);
-  const Vec<double, D> mean = (slope<D>(q.data(), j) + slope<D>(q.data(), far)) / 2;
-  Vec<Real, D> active_pull, active_slope;
+  const bool held = system_.held(which) != nullptr;
+  const Slopes slopes = joint_slopes(which, q.data());
+  Vec<Real, D> active_pull, before, behind;
   for (int c = 0; c < D; ++c) {
     active_pull[c] = Real(pull[c], N, c);
-    active_slope[c] = Real(mean[c], N, D + c);
+    before[c] = Real(slopes[c], N, D + c);
+    behind[c] = Real(slopes[D + c], N, 2 * D + c);
   }
-  const Real x_rate(v[place.mark], N, 2 * D);
-  const Real force = friction_force<Real, D>(*joint.friction, joint.mass, active_pull, active_slope, x_rate).force;
+  const Real force =
+      friction_force<Real, D>(*joint.friction, active_pull, Contact<Real, D>(before, behind, joint.turns()),
+                              Real(v[place.mark], N, 3 * D))
+          .force;
   if (force.derivatives().size() == 0 || force.value() == 0) return;
   const Eigen::Matrix<double, N, 1>& by = force.derivatives();
-  auto& row = tangent_.border[which].row;  // from node j - 1 on
-  row[1].template head<D>() -= by_a * by.template head<D>();
-  row[1].template tail<D>() -= by.template segment<D>(D) / 2;
-  row[static_cast<std::size_t>(far - j) + 1].template tail<D>() -= by.template segment<D>(D) / 2;
+  const Vec<double, D> by_pull = by.template head<D>();
+  auto& border = tangent_.border[which];
+  const auto reached = [&](int node) { return static_cast<std::size_t>(node - border.first); };
   const auto at = static_cast<Eigen::Index>(which);
-  tangent_.corner(at, at) -= by_v * by[2 * D];
+  border.row[reached(j)].template tail<D>() -= by.template segment<D>(D);
+  border.row[reached(far)].template tail<D>() -= by.template segment<D>(2 * D);
+  tangent_.corner(at, at) -= by_v * by[3 * D];
+  border.row[reached(j)].template head<D>() -= by_a * joint.mass * by_pull;
+  if (!held) return;
+  for (int node = j; node <= far; ++node) {
+    const auto k = static_cast<std::size_t>(node);
+    const auto add = [&](int to, const Block& block) {
+      border.row[reached(to)] += block.template topRows<D>().transpose() * by_pull;
+    };
+    add(node - 1, tangent_.lower[k]);
+    add(node, tangent_.diagonal[k]);
+    add(node + 1, tangent_.upper[k]);
+    for (int other = 0; other < tangent_.borders(); ++other) {
+      const auto& column = tangent_.border[static_cast<std::size_t>(other)];
+      const int i = node - column.first;
+      if (i < 0 || i >= BorderedBlockTridiagonal<B>::reach) continue;
+      tangent_.corner(at, other) += by_pull.dot(column.column[static_cast<std::size_t>(i)].template head<D>());
+    }
+  }
 }
 
 template <int D>
@@ -740,10 +774,8 @@ OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double 
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
   forces.on_masses.assign(system_.model().joints.size(), Vec<double, D>::Zero());
   for (std::size_t i = 0; i < places().size(); ++i) {
-    const int node = first_copy(i);
     auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
-    on_mass = -position<D>(free_.data(), node) - system_.joint(i).law.mass * system_.gravity(t);
-    if (places()[i].cut) on_mass -= position<D>(free_.data(), node + 1);
+    on_mass = -on_joint_node(i, free_) - system_.joint(i).law.mass * system_.gravity(t);
   }
   return forces;
 }
@@ -771,13 +803,10 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     forces.on_masses.front() = joints.front().law.mass * (acceleration - system_.gravity(t));
   }
   for (std::size_t i = 0; i < places().size(); ++i) {
-    const int node = first_copy(i);  // it moves with the mass
-    const Vec<double, D> acceleration = position<D>(a.data(), node);
+    const Vec<double, D> acceleration = position<D>(a.data(), first_copy(i));  // it moves with the mass
     auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
     on_mass = system_.joint(i).law.mass * (acceleration - system_.gravity(t));
-    if (system_.held(i) == nullptr) continue;  // else what holds it does the rest
-    on_mass -= position<D>(free_.data(), node);
-    if (places()[i].cut) on_mass -= position<D>(free_.data(), node + 1);
+    if (system_.held(i) != nullptr) on_mass -= on_joint_node(i, free_);  // what holds it does the rest
   }
   return forces;
 }

@@ -164,6 +164,12 @@ class ImplicitBeam final : public SecondOrderSystem {
   ChainView<D> view(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const { return view(q.data(), v.data()); }
   /// The first copy of a joint's node.
   int first_copy(std::size_t which) const { return places()[which].node + copies_before(which); }
+  /// Of an array like q: what stands at the place of a joint, in all copies of its node.
+  Vec<double, D> on_joint_node(std::size_t which, const Eigen::VectorXd& q) const {
+    Vec<double, D> sum = position<D>(q.data(), first_copy(which));
+    if (places()[which].cut) sum += position<D>(q.data(), first_copy(which) + 1);
+    return sum;
+  }
   int copies_before(std::size_t which) const {
     int count = 0;
     for (std::size_t i = 0; i < which; ++i) count += places()[i].cut ? 1 : 0;
@@ -189,8 +195,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   void constrain_tangent();
   /// Rows and columns of the constraints, times `scale`, and what their forces add to the tangent.
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
-  void add_friction_tangent(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                            const Eigen::VectorXd& a, double t, double by_v, double by_a);
+  /// Of a joint at which the beam pulls by `pull` [N]; all that acts on the nodes is in the tangent.
+  void add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& v, double by_v, double by_a);
   void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   void rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size, Eigen::VectorXd& result);
   /// What moving supports change of the Jacobian.

@@ -10,6 +10,10 @@ namespace vlbeam::test {
 
 // What friction needs of a dual number.
 inline bool operator>(const Dual<double>& a, double b) { return a.value > b; }
+inline Dual<double> asin(const Dual<double>& a) {
+  return {std::asin(a.value), a.rate / std::sqrt(1 - a.value * a.value)};
+}
+
 inline Dual<double> tanh(const Dual<double>& a) {
   const double t = std::tanh(a.value);
   return {t, (1 - t * t) * a.rate};

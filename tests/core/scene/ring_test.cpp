@@ -196,7 +196,6 @@ TEST(Ring, IsRefusedWhereItCannotBe) {
   EXPECT_EQ(field_of([](Scene&, SlidingJointSpec& j) { j.support = SupportType::free; }), at + "/mass");
   EXPECT_EQ(field_of([](Scene&, SlidingJointSpec& j) { j.support = SupportType::slide; }), at + "/support");
   EXPECT_EQ(field_of([](Scene&, SlidingJointSpec& j) { j.velocity = 1; }), at + "/velocity");
-  EXPECT_EQ(field_of([](Scene&, SlidingJointSpec& j) { j.friction.emplace(); }), at + "/friction");
   EXPECT_EQ(field_of([](Scene&, SlidingJointSpec& j) { j.position = 0; }), at + "/position");
   EXPECT_EQ(field_of([](Scene&, SlidingJointSpec& j) { j.at_support = AtSupport::rest; }), at + "/at_support");
   EXPECT_EQ(field_of([](Scene& s, SlidingJointSpec&) { s.length_control.end_merge = 0.5; }),

@@ -373,15 +373,6 @@ TYPED_TEST(BeamSystemOf, TheRateOfItsLengthIsTheDerivativeOfItsLength) {
   }
 }
 
-TEST(Friction, JamsWhereItPressesTheMassOnHarderThanItResists) {
-  using Plane = Vec<double, 2>;
-  const Plane p(0, 2), harder(0, -1);
-  EXPECT_NEAR(*normal_force<2>(p, harder, 0.5), 4, 1e-14);  // N = |2 + N/2|
-  EXPECT_NEAR(*normal_force<2>(p, harder, -0.5), 4.0 / 3, 1e-14);
-  EXPECT_EQ(*normal_force<2>(Plane::Zero(), harder, 0.5), 0);
-  EXPECT_FALSE(normal_force<2>(p, harder, 1));
-}
-
 TYPED_TEST(BeamSystemOf, AccelerationsAreThoseOfTheDenseSystemUnderAnySupports) {
   for (const auto& start : this->supports()) {
     for (const auto& end : this->supports()) {
