@@ -6,6 +6,7 @@
 
 #include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
+#include "core/length_control/chain_motion.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/build_loads.hpp"
 #include "core/scene/options.hpp"
@@ -25,15 +26,6 @@ bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && sce
 template <int D>
 Vec<double, D> vector_of(const Point& point) {
   return Eigen::Map<const Vec<double, D>>(point.data());
-}
-
-/// d2r/dx2 of element k at its parameter u.
-template <int D>
-Vec<double, D> second_derivative(const ChainState<D>& chain, int k, double u) {
-  const auto q = chain.coordinates(k);
-  const double l = q.x_b - q.x_a;
-  const auto curve = RationalCubic<double, D>::from_nodal(q.e, l, chain.mesh.weights[static_cast<std::size_t>(k)].w);
-  return curve.evaluate(u)[2] / (l * l);
 }
 
 /// The axis, exactly, with one joint at most. The two elements at it are one curve cut in two, so that it is smooth
@@ -271,11 +263,15 @@ template <int D>
 void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& chain) {
   if (!scene.initial_velocity) return;
   const int last = chain.mesh.last();
+  const auto turning = [&scene](const Vec<double, D>& s) -> Vec<double, D> {
+    return initial_velocity<D>(scene, s) - initial_velocity<D>(scene, Vec<double, D>::Zero());
+  };
   for (int k = 0; k <= last; ++k) {
-    const Vec<double, D> s = slope<D>(chain.q.data(), k);
     position<D>(chain.rate.data(), k) += initial_velocity<D>(scene, position<D>(chain.q.data(), k));
-    slope<D>(chain.rate.data(), k) +=
-        initial_velocity<D>(scene, s) - initial_velocity<D>(scene, Vec<double, D>::Zero());
+    slope<D>(chain.rate.data(), k) += turning(slope<D>(chain.q.data(), k));
+  }
+  for (auto& joint : chain.joints) {
+    if (joint.kink) joint.kink->rate += turning(joint.kink->slope);
   }
   for (const int k : {0, last}) {
     const Support<D> support =
@@ -382,7 +378,7 @@ BeamModel<D> build_model(const Scene& scene) {
 }
 
 template <int D>
-ChainState<D> build_chain(const Scene& scene) {
+ChainState<D> build_shape(const Scene& scene) {
   const Axis<D> axis = build_axis<D>(scene);
   const InitialNodes nodes = place_nodes(scene, axis.breaks());
   const auto& x = nodes.x;
@@ -404,38 +400,59 @@ ChainState<D> build_chain(const Scene& scene) {
     if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
   }
   if (has_rest_shape(scene)) chain.rest = chain.q;
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const int j = nodes.joints[i];
+    auto& joint = chain.joints.emplace_back();
+    joint = {.node = j, .index = static_cast<int>(i)};
+    if (joint_slopes(scene, joints[i]) == JointSlopes::continuous) continue;
+    joint.kink = {slope<D>(chain.q.data(), j), Vec<double, D>::Zero()};
+  }
+  return chain;
+}
+
+template <int D>
+void set_in_motion(const Scene& scene, ChainState<D>& chain) {
+  const Axis<D> axis = build_axis<D>(scene);
+  const bool built = !starts_in_equilibrium(scene), straight = built && axis.straight();
   add_rigid_motion(scene, axis, chain);
   // the beam is at rest or moves as a rigid body, so each moving node travels along it
   const auto joints = sliding_joints(scene);
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const int j = nodes.joints[i];
-    auto r_x = slope<D>(chain.q.data(), j);
+    auto& joint = chain.joints[i];
+    const int j = joint.node;
+    const double x = chain.mesh.x[static_cast<std::size_t>(j)];
+    const auto r_x = slope<D>(chain.q.data(), j);
     const bool held = joints[i].support != SupportType::free;
     // what is held stands still, and what goes through it is the beam
     const double own = joints[i].x ? time_function(*joints[i].x)(0).rate : joints[i].velocity;
     const double rate = held ? -position<D>(chain.rate.data(), j).dot(r_x) / r_x.squaredNorm() : own;
-    auto& joint = chain.joints.emplace_back();
-    joint = {.node = j, .rate = rate, .index = static_cast<int>(i)};
+    joint.rate = rate;
     position<D>(chain.rate.data(), j) += rate * r_x;
     Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
-    if (has_rest_shape(scene)) {
-      before = behind = rate * axis.derivatives(x[static_cast<std::size_t>(j)])[2];
-    } else if (!axis.straight()) {
-      before = rate * second_derivative(chain, j - 1, 1);
-      behind = rate * second_derivative(chain, j, 0);
+    if (built && has_rest_shape(scene)) {
+      before = behind = rate * axis.derivatives(x)[2];
+    } else if (!straight) {
+      before = rate * motion_at(chain, j - 1, x, weight_transport(scene)).r_xx;
+      behind = rate * motion_at(chain, j, x, weight_transport(scene)).r_xx;
     }
     const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
     before += turning;
-    behind += turning;
-    const bool kinked = joint_slopes(scene, joints[i]) != JointSlopes::continuous;
-    if (kinked) joint.kink = {r_x, behind};
-    slope<D>(chain.rate.data(), j) = kinked ? before : Vec<double, D>((before + behind) / 2);
+    behind += joint.kink ? joint.kink->rate : turning;
+    if (joint.kink) joint.kink->rate = behind;
+    slope<D>(chain.rate.data(), j) = joint.kink ? before : Vec<double, D>((before + behind) / 2);
     if (held) position<D>(chain.rate.data(), j).setZero();
     if (joints[i].support != SupportType::clamp) continue;
-    const auto sleeve = Support<D>::direction_clamp(axis.tangent(x[static_cast<std::size_t>(j)]));
+    const auto sleeve = Support<D>::direction_clamp(axis.tangent(joints[i].position));
     slope<D>(chain.rate.data(), j) =
         sleeve.out_of_frame((sleeve.into_frame(slope<D>(chain.rate.data(), j)).array() * sleeve.free_slope).matrix());
   }
+}
+
+template <int D>
+ChainState<D> build_chain(const Scene& scene) {
+  ChainState<D> chain = build_shape<D>(scene);
+  set_in_motion(scene, chain);
   return chain;
 }
 
@@ -447,6 +464,10 @@ template Axis<2> build_axis(const Scene&);
 template Axis<3> build_axis(const Scene&);
 template BeamModel<2> build_model(const Scene&);
 template BeamModel<3> build_model(const Scene&);
+template ChainState<2> build_shape(const Scene&);
+template ChainState<3> build_shape(const Scene&);
+template void set_in_motion(const Scene&, ChainState<2>&);
+template void set_in_motion(const Scene&, ChainState<3>&);
 template ChainState<2> build_chain(const Scene&);
 template ChainState<3> build_chain(const Scene&);
 

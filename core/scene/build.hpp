@@ -29,9 +29,17 @@ Vec<double, D> initial_velocity(const Scene& scene, const Vec<double, D>& r);
 template <int D>
 Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent);
 
-/// The model and the initial state of a scene that has been validated; `D` is its dimension.
+/// The model of a scene that has been validated; `D` is its dimension.
 template <int D>
 BeamModel<D> build_model(const Scene& scene);
+
+/// The beam as it is built, at rest.
+template <int D>
+ChainState<D> build_shape(const Scene& scene);
+/// Gives the scene's initial velocities to a beam at rest.
+template <int D>
+void set_in_motion(const Scene& scene, ChainState<D>& chain);
+/// Both: the initial state of a scene that starts as it is built.
 template <int D>
 ChainState<D> build_chain(const Scene& scene);
 

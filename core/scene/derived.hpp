@@ -64,6 +64,17 @@ inline JointSlopes joint_slopes(const Scene& scene, const SlidingJointSpec& join
   return sleeve ? JointSlopes::tangent : joint.slopes;
 }
 
+/// Whether a motion starts from an equilibrium.
+inline bool starts_in_equilibrium(const Scene& scene) {
+  return scene.analysis == Analysis::dynamics && scene.initial_shape == InitialShape::equilibrium;
+}
+
+/// What becomes of joints while an equilibrium is sought: released in statics, held where a motion starts from it.
+inline StaticJoints static_joints(const Scene& scene) {
+  return scene.statics.joints.value_or(scene.analysis == Analysis::statics ? StaticJoints::released
+                                                                           : StaticJoints::held);
+}
+
 /// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
 /// the beam is curved at rest.
 WeightTransport weight_transport(const Scene& scene);

@@ -58,6 +58,10 @@ constexpr auto names(LoadType) {
 constexpr auto names(Analysis) {
   return std::to_array<Named<Analysis>>({{Analysis::dynamics, "dynamics"}, {Analysis::statics, "statics"}});
 }
+constexpr auto names(InitialShape) {
+  return std::to_array<Named<InitialShape>>(
+      {{InitialShape::built, "built"}, {InitialShape::equilibrium, "equilibrium"}});
+}
 constexpr auto names(LoadControl) {
   return std::to_array<Named<LoadControl>>({{LoadControl::load, "load"}, {LoadControl::arc_length, "arc-length"}});
 }

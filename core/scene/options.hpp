@@ -58,7 +58,8 @@ struct Range {
 struct Condition {
   std::string_view pointer = {};              ///< the other option; empty: no condition
   std::vector<std::string_view> values = {};  ///< the names it may have
-  bool holds = true;                          ///< whether it has one, in the scene being visited
+  bool holds = true;                          ///< whether it has one, in the scene being visited, or `or_else` holds
+  std::vector<Condition> or_else = {};        ///< others, one of which is enough
 
   /// "a", or "a" or "b".
   std::string text() const {
@@ -71,6 +72,12 @@ struct Condition {
 template <NamedEnum E, std::same_as<E>... Es>
 Condition only_if(std::string_view pointer, E is, Es... one_of) {
   return {.pointer = pointer, .values = {to_string(one_of)...}, .holds = ((is == one_of) || ...)};
+}
+
+inline Condition either(Condition one, const Condition& other) {
+  one.holds = one.holds || other.holds;
+  one.or_else.push_back(other);
+  return one;
 }
 
 /// One line of the table. `pointer` is a JSON pointer; a segment `at=start` stands for that entry of a list whose key
@@ -156,6 +163,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
           scene.analysis);
   const bool in_time = scene.analysis == Analysis::dynamics;
   const Condition dynamics = only_if(analysis, scene.analysis, Analysis::dynamics);
+  constexpr std::string_view initial_shape = "/initial_shape";
+  visitor(Option{.pointer = initial_shape,
+                 .unit = "",
+                 .description = "what a motion starts from: the beam as built, or its equilibrium under what acts at "
+                                "t = 0, found as /statics says; velocities come on top of it",
+                 .when = dynamics},
+          scene.initial_shape);
   visitor(Option{.pointer = "/setting",
                  .unit = "",
                  .description = "what keys left out stand for: by default what measurements speak for, or what the "
@@ -784,14 +798,16 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
       scene.constraints);
 
   const Condition statics = only_if(analysis, scene.analysis, Analysis::statics);
+  const Condition equilibrium = either(statics, only_if(initial_shape, scene.initial_shape, InitialShape::equilibrium));
   section("/statics", "how equilibria are found");
   visitor(
       Option{.pointer = "/statics/steps",
              .unit = "-",
              .description = "equal steps in which loads, gravity and displacements of supports grow to what they are "
-                            "after all ramps; with arc-length the first step has that size",
+                            "after all ramps, or, where a motion starts from the equilibrium, at t = 0; with "
+                            "arc-length the first step has that size",
              .range = Range::closed(1, 1e5),
-             .when = statics},
+             .when = equilibrium},
       scene.statics.steps);
   visitor(
       Option{.pointer = "/statics/control",
@@ -799,7 +815,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
              .description = "whether the load factor grows evenly, or steps go along the path of equilibria, on which "
                             "it may also fall, until it is 1",
              .source = "Riks 1979 is arc-length",
-             .when = statics},
+             .when = equilibrium},
       scene.statics.control);
   visitor(
       Option{.pointer = "/statics/tolerance",
@@ -807,7 +823,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
              .description = "where Newton's iteration ends: its last correction, of positions over the beam's length "
                             "and of slopes; rounding ends it, too",
              .range = {.low = 1e-15, .high = 1e-4},
-             .when = statics},
+             .when = equilibrium},
       scene.statics.tolerance);
   visitor(Option{.pointer = "/statics/frequencies",
                  .unit = "-",
@@ -819,8 +835,9 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                  .unit = "",
                  .description = "what becomes of a ring, a sleeve or a sliding mass, which keeps its place on the beam "
                                 "while the load grows: it is released and slides to where it is in equilibrium, or "
-                                "held, in the natural frequencies, too",
-                 .when = statics},
+                                "held, in the natural frequencies, too; if not given released in statics, and held "
+                                "until t = 0 where a motion starts from the equilibrium",
+                 .when = equilibrium},
           scene.statics.joints);
 
   const std::string_view integrator_type = "/integrator/type";

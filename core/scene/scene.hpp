@@ -281,6 +281,12 @@ enum class Analysis {
   statics,  ///< equilibria under loads that grow
 };
 
+/// The shape that a motion starts from.
+enum class InitialShape {
+  built,
+  equilibrium,  ///< under what acts at t = 0
+};
+
 /// What makes the loads of an equilibrium grow.
 enum class LoadControl {
   load,
@@ -298,7 +304,7 @@ struct StaticsSpec {
   LoadControl control = LoadControl::load;
   double tolerance = 1e-12;  ///< largest last correction: of positions over the beam's length, and of slopes
   int frequencies = 0;       ///< how many, about the last equilibrium
-  StaticJoints joints = StaticJoints::released;
+  std::optional<StaticJoints> joints = {};  ///< see static_joints()
 };
 
 /// One beam, its supports and loads, and what slides on it; or a shaft that spins or flows through its
@@ -321,6 +327,7 @@ struct Scene {
   std::optional<InitialVelocitySpec> initial_velocity;
   std::optional<DragSpec> drag = {};
   Analysis analysis = Analysis::dynamics;
+  InitialShape initial_shape = InitialShape::built;
   StaticsSpec statics;
   Formulation formulation = Formulation::variational;
   std::optional<WeightTransport> weights = {};  ///< see weight_transport()

@@ -9,6 +9,7 @@
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/energy_ledger.hpp"
+#include "core/scene/initial_equilibrium.hpp"
 #include "core/scene/run_support.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
@@ -69,12 +70,15 @@ class Run {
     if constexpr (!prescribed) system_.on_event = [this](const EventRecord<D>& record) { event(record); };
   }
 
+  /// Remembers what the first sample says of the equilibrium that the run starts from.
+  void starts_from(const StaticSample& equilibrium) { start_ = equilibrium; }
+
   RunResult operator()() {
     std::vector<double> x;
     if constexpr (prescribed) {
       for (const Prescribed& node : system_.nodes_at(0)) x.push_back(node.value);
     } else {
-      x = build_chain<D>(scene_).mesh.x;
+      x = system_.mesh().x;
     }
     double shortest = x.back() - x.front();
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
@@ -138,7 +142,10 @@ class Run {
       if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
       for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
       if constexpr (!prescribed) look_at_mass(y, chain, forces, sample);
-      if (result_.samples.empty()) first_total_ = sample.discrete_total;
+      if (result_.samples.empty()) {
+        first_total_ = sample.discrete_total;
+        sample.equilibrium = start_;
+      }
       result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
       const double supplied = sample.energy.supplied + seen.load_work + seen.end_work + seen.mesh_work;
       const double gain = sample.discrete_total - supplied - first_total_ - jumps_;
@@ -241,13 +248,34 @@ class Run {
   Stops stops_;
   System system_;
   RunResult result_;
+  std::optional<StaticSample> start_;
   double first_total_ = 0, jumps_ = 0, most_energy_ = 0, observing_ = 0;
 };
+
+template <int D>
+RunResult simulate_from_equilibrium(const Scene& scene, const ProgressCallback& progress,
+                                    const Checkpoints* checkpoints) {
+  std::optional<InitialEquilibrium<D>> start;
+  RunResult none;
+  try {
+    start = initial_equilibrium<D>(scene, [&progress] { return !progress || progress(0); });
+    none.status = RunStatus::interrupted;
+  } catch (const ComputationFailed& failure) {
+    none.status = RunStatus::failed;
+    none.failure = std::string("there is no equilibrium to start from: ") + failure.what();
+  }
+  if (!start) return none;
+  set_in_motion(scene, start->chain);
+  Run<D, BeamSystem<D>> run(scene, progress, checkpoints, build_model<D>(scene), start->chain);
+  run.starts_from(start->seen);
+  return run();
+}
 
 template <int D>
 RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
   if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
   if (flows(scene)) return Run<D, FlowingBeam<D>>(scene, progress, checkpoints, build_flowing_model<D>(scene))();
+  if (starts_in_equilibrium(scene)) return simulate_from_equilibrium<D>(scene, progress, checkpoints);
   return Run<D, BeamSystem<D>>(scene, progress, checkpoints, build_model<D>(scene), build_chain<D>(scene))();
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
+#include "core/scene/initial_equilibrium.hpp"
 #include "core/scene/run_support.hpp"
 #include "core/system/equilibrium.hpp"
 
@@ -14,7 +15,7 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   const ChainState<D> chain = system.chain(at.y);
   Sample sample;
   sample.t = number;
-  sample.equilibrium = {at.factor, at.negative_pivots, at.holding_force};
+  sample.equilibrium = static_sample_of(at);
   sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
   sample.beam_length = seen.beam_length;
   sample.energy = seen.energy;
@@ -61,10 +62,7 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
     return goes_on;
   };
   try {
-    trace_equilibria<D>(system,
-                        {statics.steps, statics.control == LoadControl::arc_length, statics.tolerance,
-                         statics.joints == StaticJoints::released},
-                        on_point, result.solver);
+    trace_equilibria<D>(system, equilibrium_options(scene), on_point, result.solver);
     if (last && statics.frequencies > 0) result.frequencies = natural_frequencies(system, *last, statics.frequencies);
   } catch (const ComputationFailed& failure) {
     result.status = RunStatus::failed;

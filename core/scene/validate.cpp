@@ -676,12 +676,14 @@ void check_initial_velocity(const Scene& scene) {
   };
   check("/supports/at=start", scene.start, 0);
   check("/supports/at=end", scene.end, axis.length());
-  // the beam may run through a ring, along its tangent
-  SupportSpec ring;
-  ring.type = SupportType::slide;
+  // the beam may run through a ring, along its tangent: in an equilibrium only a sleeve says which that is
   const auto joints = sliding_joints(scene);
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (joints[i].support != SupportType::free) check(joint_key(scene, i), ring, joints[i].position);
+    if (joints[i].support == SupportType::free) continue;
+    SupportSpec through;
+    const bool turned = starts_in_equilibrium(scene) && joints[i].support == SupportType::pin;
+    through.type = turned ? SupportType::pin : SupportType::slide;
+    check(joint_key(scene, i), through, joints[i].position);
   }
 }
 
@@ -694,24 +696,74 @@ void check_drag(const Scene& scene) {
   }
 }
 
+/// What has an equilibrium that can be found.
+void check_equilibrium(const Scene& scene) {
+  const bool starts = starts_in_equilibrium(scene);
+  if (scene.analysis != Analysis::statics && !starts) return;
+  const std::string who = starts ? "\"initial_shape\": \"equilibrium\"" : "statics";
+  const auto none = [&](bool there, const std::string& key, const std::string& why) {
+    if (there) refuse(key, "this key", who + " knows none: " + why);
+  };
+  if (scene.sliding_joints.size() > 1) {
+    refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", who + " knows one, so far");
+  }
+  if (sliding_joint(scene) && scene.formulation != Formulation::variational) {
+    refuse("/formulation", quoted(to_string(scene.formulation)),
+           "in " + std::string(starts ? "the equilibrium to start from" : "statics") +
+               " with a joint that slides it must be \"variational\": the virtual work has no potential");
+  }
+  none(scene.spin.has_value(), "/spin", "leave it out");
+  none(scene.flow.has_value(), "/flow",
+       starts ? "leave one of the two out" : "leave it out, or start a motion from its \"steady\" flow");
+  if (scene.beam.rotary_inertia != BendingInertia::none) {
+    refuse("/beam/rotary_inertia", quoted(to_string(scene.beam.rotary_inertia)),
+           "with " + who + " it must be \"none\"");
+  }
+  const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
+  const bool in_sleeve = joint_support(scene) == SupportType::clamp;
+  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_sleeve) {
+    refuse("/supports", "nothing that holds the beam", "under loads or gravity it has no equilibrium: hold an end");
+  }
+  if (scene.statics.control == LoadControl::arc_length) {
+    if (!loaded) refuse("/statics/control", "\"arc-length\"", "it needs gravity or /loads to scale: take \"load\"");
+    if (!starts && (scene.start.motion || scene.end.motion)) {
+      refuse("/statics/control", "\"arc-length\"", "supports are moved with \"load\"");
+    }
+  }
+}
+
+/// What a motion that starts from an equilibrium does not go together with.
+void check_start(const Scene& scene) {
+  if (!starts_in_equilibrium(scene)) return;
+  if (scene.gravity_ramp > 0) {
+    refuse("/gravity_ramp", number_text(scene.gravity_ramp),
+           "with \"initial_shape\": \"equilibrium\", which is under all of gravity, it must be 0");
+  }
+  const SlidingMassSpec* joint = sliding_joint(scene);
+  if (joint == nullptr) return;
+  if (guided(scene) && static_joints(scene) == StaticJoints::released) {
+    refuse("/statics/joints", "\"released\"",
+           joint_key(scene) + "/x says where the joint is: it must be \"held\", or left out");
+  }
+  const double rate = guided(scene) ? time_function(*scene.sliding_joints.front().x)(0).rate : joint->velocity;
+  if (rate != 0 && joint->slopes != JointSlopes::continuous) {
+    refuse(joint_key(scene) + "/slopes", quoted(to_string(joint->slopes)),
+           "what starts from an equilibrium with a velocity along the beam, here " + number_text(rate) +
+               " m/s, needs \"continuous\" ones: the beam is not at rest where a kink moves along it");
+  }
+}
+
 void check_statics(const Scene& scene) {
   if (scene.analysis != Analysis::statics) return;
   const auto none = [&](bool there, const std::string& key, const char* why) {
     if (there) refuse(key, "this key", std::string("statics knows none: ") + why);
   };
-  if (scene.sliding_joints.size() > 1) {
-    refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", "statics knows one, so far");
-  }
   if (const SlidingMassSpec* joint = sliding_joint(scene)) {
     const std::string key = joint_key(scene);
     none(joint->friction.has_value(), key + "/friction", "in equilibrium nothing slides; leave it out");
     if (joint->velocity != 0) refuse(key + "/velocity", number_text(joint->velocity), "in statics it must be 0");
     if (joint->at_support != AtSupport::stop) {
       refuse(key + "/at_support", quoted(to_string(joint->at_support)), "in statics it must be \"stop\"");
-    }
-    if (scene.formulation != Formulation::variational) {
-      refuse("/formulation", quoted(to_string(scene.formulation)),
-             "in statics with a joint that slides it must be \"variational\": the virtual work has no potential");
     }
     if (scene.length_control.end_merge.value_or(0) > 0) {
       refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge), "in statics it must be 0");
@@ -720,12 +772,7 @@ void check_statics(const Scene& scene) {
       refuse("/length_control/lower", number_text(*scene.length_control.lower), "in statics it must be 0");
     }
   }
-  none(scene.spin.has_value(), "/spin", "leave it out");
-  none(scene.flow.has_value(), "/flow", "leave it out, or start a motion from its \"steady\" flow");
   none(scene.initial_velocity.has_value(), "/initial_velocity", "leave it out");
-  if (scene.beam.rotary_inertia != BendingInertia::none) {
-    refuse("/beam/rotary_inertia", quoted(to_string(scene.beam.rotary_inertia)), "in statics it must be \"none\"");
-  }
   if (scene.constraints != Constraints::eliminated) {
     refuse("/constraints", quoted(to_string(scene.constraints)), "in statics it must be \"eliminated\"");
   }
@@ -746,17 +793,6 @@ void check_statics(const Scene& scene) {
   }
   if (scene.start.motion) constant("/supports/at=start/motion", scene.start.motion->displacement);
   if (scene.end.motion) constant("/supports/at=end/motion", scene.end.motion->displacement);
-  const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
-  const bool in_sleeve = joint_support(scene) == SupportType::clamp;
-  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_sleeve) {
-    refuse("/supports", "nothing that holds the beam", "under loads or gravity it has no equilibrium: hold an end");
-  }
-  if (scene.statics.control == LoadControl::arc_length) {
-    if (!loaded) refuse("/statics/control", "\"arc-length\"", "it needs gravity or /loads to scale: take \"load\"");
-    if (scene.start.motion || scene.end.motion) {
-      refuse("/statics/control", "\"arc-length\"", "supports are moved with \"load\"");
-    }
-  }
   constexpr int most = 500;  // the matrices are dense
   if (scene.statics.frequencies > 0 && scene.beam.elements > most) {
     refuse("/statics/frequencies", std::to_string(scene.statics.frequencies),
@@ -810,6 +846,8 @@ void validate(const Scene& scene) {
   check_loads(scene);
   check_point_masses(scene);
   scene.dimension == 2 ? check_initial_velocity<2>(scene) : check_initial_velocity<3>(scene);
+  check_equilibrium(scene);
+  check_start(scene);
   check_statics(scene);
   check_drag(scene);
   if (flows(scene) || scene.spin) validate_flow(scene);

@@ -106,13 +106,10 @@ template <int D>
 class Path {
  public:
   Path(BeamSystem<D>& system, const EquilibriumOptions& options, SolverCounters& counters)
-      : system_(system),
-        equations_(system),
-        options_(options),
-        counters_(counters),
-        zero_(Eigen::VectorXd::Zero(equations_.size())),
-        r_(zero_),
-        length_(system.mesh().length()) {}
+      : system_(system), equations_(system), options_(options), counters_(counters), length_(system.mesh().length()) {
+    equations_.keep_conditions(options.conditions_at_held);
+    r_ = zero_ = Eigen::VectorXd::Zero(equations_.size());
+  }
 
   void follow(const std::function<bool(const Equilibrium&)>& on_point) {
     Eigen::VectorXd q = zero_;

@@ -17,6 +17,8 @@ struct EquilibriumOptions {
   bool arc_length = false;  /// steps along the path instead, the first of that size
   double tolerance = 1e-12;
   bool release = true;  ///< what slides is free in the last equilibrium
+  /// Of one that stays held: the slopes at its kink meet their conditions as they will once it is free.
+  bool conditions_at_held = false;
 };
 
 /// A point on the path of equilibria.

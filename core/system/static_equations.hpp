@@ -20,6 +20,9 @@ class StaticEquations {
   /// Whether the joint's material coordinate stays what it is.
   bool holds_joint() const { return system_.has_joint() && held_; }
   void hold_joint(bool held) { held_ = held; }
+  /// Where a joint is held on the beam the tension may jump, and with it the stretch: the condition that it does not is
+  /// then suspended, unless it is to be kept.
+  void keep_conditions(bool keep) { keep_conditions_ = keep; }
 
   Eigen::Index size() const { return system_.coordinates() + conditions(); }
   /// Where the joint's material coordinate stands among the unknowns.
@@ -52,8 +55,10 @@ class StaticEquations {
 
   /// Conditions that are not met by what holds the joint's slopes.
   Conditions slope_conditions() const;
-  /// Where a joint is held on the beam the tension may jump, and with it the stretch: multipliers are 0 then.
-  bool suspended() const { return held_ && system_.kinked() && law().slopes == JointSlopes::equal_stretch; }
+  /// Multipliers are 0 then.
+  bool suspended() const {
+    return held_ && !keep_conditions_ && system_.kinked() && law().slopes == JointSlopes::equal_stretch;
+  }
   ChainView<D> view(const Eigen::VectorXd& u) const { return system_.view(u.data(), zero_.data()); }
   /// Projections on what a support leaves free.
   static Keep keep(const Support<D>& support, const typename Support<D>::Components& free) {
@@ -72,7 +77,7 @@ class StaticEquations {
   void prepare() const { zero_.setZero(system_.coordinates()); }
 
   BeamSystem<D>& system_;
-  bool held_ = true;
+  bool held_ = true, keep_conditions_ = false;
   int omitted_axis_ = 0;  ///< of tangent slopes in space
   BorderedBlockTridiagonal<B> tangent_;
   mutable Eigen::VectorXd zero_;  ///< nothing moves

@@ -374,6 +374,10 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
   list("events", result.events, event);
   value("energy_ledger", ledger_json(energy_ledger(result)));
   if (!result.frequencies.empty()) value("frequencies", result.frequencies);
+  if (starts_in_equilibrium(scene) && !result.samples.empty()) {
+    const StaticSample& start = *result.samples.front().equilibrium;
+    value("initial_equilibrium", {{"negative_pivots", start.negative_pivots}, {"holding_force", start.holding_force}});
+  }
   value("solver", solver(result));
   for (const auto& item : more.items()) value(item.key().c_str(), item.value());
   out << "\n}\n";
@@ -413,10 +417,16 @@ void write_samples_csv(const Scene& scene, const RunResult& result, const TextSi
   out.flush();
 }
 
-std::string equilibrium_text(const Sample& sample) {
-  const int falls = sample.equilibrium->negative_pivots;
-  return "load factor " + short_number(sample.equilibrium->load_factor, 8) +
-         (falls == 0 ? ", stable" : ", not stable: the energy falls in " + std::to_string(falls) + " directions");
+std::string stability_text(const StaticSample& at) {
+  const int falls = at.negative_pivots;
+  return falls == 0 ? ", stable" : ", not stable: the energy falls in " + std::to_string(falls) + " directions";
+}
+
+/// What a motion starts from.
+std::string start_text(const StaticSample& at, bool with_joint) {
+  const std::string held =
+      at.holding_force == 0 ? "" : ", held until then by " + short_number(at.holding_force, 8) + " N";
+  return "equilibrium" + stability_text(at) + (with_joint ? "; joint free" + held : "");
 }
 
 std::string static_summary(const Scene& scene, const RunResult& result) {
@@ -434,7 +444,8 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
                          std::to_string(result.solver.newton.iterations) + " iterations");
   if (!result.samples.empty()) {
     const Sample& last = result.samples.back();
-    line("last", equilibrium_text(last));
+    const StaticSample& at = *last.equilibrium;
+    line("last", "load factor " + short_number(at.load_factor, 8) + stability_text(at));
     line("end of beam", point_text(last.end, scene.dimension));
     if (last.joint_position) {
       const double holding = last.equilibrium->holding_force;
@@ -460,7 +471,8 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   line("beam", beam_text(scene));
   line("integrator", integrator_text(scene.integrator));
   if (!result.samples.empty()) {
-    const Sample& last = result.samples.back();
+    const Sample &first = result.samples.front(), &last = result.samples.back();
+    if (first.equilibrium) line("start", start_text(*first.equilibrium, sliding_joint(scene) != nullptr));
     line("time reached", short_number(last.t, 8) + " s of " + short_number(scene.duration, 8) + " s");
     line("end of beam", point_text(last.end, scene.dimension));
     if (last.joint_position) line("joint position", short_number(*last.joint_position, 8) + " m");

@@ -177,8 +177,7 @@ class Reader {
         throw InvalidInput(field, InvalidInput::missing, "it must be " + allowed_text<T>(option));
       }
     } else if (!option.when.holds) {
-      throw InvalidInput(field, "this key",
-                         "it is used only where " + file_.in_file(option.when.pointer) + " is " + option.when.text());
+      throw InvalidInput(field, "this key", "it is used only where " + text(option.when));
     } else if (!read(*value, option, member)) {
       throw InvalidInput(field, excerpt(*value), "it must be " + allowed_text<T>(option));
     }
@@ -216,6 +215,12 @@ class Reader {
   }
 
  private:
+  std::string text(const Condition& when) const {
+    std::string text = file_.in_file(when.pointer) + " is " + when.text();
+    for (const Condition& other : when.or_else) text += ", or " + this->text(other);
+    return text;
+  }
+
   template <class T>
   static bool read(const Json& value, const Option& option, T& member) {
     if constexpr (NamedEnum<T>) {
@@ -410,6 +415,7 @@ Json scene_to_json(const Scene& scene) {
   filled.length_control.merge = merge_policy(scene);
   filled.weights = weight_transport(scene);
   filled.beam.axis = axis_form(scene);
+  filled.statics.joints = static_joints(scene);
   if (filled.spin) filled.spin->rate = initial_spin(scene);
   if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;

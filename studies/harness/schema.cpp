@@ -236,23 +236,32 @@ class SceneSchemaBuilder {
 
   /// Where the condition of an option does not hold the option must not stand; where it holds, a required one must.
   void conditional(const Option& option, const std::vector<std::string>& path) {
-    auto condition = segments(option.when.pointer);
+    const std::size_t depth = list_depth(path);
     auto target = path;
     Json* scope = &root_;
-    if (const auto depth = list_depth(path)) {  // conditions of a list's entries stay within the entry
+    if (depth > 0) {  // conditions of a list's entries stay within the entry
       scope = &object(path, depth);
-      condition.erase(condition.begin(), condition.begin() + static_cast<std::ptrdiff_t>(depth));
       target.erase(target.begin(), target.begin() + static_cast<std::ptrdiff_t>(depth));
     }
-    const auto standard = defaults_.find(std::string(option.when.pointer));
-    const auto& values = option.when.values;
-    const bool by_default = standard != defaults_.end() && std::ranges::find(values, standard->second) != values.end();
-    const Json is = values.size() == 1 ? Json{{"const", values.front()}} : Json{{"enum", values}};
-    Json rule = {{"if", where(condition, 0, is, !by_default)}};
+    Json condition = holds(option.when, depth);
+    if (!option.when.or_else.empty()) {
+      condition = {{"anyOf", Json::array({condition})}};
+      for (const Condition& other : option.when.or_else) condition["anyOf"].push_back(holds(other, depth));
+    }
+    Json rule = {{"if", condition}};
     if (option.required) rule["then"] = where(target, 0, true, true);
     rule["else"] = where(target, 0, false, false);
     Json& rules = (*scope)["allOf"];
     if (std::find(rules.begin(), rules.end(), rule) == rules.end()) rules.push_back(rule);
+  }
+
+  /// The schema of where a condition holds by itself, from the given depth on.
+  Json holds(const Condition& when, std::size_t depth) const {
+    const auto standard = defaults_.find(std::string(when.pointer));
+    const auto& values = when.values;
+    const bool by_default = standard != defaults_.end() && std::ranges::find(values, standard->second) != values.end();
+    const Json is = values.size() == 1 ? Json{{"const", values.front()}} : Json{{"enum", values}};
+    return where(segments(when.pointer), depth, is, !by_default);
   }
 
   /// Segments up to and including the entry of a list, 0 outside lists.
@@ -505,10 +514,15 @@ Json run_schema() {
                                      "the lowest natural ones about the last equilibrium, where asked for; of a "
                                      "direction in which it is not stable minus the rate of growth over 2 pi",
                                      "Hz")},
+           {"initial_equilibrium",
+            described(
+                record({{"negative_pivots", described(whole, "directions in which the potential energy falls")},
+                        {"holding_force", described(number, "on the joint's material coordinate until t = 0", "N")}}),
+                "of a motion that starts from one: stable where the first is 0")},
            {"solver", described(solver, "what the integrator did")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
-          {"failure", "frequencies"}));
+          {"failure", "frequencies", "initial_equilibrium"}));
 }
 
 Json study_schema() {
