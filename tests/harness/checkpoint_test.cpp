@@ -84,6 +84,11 @@ std::vector<Case> cases() {
                    alpha(scene);
                    scene["sliding_mass"].update({{"position", 0.8}, {"velocity", 1.5}});
                  }});
+  all.push_back({"from an equilibrium", [alpha](Json& scene) {
+                   alpha(scene);
+                   scene["initial_shape"] = "equilibrium";
+                   scene["sliding_mass"]["velocity"] = 0.7;
+                 }});
   all.push_back({"two masses", [alpha](Json& scene) {
                    alpha(scene);
                    scene.erase("sliding_mass");

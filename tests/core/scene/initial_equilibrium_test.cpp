@@ -5,8 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/roots.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -92,7 +93,7 @@ TEST(InitialEquilibrium, HasReactionsThatBearTheWeight) {
 TEST(InitialEquilibrium, SwingsAtTheFrequenciesOfTheOtherOne) {
   Scene scene = bent(2, ElementKind::ale_ancf);
   scene.beam.material.youngs_modulus = 2e9;
-  const double size = 1e-2;
+  const double size = 1e-3;
   scene.loads = {{.node = 10, .x = {}, .magnitude = {.value = size}, .turn = {}}};
   Scene other = scene;
   other.initial_shape = InitialShape::built;
@@ -121,7 +122,9 @@ TEST(InitialEquilibrium, SwingsAtTheFrequenciesOfTheOtherOne) {
       }
     }
     const Eigen::VectorXd sizes = cosines.colPivHouseholderQr().solve(seen);
-    EXPECT_LE(std::abs(sizes[modes]), 1e-3 * std::abs(sizes[0])) << "about the other equilibrium";
+    if (share == 1) {
+      EXPECT_LE(std::abs(sizes[modes]), 1e-3 * std::abs(sizes[0])) << "about the other equilibrium";
+    }
     return (cosines * sizes - seen).norm() / seen.norm();
   };
   const double exact = misfit(1);
@@ -148,19 +151,56 @@ Scene sleeve_scene(double degrees, double length, double outside, int elements) 
   return scene;
 }
 
-/// Of a mass at the end of a light rod without stretch, in N, m, kg, all 1, and EI = 1 N m^2: the squares of the
-/// frequencies [1/s^2], the least first. The sleeve lets the rod through where its configurational force M^2/2 EI is
-/// the pull along it, and the integral of the elastica puts the load across the rod's end: under a load F that the
-/// sleeve meets at the angle b from the perpendicular, the end is at sqrt(EI/F) (a e_1 + c e_2),
-///   a = integral of cos(t)/sqrt(2 sin(t)) = sqrt(2 sin(b)),   c = integral of sqrt(sin(t)/2),   t from 0 to b,
-/// e_2 against the load. Its derivatives by the load, which turns b and e with it, are the compliance.
+/// A light rod without stretch that slides in a sleeve, and a load at its end, which is seen from the sleeve; EI = 1
+/// N m^2. The sleeve lets the rod through where its configurational force M^2/2 EI is the pull
+/// along it, and the integral of the elastica puts the load across the rod's end. Under a load F at the angle d from
+/// straight down, which the sleeve meets at b = beta - d from the perpendicular e_1, the end is at
+/// sqrt(EI/F) (a e_1 + c e_2), e_2 against the load, with integrals over t from 0 to b
+///   a = of cos(t)/sqrt(2 sin(t)) = sqrt(2 sin(b)),   c = of sqrt(sin(t)/2),   length outside: of 1/sqrt(2 sin(t)).
+struct LightRod {
+  double beta, force, angle;
+
+  double b() const { return beta - angle; }
+  /// With t = b s^2, which takes the root at 0 away.
+  template <class F>
+  double integral(const F& f) const {
+    return boost::math::quadrature::gauss<double, 20>::integrate(
+        [&](double s) { return 2 * b() * s * f(std::sin(b() * s * s)); }, 0.0, 1.0);
+  }
+  double outside() const {
+    return integral([](double sine) { return 1 / std::sqrt(2 * sine); }) / std::sqrt(force);
+  }
+  Eigen::Vector2d along() const { return {std::cos(angle), std::sin(angle)}; }
+  Eigen::Vector2d against() const { return {-std::sin(angle), std::cos(angle)}; }
+  double a() const { return std::sqrt(2 * std::sin(b())); }
+  double c() const {
+    return integral([](double sine) { return std::sqrt(sine / 2); });
+  }
+  Eigen::Vector2d end() const { return (a() * along() + c() * against()) / std::sqrt(force); }
+  /// Columns: by the force, and by its angle, which turns e_1 and e_2 and leaves less of b.
+  Eigen::Matrix2d derivatives() const {
+    Eigen::Matrix2d columns;
+    const double a_b = std::cos(b()) / a(), c_b = std::sqrt(std::sin(b()) / 2);
+    columns << -end() / (2 * force), ((a() - c_b) * against() - (a_b + c()) * along()) / std::sqrt(force);
+    return columns;
+  }
+  /// Loads it so that its end is there, from loads that are near.
+  void lead_to(const Eigen::Vector2d& place) {
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Vector2d change = derivatives().inverse() * (place - end());
+      force += change[0];
+      angle += change[1];
+    }
+  }
+};
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Of a mass of 1 kg under 1 N at its end: the squares of the frequencies [1/s^2], the least first.
 std::array<double, 2> squares_of_light_rod(double degrees) {
-  const double b = degrees * std::numbers::pi / 180;
-  const double a = std::sqrt(2 * std::sin(b)), a_b = std::cos(b) / a, c_b = std::sqrt(std::sin(b) / 2);
-  const double c = boost::math::quadrature::tanh_sinh<double>().integrate(
-      [](double t) { return std::sqrt(std::sin(t) / 2); }, 0.0, b);
+  const Eigen::Matrix2d by = LightRod{radians(degrees), 1, 0}.derivatives();
   Eigen::Matrix2d compliance;
-  compliance << -(a_b + c), a / 2, a - c_b, c / 2;
+  compliance << by.col(1), -by.col(0);  // the angle is the load to the right, the force that downwards
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> stiffness(compliance.inverse());
   return {stiffness.eigenvalues()[0], stiffness.eigenvalues()[1]};
 }
@@ -172,20 +212,16 @@ TEST(RodFromItsSleeve, HasTheRateOfGrowthOfALightRod) {
   for (const auto& [degrees, outside] : {std::pair{30.0, balanced_at_30}, std::pair{60.0, balanced_at_60}}) {
     const auto squares = squares_of_light_rod(degrees);
     ASSERT_LT(squares[0], 0);
-    std::vector<double> off;
-    for (const double rhoA : {1e-3, 1e-4}) {
-      Scene scene = sleeve_scene(degrees, 2 * outside, outside, 24);
-      scene.beam.section.rhoA = rhoA;
-      scene.beam.section.EA = 1e6;
-      scene.initial_shape = InitialShape::built;
-      scene.analysis = Analysis::statics;
-      scene.statics.frequencies = 2;
-      const std::vector<double> hertz = completed(scene).frequencies;
-      off.push_back(std::abs(hertz[0] * 2 * std::numbers::pi / -std::sqrt(-squares[0]) - 1));
-      EXPECT_NEAR(hertz[1] * 2 * std::numbers::pi, std::sqrt(squares[1]), 10 * rhoA);
-    }
-    EXPECT_LE(off[0], 5e-3);
-    EXPECT_LE(off[1], 0.11 * off[0]) << "of the mass of the rod";
+    Scene scene = sleeve_scene(degrees, 2 * outside, outside, 48);
+    scene.beam.section.rhoA = 1e-5;
+    scene.beam.section.EA = 1e4;
+    scene.initial_shape = InitialShape::built;
+    scene.analysis = Analysis::statics;
+    scene.statics.frequencies = 2;
+    const RunResult result = completed(scene);
+    const double growth = std::sqrt(-squares[0]), swing = std::sqrt(squares[1]);
+    EXPECT_NEAR(2 * std::numbers::pi * result.frequencies[0], -growth, 5e-5 * growth);
+    EXPECT_NEAR(2 * std::numbers::pi * result.frequencies[1], swing, 5e-5 * swing);
   }
 }
 
@@ -194,49 +230,80 @@ double outside_of(const Scene& scene, const Sample& sample) { return beam_length
 /// Free in its sleeve the rod starts where it is balanced, through length control, and stays there for a while.
 TEST(RodFromItsSleeve, StartsBalancedWhereTheSleeveIsReleased) {
   for (const auto& [degrees, outside] : {std::pair{30.0, balanced_at_30}, std::pair{60.0, balanced_at_60}}) {
-    std::vector<double> errors;
-    for (const int elements : {12, 24}) {
-      Scene scene = sleeve_scene(degrees, 2 * outside, 0.7 * outside, elements);
-      scene.beam.section.EA = 1e6;
-      scene.beam.section.rhoA = 1e-4;
-      scene.statics.joints = StaticJoints::released;
-      scene = by(IntegratorType::generalized_alpha, scene);
-      scene.duration = 0.5;
-      const RunResult run = completed(scene);
-      const Sample& first = run.samples.front();
-      errors.push_back(std::abs(outside_of(scene, first) / outside - 1));
-      EXPECT_EQ(first.equilibrium->negative_pivots, 1) << "it is not stable";
-      EXPECT_EQ(first.equilibrium->holding_force, 0);
-      EXPECT_LE(run.max_kinetic, rounding(scene));
-      EXPECT_NEAR(outside_of(scene, run.samples.back()), outside_of(scene, first), 1e-8);
-    }
-    EXPECT_LE(errors[1], 3e-4);
-    EXPECT_LE(errors[1], errors[0] / 4);
+    Scene scene = sleeve_scene(degrees, 2 * outside, 0.7 * outside, 24);
+    scene.beam.section.EA = 1e4;
+    scene.beam.section.rhoA = 1e-4;
+    scene.statics.joints = StaticJoints::released;
+    scene = by(IntegratorType::generalized_alpha, scene);
+    scene.duration = 0.5;
+    const RunResult run = completed(scene);
+    const Sample& first = run.samples.front();
+    EXPECT_NEAR(outside_of(scene, first), outside, 1e-4 * outside);
+    EXPECT_EQ(first.equilibrium->negative_pivots, 1) << "it is not stable";
+    EXPECT_EQ(first.equilibrium->holding_force, 0);
+    EXPECT_LE(run.max_kinetic, rounding(scene));
+    EXPECT_NEAR(outside_of(scene, run.samples.back()), outside_of(scene, first), 1e-8);
   }
 }
 
 /// Held a little off the balance and let go, it is drawn in where less of it is outside, and thrown out where more is.
 TEST(RodFromItsSleeve, IsDrawnInOrThrownOut) {
-  for (const double share : {0.97, 1.03}) {
-    Scene scene = by(IntegratorType::fehlberg78, sleeve_scene(30, 2 * balanced_at_30, share * balanced_at_30, 8));
+  for (const auto& [share, duration] : {std::pair{0.9, 2.8}, std::pair{1.1, 4.5}}) {
+    Scene scene = by(IntegratorType::fehlberg78, sleeve_scene(30, 3 * balanced_at_30, share * balanced_at_30, 12));
     scene.integrator.rtol = scene.integrator.atol = 1e-12;
     scene.beam.section.rhoA = 0.05;
-    scene.duration = 4;
+    scene.duration = duration;
     scene.output.interval = 0.05;
     const RunResult run = completed(scene);
     const double force = run.samples.front().equilibrium->holding_force;
-    EXPECT_GT(std::abs(force), 5e-3);
+    EXPECT_GT(std::abs(force), 0.05);
     EXPECT_EQ(run.samples.front().energy.kinetic, 0);
     const double moved = outside_of(scene, run.samples.back()) - share * balanced_at_30;
-    EXPECT_GT(share < 1 ? -moved : moved, 0.1);
+    EXPECT_GT(share < 1 ? -moved : moved, 0.7);
     EXPECT_GT(share < 1 ? -force : force, 0) << "what held it, along the beam, against the way the sleeve goes";
-    EXPECT_FALSE(run.events.empty());
-    const EnergyLedger ledger = energy_ledger(run);
-    double supplied = 0;
-    for (const Sample& sample : run.samples) supplied = std::max(supplied, std::abs(sample.energy.supplied));
-    EXPECT_LE(run.max_energy_drift, 1e-9 * (run.max_kinetic + supplied));
-    EXPECT_LE(ledger.largest_unexplained, 1e-9 * (run.max_kinetic + supplied));
+    EXPECT_GE(run.events.size(), 3U);
+    EXPECT_LE(run.max_energy_drift, 1e-9 * run.max_kinetic);
+    EXPECT_LE(energy_ledger(run).largest_unexplained, 1e-9 * run.max_kinetic);
   }
+}
+
+/// An upward pull that helps to bear the weight fades: the rod is too far out for the weight alone. A light one takes
+/// at each instant the shape that belongs to where its end is, so that the weight moves by two equations.
+TEST(RodFromItsSleeve, ThrowsItsWeightAsALightRodDoes) {
+  const double pull = 0.05, fading = 0.3, outside = 1.05 * balanced_at_30;
+  Scene scene = sleeve_scene(30, 3, outside, 24);
+  scene.beam.section.EA = 1e4;
+  scene.beam.section.rhoA = 1e-4;
+  const TimeSpec fades{
+      .value = pull, .amplitude = pull, .frequency = 0.5 / fading, .phase_degrees = 90, .until = fading};
+  scene.loads = {{.node = 24, .x = {}, .magnitude = fades, .direction = {0, 1, 0}, .turn = {}}};
+  scene.statics.joints = StaticJoints::released;
+  scene.integrator = {.type = IntegratorType::generalized_alpha, .step = 3e-3};
+  scene.duration = 3.6;
+  scene.output.interval = 0.4;
+  const RunResult run = completed(scene);
+
+  LightRod rod{radians(30), 1 - 2 * pull, 0};
+  using State = std::array<double, 4>;
+  State y{rod.end()[0], rod.end()[1], 0, 0};
+  const auto rate = [&](const State& at, State& out, double t) {
+    rod.lead_to({at[0], at[1]});
+    const double helps = pull * (1 + std::cos(std::numbers::pi * std::min(t / fading, 1.0)));
+    const Eigen::Vector2d force = rod.force * rod.against();
+    out = {at[2], at[3], force[0], force[1] + helps - 1};
+  };
+  boost::numeric::odeint::runge_kutta4<State> stepper;
+  double t = 0;
+  const double step = 4e-3, start = rod.outside();
+  for (const Sample& sample : run.samples) {
+    for (; t < sample.t - step / 2; t += step) stepper.do_step(rate, y, t, step);
+    rod.lead_to({y[0], y[1]});
+    const double moved = std::abs(rod.outside() - start);
+    EXPECT_NEAR(outside_of(scene, sample), rod.outside(), 2e-4 + 2e-3 * moved) << sample.t;
+    EXPECT_NEAR(sample.end[0] - (*sample.mass_position)[0], y[0], 2e-4 + 2e-3 * moved) << sample.t;
+    EXPECT_NEAR(sample.end[1] - (*sample.mass_position)[1], y[1], 2e-4 + 2e-3 * moved) << sample.t;
+  }
+  EXPECT_GT(rod.outside(), start + 0.4);
 }
 
 /// Where it leaves its balance, it does so at the rate of growth about it.
@@ -355,12 +422,11 @@ TEST(InitialEquilibrium, HasVelocitiesOnTopOfIt) {
   pendulum.start.type = SupportType::pin;
   pendulum.initial_velocity = InitialVelocitySpec{.rotation = 1};
   const RunResult swinging = completed(pendulum);
-  double inertia = 0.2 * 0.09, length = 0;
-  for (const Sample* sample : {&swinging.samples.front()}) length = -sample->end[1];
-  EXPECT_NEAR(swinging.samples.front().end[0], 0, 1e-9) << "it hangs";
-  inertia += build_section(pendulum.beam).rhoA / 3;
-  EXPECT_NEAR(swinging.samples.front().energy.kinetic, inertia / 2, 0.02 * inertia);
-  EXPECT_GT(length, 1) << "stretched by its weight";
+  const Sample& first = swinging.samples.front();
+  EXPECT_NEAR(first.end[0], 0, 1e-9) << "it hangs";
+  const double inertia = build_section(pendulum.beam).rhoA / 3 + 0.2 * 0.09;
+  EXPECT_NEAR(first.energy.kinetic, inertia / 2, 0.01 * inertia);
+  EXPECT_GT(first.energy.kinetic, inertia / 2) << "its weight stretches it";
 }
 
 TEST(InitialEquilibrium, RefusesWhatHasNone) {

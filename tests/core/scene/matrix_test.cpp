@@ -129,6 +129,7 @@ const std::vector<Feature>& features() {
          s.start.motion = {.direction = {0, 1, 0},
                            .displacement = {.amplitude = 0.01, .frequency = 20, .phase_degrees = 90}};
        }},
+      {"start from the equilibrium", [](Scene& s) { s.initial_shape = InitialShape::equilibrium; }},
       {"gravity that grows", [](Scene& s) { s.gravity_ramp = 0.02; }},
       {"damping", [](Scene& s) { s.beam.material.damping = 1e-4; }},
       {"drag",
