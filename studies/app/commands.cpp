@@ -19,6 +19,7 @@
 #include "studies/harness/converge.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/interrupt.hpp"
+#include "studies/harness/kept_runs.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/own_sweep.hpp"
 #include "studies/harness/plot.hpp"
@@ -176,7 +177,8 @@ int study_command(const StudyArguments& arguments) {
                                                  .out = out,
                                                  .sources = studies_folder(arguments.studies, study.name),
                                                  .jobs = jobs_or_processors(arguments.jobs),
-                                                 .force = arguments.force});
+                                                 .force = arguments.force,
+                                                 .program = this_program});
   if (verdict.status == "interrupted") {
     std::cerr << "vlbeam: study " << study.name << " interrupted; nothing in " << printable(out)
               << " has changed; the same command goes on\n";
@@ -190,6 +192,13 @@ int study_command(const StudyArguments& arguments) {
     return computation_failed;
   }
   return all_passed(verdict.gates) ? done : gate_failed;
+}
+
+int kept_run_command(const std::string& folder) {
+  end_with_parent();
+  install_interrupt_handler();
+  write_text("-", answer_of_kept_run(folder, read_text("-"), StudyContext::until_interrupted()));
+  return interrupted() ? interrupted_exit_code() : done;
 }
 
 int gate_command(const GateArguments& arguments) {
@@ -322,18 +331,15 @@ int sweep_command(const SweepArguments& arguments) {
   }
   if (!arguments.collect) {
     const std::vector<std::size_t> missing = folder.missing();
-    const std::string program = fs::read_symlink("/proc/self/exe").string();
     run_tasks(
         "sweep", std::vector<double>(missing.size(), 1.0), jobs_or_processors(arguments.jobs), [&](std::size_t k) {
           // A process of its own: what becomes of it becomes of no other.
           const std::string number = std::to_string(missing[k]);
-          const ProcessResult result = run_process({program, "sweep", arguments.sweep, "--out", out.string(), "--case",
-                                                    number, "--memory", std::to_string(arguments.memory)},
+          const ProcessResult result = run_process({this_program, "sweep", arguments.sweep, "--out", out.string(),
+                                                    "--case", number, "--memory", std::to_string(arguments.memory)},
                                                    interrupted);
           if (folder.has(missing[k]) || interrupted()) return;
-          folder.note_crash(missing[k], result.signal != 0 ? "ended by signal " + std::to_string(result.signal)
-                                                           : "ended with " + std::to_string(result.exit_code) + " " +
-                                                                 result.error.substr(0, 500));
+          folder.note_crash(missing[k], how_it_ended(result));
         });
     if (interrupted()) {
       std::cerr << "vlbeam: interrupted; " << plan.cases.size() - folder.missing().size() << " of " << plan.cases.size()

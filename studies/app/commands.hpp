@@ -103,6 +103,8 @@ struct SchemaArguments {
 /// any file is written.
 int run_command(const RunArguments& arguments);
 int study_command(const StudyArguments& arguments);
+/// One run of a study, for the study's process: see KeptRuns.
+int kept_run_command(const std::string& folder);
 int gate_command(const GateArguments& arguments);
 int claims_command(const ClaimsArguments& arguments);
 int list_command(bool names_only, const std::string& scenes);

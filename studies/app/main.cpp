@@ -1,7 +1,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -29,8 +28,10 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   const std::string word = argv[1];
   std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == word) return;
+    if (!command->get_group().empty()) known.push_back(command->get_name());
+  }
   vlbeam::refuse(
       "command", "\"" + word + "\"",
       "the nearest is \"" + vlbeam::nearest_of(word, known) + "\" (there are: " + vlbeam::quoted_list(known) + ")");
@@ -69,6 +70,10 @@ int dispatch(int argc, char** argv) {
   study->add_option("--jobs,-j", study_arguments.jobs, "Runs at a time (default: one a processor)")
       ->check(CLI::NonNegativeNumber);
   study->add_flag("--force", study_arguments.force, "A study that fails may replace an earlier report");
+
+  std::string kept_runs;
+  CLI::App* kept_run = app.add_subcommand("kept-run", "")->group("");  // for studies: not shown
+  kept_run->add_option("folder", kept_runs, "")->required();
 
   bool names_only = false;
   CLI::App* list = app.add_subcommand("list", "List the studies and the scenes");
@@ -218,6 +223,7 @@ int dispatch(int argc, char** argv) {
   }
   if (*run) return vlbeam::run_command(run_arguments);
   if (*study) return vlbeam::study_command(study_arguments);
+  if (*kept_run) return vlbeam::kept_run_command(kept_runs);
   if (*list) return vlbeam::list_command(names_only, scenes);
   if (*scene) return vlbeam::scene_command(scene_name, scenes);
   if (*converge) return vlbeam::converge_command(converge_arguments);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/scene/simulate.hpp"
 
@@ -11,7 +12,9 @@ namespace vlbeam {
 /// from its making until its end; simulate_kept() uses it, from any thread.
 class KeptRuns {
  public:
-  explicit KeptRuns(std::filesystem::path folder);
+  /// With a `program` each run is a process of its own, which is to answer by answer_of_kept_run(): `PROGRAM kept-run
+  /// FOLDER`. It must be of the same build. Empty: all runs are of this process.
+  explicit KeptRuns(std::filesystem::path folder, std::string program = {});
   ~KeptRuns();
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
@@ -22,6 +25,14 @@ class KeptRuns {
 
 /// simulate(), from what was kept of this scene, if something was: with the digits of a run that never stopped. Without
 /// a folder, and of what has no checkpoints (statics, SUNDIALS), it is simulate() alone.
+///
+/// Where the run is a process of its own, `progress` is asked several times a second, at t = 0, whether it goes on.
+/// Result and exceptions are the same ones, but that an exception that is not InvalidInput comes as std::runtime_error
+/// with its text, and that a process which crashes, or is ended, throws std::runtime_error, which says by what.
 RunResult simulate_kept(const Scene& scene, const ProgressCallback& progress);
+
+/// The process of such a run: reads `asked`, and returns what it has to write to standard output.
+std::string answer_of_kept_run(const std::filesystem::path& folder, const std::string& asked,
+                               const ProgressCallback& progress);
 
 }  // namespace vlbeam

@@ -134,7 +134,7 @@ StudyVerdict run_study(const Study& study, const StudyRun& run) {
   const ReportFiles files{.out = run.out, .study = study.name};
   check_writable("--out", files.report());
 
-  const KeptRuns kept(run.out / ("." + study.name + "." + profile_name + ".kept"));
+  const KeptRuns kept(run.out / ("." + study.name + "." + profile_name + ".kept"), run.program);
   StudyReport report;
   StudyVerdict verdict{.status = "completed"};
   const auto fail = [&verdict](const std::string& why) {

@@ -38,7 +38,8 @@ struct StudyContext {
   /// Pass to simulate(): a run ends early once the user interrupts the study.
   static ProgressCallback until_interrupted();
 
-  /// simulate(), which ends early then, and goes on where an earlier run of the study ended.
+  /// simulate(), which ends early then, and goes on where an earlier run of the study ended; in a process of its own
+  /// where the study has a program for that. One that crashes throws std::runtime_error: it costs its case only.
   static RunResult simulate_until_interrupted(const Scene& scene);
 
   /// The same, where a run that broke down or was interrupted throws std::runtime_error: a case of a sweep then
@@ -60,7 +61,8 @@ struct StudyRun {
   std::filesystem::path out;      ///< folder of the files written
   std::filesystem::path sources;  ///< holds the study's folder
   int jobs = 1;
-  bool force = false;  ///< a study that failed may replace an earlier completed one
+  bool force = false;        ///< a study that failed may replace an earlier completed one
+  std::string program = {};  ///< runs each scene in a process of its own, see KeptRuns; empty: in this one
 };
 
 /// What became of a study.

@@ -3,12 +3,15 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <stdexcept>
 
 extern char** environ;
@@ -40,13 +43,39 @@ struct Pipe {
   int write = -1;
 };
 
+/// A text that a process reads as a file, which has no name and no place on a disk.
+class Input {
+ public:
+  explicit Input(std::string_view text) : number_(::memfd_create("input", MFD_CLOEXEC)) {
+    if (number_ < 0) throw std::runtime_error("cannot create the input of a process");
+    while (!text.empty()) {
+      const ssize_t count = ::write(number_, text.data(), text.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) {
+        ::close(number_);
+        throw std::runtime_error("cannot write the input of a process");
+      }
+      text.remove_prefix(static_cast<std::size_t>(count));
+    }
+    ::lseek(number_, 0, SEEK_SET);
+  }
+  ~Input() { ::close(number_); }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
 /// Reads both pipes to their ends; ends the child once `stop` says so.
 void drain(const Pipe& out, const Pipe& err, pid_t child, const std::function<bool()>& stop, ProcessResult& result) {
   constexpr int between_questions = 100;  // ms
   bool stopped = false;
   std::array<pollfd, 2> sources{{{out.read, POLLIN, 0}, {err.read, POLLIN, 0}}};
   const std::array<std::string*, 2> sinks{&result.output, &result.error};
-  std::array<char, 4096> buffer{};
+  std::array<char, 1 << 16> buffer{};
   for (int open = 2; open > 0;) {
     if (::poll(sources.data(), sources.size(), stop ? between_questions : -1) < 0) {
       if (errno != EINTR) return;
@@ -71,18 +100,20 @@ void drain(const Pipe& out, const Pipe& err, pid_t child, const std::function<bo
 
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& arguments, const std::function<bool()>& stop) {
+ProcessResult run_process(const std::vector<std::string>& arguments, const std::function<bool()>& stop,
+                          std::string_view input) {
   std::vector<std::string> owned = arguments;
   std::vector<char*> argv;
   argv.reserve(owned.size() + 1);
   for (std::string& argument : owned) argv.push_back(argument.data());
   argv.push_back(nullptr);
 
+  const Input in(input);
   Pipe out;
   Pipe err;
   posix_spawn_file_actions_t actions{};
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, in.number(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, out.write, STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, err.write, STDERR_FILENO);
   pid_t child = 0;
@@ -101,5 +132,17 @@ ProcessResult run_process(const std::vector<std::string>& arguments, const std::
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
 }
+
+std::string how_it_ended(const ProcessResult& process) {
+  constexpr std::size_t longest = 500;  // of what it said
+  if (process.signal != 0) {
+    const std::string cause = process.signal == SIGKILL ? "killed, as by the system where memory runs out"
+                                                        : std::string(::strsignal(process.signal));
+    return "ended by signal " + std::to_string(process.signal) + " (" + cause + ")";
+  }
+  return "ended with exit code " + std::to_string(process.exit_code) + ": " + process.error.substr(0, longest);
+}
+
+void end_with_parent() { ::prctl(PR_SET_PDEATHSIG, SIGTERM); }
 
 }  // namespace vlbeam

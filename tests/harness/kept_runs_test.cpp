@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <stdexcept>
+
+#include "core/error.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "tests/harness/program_of_runs.hpp"
 #include "tests/harness/report_of.hpp"
 #include "tests/harness/temporary_folder.hpp"
 
@@ -72,6 +77,89 @@ TEST_F(KeptRunsTest, StartAnewWhereNothingIsKept) {
   EXPECT_FALSE(exists(kept_));
   run(scene);
   EXPECT_EQ(steps_, 100);
+}
+
+/// Where each run is a process of its own.
+class RunsApart : public KeptRunsTest {
+ protected:
+  static Scene of_library(const std::string& name, double longest) {
+    Scene scene = read_scene(std::filesystem::path(VLBEAM_SOURCE_DIR) / "scenes" / (name + ".json"));
+    scene.duration = std::min(scene.duration, longest);
+    scene.output.interval = std::min(scene.output.interval, longest / 2);
+    std::erase_if(scene.output.configurations, [&](double t) { return t > scene.duration; });
+    return scene;
+  }
+  /// What comes of it instead of a result.
+  std::string says(const Scene& scene) {
+    try {
+      run(scene);
+    } catch (const InvalidInput& error) {
+      return error.field + " | " + error.value;
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+};
+
+TEST_F(RunsApart, GiveTheSameResults) {
+  const KeptRuns kept(kept_, program_of_runs);
+  for (const char* name : {"falling_beam", "semicircle", "two_trolleys", "sleeve", "drill_stem", "moving_string",
+                           "cable_through_ring", "shallow_arch"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = of_library(name, 0.1);
+    expect_whole(scene, run(scene));
+  }
+}
+
+TEST_F(RunsApart, FailAsTheyWould) {
+  const KeptRuns kept(kept_, program_of_runs);
+  Scene scene = of_library("falling_beam", 0.5);
+  scene.length_control.enabled = false;  // the mass runs into a node
+  scene.beam.elements = 6;
+  scene.integrator = {.type = IntegratorType::generalized_alpha, .step = 0.01};
+  const RunResult result = run(scene);
+  EXPECT_EQ(result.status, RunStatus::failed);
+  EXPECT_EQ(result.failure, simulate(scene).failure);
+  expect_whole(scene, result);
+  scene.beam.elements = 0;
+  EXPECT_EQ(says(scene), "/beam/elements | 0");
+}
+
+TEST_F(RunsApart, KnowWhoChoseTheIntegrator) {
+  const KeptRuns kept(kept_, program_of_runs);
+  Scene scene = parse_scene(R"({"beam": {"elements": 8, "material": {"youngs_modulus": 2e11}}, "duration": 0.02,
+    "supports": [{"at": "start", "type": "clamp"}], "integrator": {"type": "dopri5"}, "output": {"interval": 0.01}})");
+  for (const bool automatic : {false, true}) {
+    scene.integrator.automatic = automatic;
+    expect_whole(scene, run(scene));
+  }
+}
+
+TEST_F(RunsApart, AreNotRepeated) {
+  const Scene scene = swinging(40);
+  const auto interrupted_at_once = [](double) { return false; };
+  {
+    const KeptRuns kept(kept_, program_of_runs);
+    EXPECT_EQ(simulate_kept(scene, interrupted_at_once).status, RunStatus::interrupted);
+    EXPECT_FALSE(std::filesystem::is_empty(kept_)) << "a checkpoint";
+  }
+  const KeptRuns kept(kept_);  // in this process, where steps can be counted
+  expect_whole(scene, run(scene, 41));
+  EXPECT_LT(steps_, 40000);
+}
+
+TEST_F(RunsApart, ThatCrashSayByWhat) {
+  const Scene scene = swinging();
+  for (const auto& [signal, how] : {std::pair{"SEGV", "its process ended by signal 11 (Segmentation fault)"},
+                                    std::pair{"KILL",
+                                              "its process ended by signal 9 (killed, as by the system where "
+                                              "memory runs out)"}}) {
+    const KeptRuns kept(kept_, crashing_program(folder_, "", signal));
+    EXPECT_EQ(says(scene), how);
+  }
+  const KeptRuns kept(kept_, "/nowhere/vlbeam");
+  EXPECT_EQ(says(scene), "its process ended with exit code 127: cannot start /nowhere/vlbeam");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include "core/error.hpp"
 #include "studies/harness/files.hpp"
+#include "studies/harness/scene_json.hpp"
+#include "tests/harness/program_of_runs.hpp"
 #include "tests/harness/temporary_folder.hpp"
 
 namespace vlbeam {
@@ -110,6 +112,58 @@ TEST_F(StudyFolder, AStudyThatBreaksDownIsReported) {
   const StudyVerdict verdict = run([](const StudyContext&) -> StudyReport { throw std::runtime_error("broke down"); });
   EXPECT_EQ(verdict.status, "failed");
   EXPECT_EQ(parse_json(text("out/midpoint.json"))["failure"], "broke down");
+}
+
+/// A beam that swings, on three meshes.
+StudyReport swinging_study(const StudyContext& context) {
+  const std::vector<int> meshes{4, 5, 6};
+  const auto outcomes = context.sweep(meshes, [](int elements) {
+    Scene scene =
+        parse_scene(R"({"beam": {"elements": 4}, "supports": [{"at": "start", "type": "pin"}], "duration": 0.1,
+                                  "integrator": {"type": "generalized-alpha"}, "output": {"interval": 0.05}})");
+    scene.beam.elements = elements;
+    return StudyContext::simulate_to_the_end(scene);
+  });
+  StudyReport report;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    report.cases.push_back({.options = {{"elements", meshes[i]}}, .results = {}, .failure = outcomes[i].failure});
+    if (outcomes[i]) report.cases.back().results = {{"y", outcomes[i]->samples.back().end[1]}};
+  }
+  if (outcomes[0]) report.measured["y"] = outcomes[0]->samples.back().end[1];
+  return report;
+}
+
+class StudyOfProcesses : public StudyFolder {
+ protected:
+  StudyOfProcesses() {
+    folder_.write("studies/swinging/study.ci.json", "{}");
+    folder_.write("studies/swinging/gates.json", R"({"schema": "vlbeam.gates/1", "gates": [
+      {"name": "tip", "kind": "exact", "quantity": "y", "reason": "the beam is 1 m long", "min": -1.1, "max": 0}]})");
+  }
+  /// Its report, after runs by processes of this program, or in this one.
+  Json run(const std::string& program) const {
+    run_study({.name = "swinging", .title = "", .run = swinging_study}, {.profile = Profile::ci,
+                                                                         .out = folder_ / "out",
+                                                                         .sources = folder_ / "studies",
+                                                                         .jobs = 2,
+                                                                         .force = true,
+                                                                         .program = program});
+    return parse_json(text("out/swinging.json"));
+  }
+};
+
+TEST_F(StudyOfProcesses, HasTheSameReport) {
+  const Json expected = run("");
+  EXPECT_EQ(expected.at("status"), "completed");
+  EXPECT_EQ(run(program_of_runs).dump(), expected.dump());
+}
+
+TEST_F(StudyOfProcesses, GoesOnWhereACaseCrashes) {
+  const Json expected = run(""), report = run(crashing_program(folder_, R"("elements":5)", "SEGV"));
+  EXPECT_EQ(report.at("status"), "failed");
+  EXPECT_EQ(report.at("failure"), "1 of 3 cases failed");
+  EXPECT_EQ(report.at("cases").at(1).at("failure"), "its process ended by signal 11 (Segmentation fault)");
+  for (const std::size_t other : {0, 2}) EXPECT_EQ(report.at("cases").at(other), expected.at("cases").at(other));
 }
 
 TEST_F(StudyFolder, AFailedStudyLeavesAnEarlierResult) {

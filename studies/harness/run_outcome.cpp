@@ -1,0 +1,185 @@
+#include "studies/harness/run_outcome.hpp"
+
+#include <concepts>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "studies/harness/messages.hpp"
+
+namespace vlbeam {
+namespace {
+
+template <class T, class Of>
+concept Is = std::same_as<std::remove_const_t<T>, Of>;
+
+// The members of all that is more than its bytes. A structured binding names every one of them: without a new one it
+// does not compile.
+auto members(Is<FlowSample> auto& of) {
+  auto& [mass, end_angles, spin_momentum, loads, supports, torques, ledger] = of;
+  return std::tie(mass, end_angles, spin_momentum, loads, supports, torques, ledger);
+}
+auto members(Is<Sample> auto& of) {
+  auto& [t, joint_position, mass_position, end, beam_length, beam_length_rate, energy, discrete_total, momentum,
+         angular_momentum, reactions, strains, joint, joints, flow, equilibrium] = of;
+  return std::tie(t, joint_position, mass_position, end, beam_length, beam_length_rate, energy, discrete_total,
+                  momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium);
+}
+auto members(Is<Configuration::Rest> auto& of) {
+  auto& [r, r_x] = of;
+  return std::tie(r, r_x);
+}
+auto members(Is<Configuration::Rates> auto& of) {
+  auto& [x, v, r_x, spins] = of;
+  return std::tie(x, v, r_x, spins);
+}
+auto members(Is<Configuration> auto& of) {
+  auto& [t, x, r, r_x, angles, weights, rest, kinks, rates] = of;
+  return std::tie(t, x, r, r_x, angles, weights, rest, kinks, rates);
+}
+auto members(Is<Event> auto& of) {
+  auto& [t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump, restored,
+         before, after] = of;
+  return std::tie(t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump,
+                  restored, before, after);
+}
+auto members(Is<NewtonCounters> auto& of) {
+  auto& [iterations, tangents, longest, constraints, multipliers] = of;
+  return std::tie(iterations, tangents, longest, constraints, multipliers);
+}
+auto members(Is<SolverCounters> auto& of) {
+  auto& [steps, rejected, rhs_evaluations, smallest_step, newton] = of;
+  return std::tie(steps, rejected, rhs_evaluations, smallest_step, newton);
+}
+auto members(Is<Warning> auto& of) {
+  auto& [kind, message, remedy] = of;
+  return std::tie(kind, message, remedy);
+}
+auto members(Is<RunResult> auto& of) {
+  auto& [status, failure, failure_time, samples, configurations, events, max_kinetic, max_energy_drift, slopes,
+         frequencies, solver, warnings, timing] = of;
+  return std::tie(status, failure, failure_time, samples, configurations, events, max_kinetic, max_energy_drift, slopes,
+                  frequencies, solver, warnings, timing);
+}
+auto members(Is<RunOutcome> auto& of) {
+  auto& [result, thrown] = of;
+  return std::tie(result, thrown);
+}
+
+template <class T>
+concept Plain = std::is_trivially_copyable_v<T>;
+template <class T>
+concept Row = requires(T& row) {
+  row.resize(1);
+};
+template <class T>
+concept Shared = requires(T& pointer) {
+  pointer.use_count();
+};
+
+class ByteWriter {
+ public:
+  std::string bytes;
+
+  template <class T>
+  void operator()(const T& value) {
+    if constexpr (Plain<T>) {
+      append(&value, sizeof value);
+    } else if constexpr (Row<T>) {
+      (*this)(value.size());
+      if constexpr (Plain<typename T::value_type>) {
+        append(value.data(), value.size() * sizeof(typename T::value_type));
+      } else {
+        for (const auto& item : value) (*this)(item);
+      }
+    } else if constexpr (Shared<T>) {
+      (*this)(value != nullptr);
+      if (value) (*this)(*value);
+    } else {
+      std::apply([this](const auto&... member) { ((*this)(member), ...); }, members(value));
+    }
+  }
+
+ private:
+  void append(const void* from, std::size_t count) { bytes.append(static_cast<const char*>(from), count); }
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  bool at_end() const { return bytes_.empty(); }
+
+  template <class T>
+  void operator()(T& value) {
+    if constexpr (Plain<T>) {
+      take(&value, sizeof value);
+    } else if constexpr (Row<T>) {
+      std::size_t size = 0;
+      (*this)(size);
+      if (size > bytes_.size()) throw std::out_of_range("an outcome that is too short");
+      value.resize(size);
+      if constexpr (Plain<typename T::value_type>) {
+        take(value.data(), size * sizeof(typename T::value_type));
+      } else {
+        for (auto& item : value) (*this)(item);
+      }
+    } else if constexpr (Shared<T>) {
+      bool there = false;
+      (*this)(there);
+      if (!there) return;
+      auto pointee = std::make_shared<std::remove_const_t<typename T::element_type>>();
+      (*this)(*pointee);
+      value = std::move(pointee);
+    } else {
+      std::apply([this](auto&... member) { ((*this)(member), ...); }, members(value));
+    }
+  }
+
+ private:
+  void take(void* to, std::size_t count) {
+    if (count > bytes_.size()) throw std::out_of_range("an outcome that is too short");
+    if (count > 0) std::memcpy(to, bytes_.data(), count);
+    bytes_.remove_prefix(count);
+  }
+
+  std::string_view bytes_;
+};
+
+}  // namespace
+
+RunOutcome RunOutcome::of(const std::function<RunResult()>& run) {
+  try {
+    return {.result = run(), .thrown = {}};
+  } catch (const InvalidInput& error) {
+    return {.result = {}, .thrown = {error.field, error.value, error.allowed}};
+  } catch (const std::exception& error) {
+    return {.result = {}, .thrown = {explained(error)}};
+  }
+}
+
+RunResult RunOutcome::get() && {
+  if (thrown.size() == 3) throw InvalidInput(thrown[0], thrown[1], thrown[2]);
+  if (!thrown.empty()) throw std::runtime_error(thrown.front());
+  return std::move(result);
+}
+
+std::string to_bytes(const RunOutcome& outcome) {
+  ByteWriter writer;
+  writer(outcome);
+  return std::move(writer.bytes);
+}
+
+RunOutcome outcome_from_bytes(std::string_view bytes) {
+  RunOutcome outcome;
+  ByteReader reader(bytes);
+  reader(outcome);
+  if (!reader.at_end()) throw std::out_of_range("more than an outcome");
+  return outcome;
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# The runs of a study are processes: one that crashes costs its case only; a study that is stopped stops them, goes on
+# where they were, and has the report of one that never stopped; none outlives it.
+#   study_runs_test.sh PROGRAM
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+
+study() { "$vlbeam" study energy_drift --profile ci --out "$1" -j 2 > out.txt 2> err.txt; }
+bits() { (cd "$1" && find . -type f ! -name '*.timing.*' -exec sha256sum {} + | sort); }
+runs_of() { pgrep -P "$1" -f kept-run; }
+wait_for() {  # wait_for COMMAND...: until it succeeds
+  for ((try = 0; try < 600; ++try)); do "$@" > /dev/null && return; sleep 0.05; done
+  failed "waiting for $*"
+}
+ended() { ! kill -0 "$@" 2> /dev/null; }
+
+check "a study" 0 "$(study whole; echo $?)"
+
+for how in INT TERM KILL; do
+  study stopped & shell=$!
+  wait_for pgrep -P $shell -f energy_drift
+  process=$(pgrep -P $shell -f energy_drift)
+  wait_for runs_of "$process"
+  sleep 0.3
+  runs=$(runs_of "$process" | tr '\n' ' ')
+  kill -$how "$process"
+  wait $shell
+  code=$?
+  check "a study that is stopped, $how" "$(kill -l $how | awk '{print 128 + $1}')" $code
+  for run in $runs; do wait_for ended "$run"; done
+  check "nothing changes, $how" no "$(there stopped/energy_drift.json)"
+  check "something is kept, $how" yes "$(ls stopped/.energy_drift.ci.kept/*.checkpoint > /dev/null 2>&1 && echo yes)"
+done
+check "it goes on" 0 "$(study stopped; echo $?)"
+check "with the same bits" "$(bits whole)" "$(bits stopped)"
+check "and keeps nothing" no "$(there stopped/.energy_drift.ci.kept)"
+
+# One case crashes; the system ends another one for its memory.
+study crash & shell=$!
+wait_for pgrep -P $shell -f energy_drift
+process=$(pgrep -P $shell -f energy_drift)
+wait_for runs_of "$process"
+first=$(runs_of "$process" | head -1)
+kill -SEGV "$first"
+wait_for ended "$first"
+next=$(wait_for runs_of "$process"; runs_of "$process" | head -1)
+kill -KILL "$next"
+wait $shell
+check "a study with a crash" 3 $?
+check "crashed" 1 "$(grep -c 'ended by signal 11 (Segmentation fault)' crash/energy_drift.json)"
+check "killed" 1 "$(grep -c 'ended by signal 9 (killed' crash/energy_drift.json)"
+check "only these" 1 "$(grep -c '"failure": "2 of [0-9]* cases failed"' crash/energy_drift.json)"
+check "again: these are run, the others are kept" 0 "$(study crash; echo $?)"
+check "with the same bits" "$(bits whole)" "$(bits crash)"
+
+check "a command that is not shown" 0 "$("$vlbeam" --help | grep -c kept-run)"
+verdict
