@@ -144,6 +144,10 @@ answer("cable_through_ring", "joint_position", rolled["ring"]["green"]["x"], 1e-
 answer("rod_through_sleeve", "joint_position", 2 - mp.mpf(str(rolled["sleeve"]["degrees"]["30"]["length"])), 1e-11, "independent",
        "shooting (reference/joints.py)", 1)
 
+end, turn = mp.matrix([-0.2, 1.6]), mp.atan2(1.6, -0.2)  # where the cable is drawn to, and by what it turns in the ring
+answer("capstan", "reaction_end_y", 10 * mp.exp(0.3 * turn) * end[1] / mp.norm(end), 1e-3, "exact",
+       "tensions in the ratio e^(mu phi) of a cable without mass; the scene's of 1e-4 kg/m leaves some 1e-4 N", 2)
+
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (
         ("suspended_beam", "joint_position", 0.1551768503, 5.7e-7, 0.2),

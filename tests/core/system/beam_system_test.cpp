@@ -300,6 +300,24 @@ TYPED_TEST(BeamSystemOf, AGuideDoesTheWorkOfTheForceThatAFreeJointWouldNeed) {
   }
 }
 
+/// Friction at a joint under the force `pull` of the beam, and the stretch that takes it to x: mu N along a tangent, or
+/// the difference of the tensions that pull around a drum with that force.
+template <int D>
+std::pair<double, double> rubbing(const SlidingJoint& law, const ChainState<D>& chain,
+                                  const typename ChainState<D>::Joint& joint, const Vec<double, D>& pull) {
+  const Vec<double, D> before = slope<D>(chain.q.data(), joint.node);
+  const Vec<double, D> behind = joint.kink ? Vec<double, D>(joint.kink->slope) : before;
+  const bool around = law.slopes == JointSlopes::free;
+  const double stretch = around ? (before.norm() + behind.norm()) / 2 : ((before + behind) / 2).norm();
+  const double mu = law.friction->coefficient * std::tanh(stretch * joint.rate / law.friction->velocity);
+  if (!around) {
+    const Vec<double, D> tangent = (before + behind).normalized();
+    return {-mu * (pull - tangent * tangent.dot(pull)).norm(), stretch};
+  }
+  const double cosine = before.normalized().dot(behind.normalized()), ratio = std::exp(mu * std::acos(cosine));
+  return {-pull.norm() / std::sqrt(1 + ratio * ratio - 2 * ratio * cosine) * (ratio - 1), stretch};
+}
+
 TYPED_TEST(BeamSystemOf, FrictionAtSeveralJointsIsTheCoefficientTimesTheNormalForces) {
   constexpr int D = TypeParam::value;
   const ChainShape shape{.elements = 9, .joint = 2, .more = {{3}, {6, JointSlopes::free}}};
@@ -317,14 +335,10 @@ TYPED_TEST(BeamSystemOf, FrictionAtSeveralJointsIsTheCoefficientTimesTheNormalFo
   double power = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& joint = chain.joints[i];
-    const auto& friction = *model.joints[i].law.friction;
-    Vec<double, D> mean = slope<D>(chain.q.data(), joint.node);
-    if (joint.kink) mean = (mean + joint.kink->slope) / 2;
-    const Vec<double, D> pull = 0.4 * (a.segment<D>(node_size<D> * joint.node) - model.gravity),
-                         tangent = mean.normalized();
-    const double normal = (pull - tangent * tangent.dot(pull)).norm(), v = mean.norm() * joint.rate;
-    const double force = -friction.coefficient * normal * std::tanh(v / friction.velocity);
-    on_x.push_back(force * mean.norm());
+    const Vec<double, D> pull = 0.4 * (a.segment<D>(node_size<D> * joint.node) - model.gravity);
+    const auto [force, stretch] = rubbing<D>(model.joints[i].law, chain, joint, pull);
+    const double v = stretch * joint.rate;
+    on_x.push_back(force * stretch);
     power -= force * v;
   }
   const Eigen::VectorXd exact = dense_accelerations(model, chain, on_x).head(a.size());
@@ -344,14 +358,12 @@ TYPED_TEST(BeamSystemOf, FrictionIsTheCoefficientTimesTheNormalForceOfTheAcceler
     Eigen::VectorXd dydt(system.size());
     system.rhs(y, dydt, 0);
     const Eigen::VectorXd a = dydt.segment(system.coordinates(), system.coordinates());
-    Vec<double, D> mean = slope<D>(chain.q.data(), 2);
-    if (chain.joints.front().kink) mean = (mean + chain.joints.front().kink->slope) / 2;
-    const Vec<double, D> pull = model.joints.front().law.mass * (a.segment<D>(2 * node_size<D>) - model.gravity),
-                         tangent = mean.normalized();
-    const double normal = (pull - tangent * tangent.dot(pull)).norm(), v = mean.norm() * chain.joints.front().rate;
-    const double friction = -0.4 * normal * std::tanh(v / 0.3);
-    EXPECT_GT(normal, 0.1);
-    const Eigen::VectorXd exact = dense_accelerations(model, chain, {friction * mean.norm()}).head(a.size());
+    const Vec<double, D> pull = model.joints.front().law.mass * (a.segment<D>(2 * node_size<D>) - model.gravity);
+    const auto& joint = chain.joints.front();
+    const auto [friction, stretch] = rubbing<D>(model.joints.front().law, chain, joint, pull);
+    EXPECT_GT(std::abs(friction), 0.01);
+    const double v = stretch * joint.rate;
+    const Eigen::VectorXd exact = dense_accelerations(model, chain, {friction * stretch}).head(a.size());
     EXPECT_LE((a - exact).norm(), 1e-10 * exact.norm());
     EXPECT_NEAR(dydt[dydt.size() - 1], -friction * v, 1e-10) << "the power it takes";
   }
