@@ -79,6 +79,17 @@ struct ChainView {
     const JointPlace* const joint = joint_at(node);
     return joint != nullptr ? q[joint->mark] : mesh.x[static_cast<std::size_t>(node)];
   }
+  /// Rate at which the integral of r along the beam grows because matter comes in through its ends [m^2/s].
+  Vec<double, D> inflow() const {
+    Vec<double, D> sum = Vec<double, D>::Zero();
+    for (const JointPlace& joint : joints) {
+      if (joint.node == 0) sum -= rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q);
+      if (joint.node == mesh.last()) {
+        sum += rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q + vector(joint.node - 1, 2));
+      }
+    }
+    return sum;
+  }
   /// Index of the element that holds the material point x; of the first or the last one beyond the ends.
   int element_at(double x) const {
     if (marks != nullptr) return vlbeam::element_at(*marks, x);

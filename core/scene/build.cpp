@@ -222,13 +222,13 @@ double end_merge(const Scene& scene) {
   const bool held = joint_support(scene) != SupportType::free || guided(scene);  // it needs a node to hold
   const bool several = scene.sliding_joints.size() > 1;
   const double otherwise =
-      !scene.length_control.enabled || (kinked && stops) || held || several ? 0 : default_end_merge;
+      !scene.length_control.enabled || (kinked && stops) || held || several || fed(scene) ? 0 : default_end_merge;
   return scene.length_control.end_merge.value_or(otherwise);
 }
 
 double merge_below(const Scene& scene) {
   const auto& control = scene.length_control;
-  const bool several = scene.sliding_joints.size() > 1;
+  const bool several = scene.sliding_joints.size() > 1 || fed(scene);
   const double otherwise = control.enabled && several ? 2 - control.upper * (1 + control.hysteresis) : 0;
   return control.lower.value_or(otherwise);
 }
@@ -335,6 +335,13 @@ BeamModel<D> build_model(const Scene& scene) {
     joint.at_support = {spec.at_support, spec.restitution};
     if (spec.x) joint.x = travelling(spec.position, time_function(*spec.x));
   }
+  if (scene.start.feed) {
+    model.joints.emplace_back().x = travelling(0, [in = time_function(*scene.start.feed)](double t) -> Prescribed {
+      const Prescribed length = in(t);
+      return {-length.value, -length.rate, -length.acceleration};
+    });
+  }
+  if (scene.end.feed) model.joints.emplace_back().x = travelling(axis.length(), time_function(*scene.end.feed));
   model.masses.points = build_point_masses(scene, axis.breaks());
   const double of_mass = scene.beam.material.mass_damping * model.section.rhoA;
   const DragSpec drag = scene.drag.value_or(DragSpec{});
@@ -411,6 +418,19 @@ ChainState<D> build_shape(const Scene& scene) {
   return chain;
 }
 
+/// Makes joints of the ends through which the beam is fed.
+template <int D>
+void add_feeds(const Scene& scene, ChainState<D>& chain) {
+  const auto rate = [](const TimeSpec& feed) { return time_function(feed)(0).rate; };
+  int index = static_cast<int>(sliding_joints(scene).size());
+  if (scene.start.feed) {
+    chain.joints.insert(chain.joints.begin(), {.node = 0, .rate = -rate(*scene.start.feed), .index = index++});
+  }
+  if (scene.end.feed) {
+    chain.joints.push_back({.node = chain.mesh.last(), .rate = rate(*scene.end.feed), .index = index});
+  }
+}
+
 template <int D>
 void set_in_motion(const Scene& scene, ChainState<D>& chain) {
   const Axis<D> axis = build_axis<D>(scene);
@@ -447,6 +467,7 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     slope<D>(chain.rate.data(), j) =
         sleeve.out_of_frame((sleeve.into_frame(slope<D>(chain.rate.data(), j)).array() * sleeve.free_slope).matrix());
   }
+  add_feeds(scene, chain);
 }
 
 template <int D>

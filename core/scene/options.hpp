@@ -458,6 +458,15 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
               at.motion->direction);
       time_function(motion, "m", {}, at.motion->displacement);
     }
+    const std::string feed = entry + "/feed";
+    if (visitor.present(Option{.pointer = feed,
+                               .unit = "",
+                               .description = "length of beam that has come in through this clamp or pin since t = 0, "
+                                              "straight and unstrained, as a winch pays it out; less than 0 where it "
+                                              "draws in"},
+                        at.feed)) {
+      time_function(feed, "m", {}, *at.feed);
+    }
   };
   support("/supports/at=start", scene.start);
   support("/supports/at=end", scene.end);
@@ -786,7 +795,7 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                      "length over the uniform element length below which an element beside a joint is merged with the "
                      "next one, even where the other side is not cut; 0, with one joint only: never; if not given 2 - "
                      "upper (1 + hysteresis) "
-                     "with several joints, where both fall together on even elements, and 0 with one",
+                     "with several joints or a feed, where both fall together on even elements, and 0 with one joint",
                  .range = {.low = 0, .high = 1}},
           scene.length_control.lower);
 

@@ -131,6 +131,7 @@ struct SupportSpec {
   SupportType type = SupportType::free;
   ClampType clamp = ClampType::direction;  ///< used with a clamp
   std::optional<SupportMotionSpec> motion = {};
+  std::optional<TimeSpec> feed = {};  ///< length of beam that has come in through this end since t = 0: a winch [m]
 };
 
 /// The mass that slides on the beam.

@@ -159,7 +159,7 @@ class Run {
 
   void look_at_mass(const Eigen::VectorXd& y, const ChainState<D>& chain, const OuterForces<D>& forces,
                     Sample& sample) {
-    const std::size_t count = system_.model().joints.size();
+    const std::size_t count = sliding_joints(scene_).size();  // the model's at its ends come behind them
     for (std::size_t i = 0; i < count; ++i) {
       const int index = static_cast<int>(i);
       SlidingSample joint;

@@ -96,6 +96,7 @@ double longest_implicit_step(const Scene& scene) {
     at_most(turn / std::abs(load.turn.rate) / steps_a_period);
   }
   for (const SupportSpec* support : {&scene.start, &scene.end}) {
+    if (support->feed) driven(*support->feed);
     if (!support->motion) continue;
     driven(support->motion->displacement);
     if (support->motion->angle) driven(*support->motion->angle);

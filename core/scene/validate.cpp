@@ -10,6 +10,7 @@
 #include "core/scene/build_flow.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/time_function.hpp"
+#include "core/scene/validate_feed.hpp"
 #include "core/scene/validate_flow.hpp"
 
 namespace vlbeam {
@@ -623,10 +624,7 @@ void check_loads(const Scene& scene) {
 template <int D>
 void check_resting_parts(const Scene& scene) {
   const BeamModel<D> model = build_model<D>(scene);
-  const double length = beam_length(scene);
-  check_places<D>(model.loads.points, scene.duration, 1e-9 * standard_length(scene), [length](double) {
-    return std::pair{0.0, length};
-  });
+  check_places<D>(model.loads.points, scene.duration, 1e-9 * standard_length(scene), beam_ends(scene));
   if (!model.spin) return;
   check_drives(model.spin->drives, scene.beam.elements);
   for (const LoadSpec& load : scene.loads) {
@@ -666,13 +664,16 @@ void check_initial_velocity(const Scene& scene) {
   const auto check = [&](const std::string& at, const SupportSpec& spec, double x) {
     const Support<D> support = build_support<D>(spec, axis.tangent(x));
     const Vec<double, D> velocity = initial_velocity<D>(scene, axis.derivatives(x)[0]);
-    const double held = (support.into_frame(velocity).array() * (1 - support.free_position)).matrix().norm();
+    const Vec<double, D> passes = x == 0 ? axis.tangent(x) : Vec<double, D>(-axis.tangent(x));
+    const Vec<double, D> coming = spec.feed ? Vec<double, D>(feed_rate(spec) * passes) : Vec<double, D>::Zero();
+    const double held = (support.into_frame(velocity - coming).array() * (1 - support.free_position)).matrix().norm();
     const double size =
         Eigen::Map<const Eigen::Vector3d>(motion.translation.data()).norm() + std::abs(motion.rotation) * axis.length();
     if (held <= 1e-9 * size) return;
     refuse("/initial_velocity", "a velocity of " + number_text(held) + " m/s against " + at,
-           "what holds it there stands still at t = 0: let the beam turn about it" +
-               std::string(spec.type == SupportType::slide ? ", or run along its tangent" : ""));
+           spec.feed ? "at t = 0 the beam comes in there at " + number_text(feed_rate(spec)) + " m/s, along its tangent"
+                     : "what holds it there stands still at t = 0: let the beam turn about it" +
+                           std::string(spec.type == SupportType::slide ? ", or run along its tangent" : ""));
   };
   check("/supports/at=start", scene.start, 0);
   check("/supports/at=end", scene.end, axis.length());
@@ -842,6 +843,7 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < sliding_joints(scene).size(); ++i) check_joint(scene, i);
   check_energy_momentum(scene);
   check_support_motion(scene);
+  validate_feeds(scene);
   check_output(scene);
   check_loads(scene);
   check_point_masses(scene);

@@ -74,8 +74,8 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   coordinates_ = next + D * static_cast<Eigen::Index>(departed_.size());
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
-  const int left_open = has_joint() ? places_.front().node - 1 : middle,
-            right_open = has_joint() ? places_.back().node + 1 : middle;
+  const int left_open = has_joint() ? std::max(0, places_.front().node - 1) : middle,
+            right_open = has_joint() ? std::min(mesh_.last(), places_.back().node + 1) : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest, model_.masses.points);
   right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest, model_.masses.points);
@@ -554,6 +554,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   if (model_.loads.present()) {
     const ChainView<D> beam = view(q, rate);
     power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
+    power.supports += fed_line_power(beam, t);
   }
   if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
   if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
@@ -707,7 +708,7 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
   seen.load_work = counted.loads;
   seen.end_work = counted.ends;
   seen.energy.supplied = counted.supports;
-  seen.energy.supplied += ramp_.until(t, {seen.mass_moment, seen.momentum});
+  seen.energy.supplied += ramp_.until(t, {seen.mass_moment, moment_rate(seen, y)});
   return seen;
 }
 

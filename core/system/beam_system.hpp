@@ -55,7 +55,8 @@ struct BeamModel {
   Drag<D> drag;
   std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no joint
   PointMasses<D> masses;
-  std::vector<ModelJoint<D>> joints;  ///< in the order of the chain
+  /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
+  std::vector<ModelJoint<D>> joints;
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
   /// What a moving node follows in the rest shape, by arc length, where the chain's `rest` has the nodes; null for a
@@ -155,6 +156,11 @@ class BeamSystem final : public EventedOde {
   ChainView<D> view(const double* q, const double* rate) const { return {mesh_, model_.transport, q, rate, places_}; }
   /// Power of the load along the beam [W].
   double line_power(const ChainView<D>& beam, double t) const;
+  /// What feeds do besides the work of their force along the beam, which takes the load for a potential: matter that
+  /// comes in brings none of it [W].
+  double fed_line_power(const ChainView<D>& beam, double t) const {
+    return model_.loads.line_force ? model_.loads.line_force(t).dot(beam.inflow()) : 0;
+  }
   Eigen::VectorXd initial_state() const { return initial_; }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
     second_order()->jacobian(y, t, dfdy, dfdt);
@@ -178,6 +184,8 @@ class BeamSystem final : public EventedOde {
   /// The same joints in the model.
   const ModelJoint<D>& joint(std::size_t which) const { return model_.joints[static_cast<std::size_t>(index_[which])]; }
   int joint_index(std::size_t which) const { return index_[which]; }
+  /// Whether that joint is an end of the beam, through which it is fed: there is an element on one side only.
+  bool feeds(std::size_t which) const { return places_[which].node == 0 || places_[which].node == mesh_.last(); }
   /// A mass inside the first or the last element.
   struct Riding {
     int element;
@@ -310,6 +318,15 @@ class BeamSystem final : public EventedOde {
   void set_end_limits();
   /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
   MergedWeights renew_weights(ChainState<D>& chain, std::size_t which, double t) const;
+  /// Material coordinate of a joint on the beam: an event will find a guided one where it is to be, not where
+  /// integration has it [m].
+  double mark_at(std::size_t which, const Eigen::VectorXd& y, double t) const {
+    const auto guide = guided(which, t);
+    return guide ? guide->value : y[places_[which].mark];
+  }
+  void add_feed_guards(std::size_t which, const Eigen::VectorXd& y, double t, Guards& guards) const;
+  /// Throws ComputationFailed: joint `which` is as near the next one as joints come.
+  [[noreturn]] void joints_met(std::size_t which, double t) const;
   /// What is due where a guard is positive.
   struct Due {
     EventType type;
@@ -380,7 +397,11 @@ class BeamSystem final : public EventedOde {
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
   typename RampWork<D>::Moment moment(const Eigen::VectorXd& y, double t) const {
     const Observation<D> seen = observe(y, t, model_.quadrature_points);
-    return {seen.mass_moment, seen.momentum};
+    return {seen.mass_moment, moment_rate(seen, y)};
+  }
+  /// Rate of the first moment of mass: the momentum, and what is fed into the beam.
+  Vector moment_rate(const Observation<D>& seen, const Eigen::VectorXd& y) const {
+    return seen.momentum + model_.section.rhoA * view(y.data(), y.data() + coordinates_).inflow();
   }
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;

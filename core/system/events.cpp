@@ -13,7 +13,8 @@ constexpr double restored_energy = 1e-9;   // of the energies there are
 constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
 constexpr double clearance = 1e-11;        // of L_std: by which a mass leaves a support, so that the guard is negative
 constexpr double least_bounce = 1e-9;      // of L_std: a lower one is the last
-constexpr double meeting_distance = 0.1;   // of L_std: joints this near each other have met; all_due() says so
+constexpr double meeting_distance = 0.1;   // of L_std: joints this near each other have met; joints_met() says so
+constexpr double least_left = 0.1;         // of L_std: an element of a feed that cannot be merged; all_due() says so
 constexpr double same_instant = 1e-9;      // of L_std: what is this near is due at once
 constexpr double merge_slack = 1e-6;       // of the length below which is merged: a cut comes first
 
@@ -31,6 +32,7 @@ enum class Kind {
   merge_ahead,
   merge_behind,
   meeting,
+  used_up,
   pass_forward,
   pass_backward
 };
@@ -56,19 +58,18 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
   const auto& control = model_.length_control;
   const double unit = control.standard_length;
   const bool several = places_.size() > 1;
-  // an event will find a guided joint where it is to be, not where integration has it
-  const auto place_of = [&](std::size_t i) {
-    const auto guide = guided(i, t);
-    return guide ? guide->value : y[places_[i].mark];
-  };
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const int part = static_cast<int>(i), node = places_[i].node;
     const auto add = [&](Kind kind, double value) { guards.push_back({number(kind), part, value}); };
+    if (feeds(i)) {
+      add_feed_guards(i, y, t, guards);
+      continue;
+    }
     const bool to_end = node + 1 == mesh_.last(), to_start = node == 1;
     const bool joint_ahead = at_joint(node + 1), joint_behind = at_joint(node - 1);
-    const double x = place_of(i);
-    const double low = joint_behind ? place_of(i - 1) : mark_of(node - 1, y.data());
-    const double high = joint_ahead ? place_of(i + 1) : mark_of(node + 1, y.data());
+    const double x = mark_at(i, y, t);
+    const double low = joint_behind ? mark_at(i - 1, y, t) : mark_of(node - 1, y.data());
+    const double high = joint_ahead ? mark_at(i + 1, y, t) : mark_of(node + 1, y.data());
     const double behind = x - low, ahead = high - x;
     if (control.enabled) {
       if (!to_end) add(Kind::forward, (behind - control.trigger_length()) / unit);
@@ -100,6 +101,45 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
   return guards;
 }
 
+/// The element there is cut and merged as those at a joint are, but for the other side.
+template <int D>
+void BeamSystem<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y, double t, Guards& guards) const {
+  const auto& control = model_.length_control;
+  const bool at_start = places_[which].node == 0;
+  const int next = at_start ? 1 : mesh_.last() - 1;
+  const bool joint_next = at_joint(next);
+  const double x = mark_at(which, y, t);
+  const double x_next = joint_next ? mark_at(at_start ? which + 1 : which - 1, y, t) : mark_of(next, y.data());
+  const double unit = control.standard_length, length = at_start ? x_next - x : x - x_next;
+  const auto add = [&](Kind kind, double value) { guards.push_back({number(kind), static_cast<int>(which), value}); };
+  if (control.enabled) add(at_start ? Kind::backward : Kind::forward, (length - control.trigger_length()) / unit);
+  if (model_.transport == WeightTransport::transported) {
+    const WeightFunction& weights = mesh_.weights[at_start ? 0 : mesh_.weights.size() - 1];
+    add(Kind::weights, lost_weight(at_start ? weights.on(x, x_next) : weights.on(x_next, x)));
+  }
+  if (joint_next) {
+    if (at_start) add(Kind::meeting, meeting_distance - length / unit);
+  } else if (next != 0 && next != mesh_.last() && control.enabled) {
+    add(at_start ? Kind::merge_ahead : Kind::merge_behind,
+        (control.merge_length() * (1 - merge_slack) - length) / unit);
+  } else {
+    add(Kind::used_up, least_left - length / unit);
+  }
+}
+
+template <int D>
+void BeamSystem<D>::joints_met(std::size_t which, double t) const {
+  const auto name = [&](std::size_t i) {
+    if (feeds(i)) return std::string("the feed at the beam's ") + (places_[i].node == 0 ? "start" : "end");
+    return "the sliding joint " + std::to_string(index_[i]);
+  };
+  const bool feed = feeds(which) || feeds(which + 1);
+  const std::string met =
+      feed ? name(which) + " and " + name(which + 1)
+           : "the sliding joints " + std::to_string(index_[which]) + " and " + std::to_string(index_[which + 1]);
+  throw ComputationFailed(met + " met: they are as near each other as a tenth of a standard element", t);
+}
+
 template <int D>
 Guards BeamSystem<D>::rider_guards(const Eigen::VectorXd& y, double t) const {
   const bool at_end = rider_->at_end();
@@ -122,10 +162,10 @@ Remeshing BeamSystem<D>::wanted(std::size_t which, Direction direction, const Ei
   const bool forward = direction == Direction::forward;
   const int node = places_[which].node, far = forward ? node - 1 : node + 1, next = forward ? node + 1 : node - 1;
   const double x = y[places_[which].mark];
-  const double behind = std::abs(x - mark_of(far, y.data())), ahead = std::abs(mark_of(next, y.data()) - x);
-  const bool may_merge = next != 0 && next != mesh_.last() && !at_joint(next);
-  return {behind > control.trigger_length() - same_instant * control.standard_length,
-          may_merge && ahead < control.merge_length() * (1 + merge_slack)};
+  const auto reach = [&](int to) { return std::abs(mark_of(to, y.data()) - x); };
+  const bool may_cut = far >= 0 && far <= mesh_.last(), may_merge = next > 0 && next < mesh_.last() && !at_joint(next);
+  return {may_cut && reach(far) > control.trigger_length() - same_instant * control.standard_length,
+          may_merge && reach(next) < control.merge_length() * (1 + merge_slack)};
 }
 
 template <int D>
@@ -156,6 +196,7 @@ typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::
     case Kind::pass_backward:
       return {EventType::passage, direction, which, {}};
     case Kind::meeting:
+    case Kind::used_up:
     case Kind::end:
     case Kind::start:
       break;
@@ -168,10 +209,14 @@ template <int D>
 std::vector<typename BeamSystem<D>::Due> BeamSystem<D>::all_due(int index, const Eigen::VectorXd& y, double t) const {
   const Guards now = guards(y, t);
   const Guard& first = now[static_cast<std::size_t>(index)];
-  if (static_cast<Kind>(first.kind) == Kind::meeting) {
-    throw ComputationFailed("the sliding joints " + std::to_string(index_[static_cast<std::size_t>(first.part)]) +
-                                " and " + std::to_string(index_[static_cast<std::size_t>(first.part) + 1]) +
-                                " met: they are as near each other as a tenth of a standard element",
+  if (static_cast<Kind>(first.kind) == Kind::meeting) joints_met(static_cast<std::size_t>(first.part), t);
+  if (static_cast<Kind>(first.kind) == Kind::used_up) {
+    const bool at_start = places_[static_cast<std::size_t>(first.part)].node == 0;
+    throw ComputationFailed(std::string("the feed at the beam's ") + (at_start ? "start" : "end") +
+                                " has drawn in what there was: its element is shorter than a tenth of a standard one, "
+                                "and " +
+                                (model_.length_control.enabled ? "there is no other to merge it with"
+                                                               : "without length control it is not merged"),
                             t);
   }
   const auto remeshes = [](int kind) {
@@ -217,6 +262,7 @@ MergedWeights BeamSystem<D>::renew_weights(ChainState<D>& chain, std::size_t whi
   const int node = places_[which].node;
   MergedWeights renewed;
   for (const int k : {node - 1, node}) {
+    if (k < 0 || k == chain.mesh.elements()) continue;
     const auto i = static_cast<std::size_t>(k);
     const auto& x = chain.mesh.x;
     if (lost_weight(chain.mesh.weights[i].on(x[i], x[i + 1])) < -0.5 * smallest_weight) continue;
@@ -433,6 +479,8 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
 }
 
 template Guards BeamSystem<2>::guards(const Eigen::VectorXd&, double) const;
+template void BeamSystem<2>::add_feed_guards(std::size_t, const Eigen::VectorXd&, double, Guards&) const;
+template void BeamSystem<2>::joints_met(std::size_t, double) const;
 template Guards BeamSystem<2>::rider_guards(const Eigen::VectorXd&, double) const;
 template Remeshing BeamSystem<2>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
 template BeamSystem<2>::Due BeamSystem<2>::due(const Guard&, const Eigen::VectorXd&) const;
@@ -445,6 +493,8 @@ template MergedWeights BeamSystem<2>::change(const Due&, ChainState<2>&, Eigen::
 template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template Guards BeamSystem<3>::guards(const Eigen::VectorXd&, double) const;
+template void BeamSystem<3>::add_feed_guards(std::size_t, const Eigen::VectorXd&, double, Guards&) const;
+template void BeamSystem<3>::joints_met(std::size_t, double) const;
 template Guards BeamSystem<3>::rider_guards(const Eigen::VectorXd&, double) const;
 template Remeshing BeamSystem<3>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
 template BeamSystem<3>::Due BeamSystem<3>::due(const Guard&, const Eigen::VectorXd&) const;

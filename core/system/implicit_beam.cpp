@@ -56,7 +56,7 @@ void ImplicitBeam<D>::rebuild() const {
   places_ = system_.places();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     places_[i].behind = -1;
-    places_[i].cut = with_multipliers() || system_.kinked(i);
+    places_[i].cut = (with_multipliers() && !system_.feeds(i)) || system_.kinked(i);
   }
   for (std::size_t i = 0; i < places_.size(); ++i) places_[i].mark = after_nodes() + static_cast<Eigen::Index>(i);
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
@@ -76,6 +76,7 @@ void ImplicitBeam<D>::rebuild() const {
     }
   });
   for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!places_[i].cut) continue;
     for (int c = 0; c < (system_.kinked(i) ? D : B); ++c) {
       constraints_.push_back({first_copy(i), NodeVector::Unit(c), NodeVector::Zero(), -1, true});
     }
@@ -436,6 +437,7 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   if (loads.present()) {
     free_.setZero(q.size());
     power.loads = loads.add_forces(view(q, v), t, free_.data()) + system_.line_power(view(q, v), t);
+    power.supports += system_.fed_line_power(view(q, v), t);
   }
   if (Spin* spin = system_.spin(); spin != nullptr && spin->model().supplied()) {
     const Eigen::Index at = after_nodes();
@@ -519,7 +521,7 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     }
   };
   const ChainView<D> beam = view(q, v), accelerations = view(q, a);
-  for (std::size_t i = 0; i < places().size(); ++i) tangent_.add_border(first_copy(i) - 1);
+  for (std::size_t i = 0; i < places().size(); ++i) tangent_.add_border(std::max(0, first_copy(i) - 1));
   auto law = system_.moving_law(t);
   for (const MovingPart& part : system_.moving_parts()) {
     const auto rest = system_.rest_of(part, q.data(), places());

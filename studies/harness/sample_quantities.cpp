@@ -100,9 +100,11 @@ void add_energy(Quantities& q, const Scene& scene) {
   energy("gravity", "potential energy of gravity as it is then", [](const Sample& s) { return s.energy.gravity; });
   energy("dissipated", "taken by damping and friction since t = 0",
          [](const Sample& s) { return s.energy.dissipated; });
-  if (scene.start.motion || scene.end.motion || guided(scene) || scene.gravity_ramp > 0) {
-    energy("supplied", "work since t = 0 of supports that move, of guides, and of gravity while it grows",
-           [](const Sample& s) { return s.energy.supplied; });
+  if (scene.start.motion || scene.end.motion || guided(scene) || fed(scene) || scene.gravity_ramp > 0) {
+    energy(
+        "supplied",
+        "work since t = 0 of supports that move, of guides and of gravity while it grows, and what is fed in with it",
+        [](const Sample& s) { return s.energy.supplied; });
   }
   energy("total", "sum of these but `supplied`; total - supplied is what is conserved",
          [](const Sample& s) { return s.energy.total(); });
