@@ -47,6 +47,31 @@ def torsion():
     return wave_at_free_end(f, mp.sqrt(shear / material["density"]), mp.mpf(1), given["duration"])
 
 
+def winch():
+    """Where a pendulum is whose length l(t) is given: l a'' + 2 l' a' + g sin a = 0. Gravity and winch start smoothly."""
+    given = scene("winch")
+    feed, growth = given["supports"][0]["feed"], given["gravity_ramp"]
+    speed, start = mp.mpf(str(feed["rate"])), mp.mpf(str(feed["ramp"]))
+    (x, y), ramp = given["beam"]["curve"]["end"], mp.mpf(str(growth))
+    step_rate = lambda s: 140 * (s * (1 - s)) ** 3
+
+    def swing(begin, until, state, gravity, length):
+        def rates(t, at):
+            l, change = length(t)
+            return [at[1], -(2 * change * at[1] + gravity(t) * mp.sin(at[0])) / l]
+        return mp.odefun(rates, begin, state, tol=mp.mpf(10) ** -14)(until)
+
+    whole = mp.hypot(x, y)
+    starting = lambda t: (whole + speed * t * smooth_step(t / start),
+                          speed * smooth_step(t / start) + speed * t * step_rate(t / start) / start)
+    running = lambda t: (whole + speed * t, speed)
+    g = -mp.mpf(str(given["gravity"][1]))
+    state = swing(0, ramp, [mp.asin(x / whole), mp.mpf(0)], lambda t: g * smooth_step(t / ramp), starting)
+    state = swing(ramp, start, state, lambda t: g, starting)
+    state = swing(start, given["duration"], state, lambda t: g, running)
+    return running(given["duration"])[0] * mp.sin(state[0])
+
+
 def hanging_cable():
     """EA (lambda^3 - lambda)/2 = rhoA g (L - s), the stretch of Green's law under the weight below."""
     section = scene("hanging_cable")["beam"]["section"]
@@ -147,6 +172,9 @@ answer("rod_through_sleeve", "joint_position", 2 - mp.mpf(str(rolled["sleeve"]["
 end, turn = mp.matrix([-0.2, 1.6]), mp.atan2(1.6, -0.2)  # where the cable is drawn to, and by what it turns in the ring
 answer("capstan", "reaction_end_y", 10 * mp.exp(0.3 * turn) * end[1] / mp.norm(end), 1e-3, "exact",
        "tensions in the ratio e^(mu phi) of a cable without mass; the scene's of 1e-4 kg/m leaves some 1e-4 N", 2)
+
+answer("winch", "end.x", winch(), 2e-4, "exact",
+       "pendulum of given length; the scene's cable has 1e-4 of the weight's mass and stretches by as much", 3)
 
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (

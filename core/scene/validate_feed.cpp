@@ -68,7 +68,6 @@ void check_end(const Scene& scene, const std::string& support, const SupportSpec
   if (end.type != SupportType::clamp && end.type != SupportType::pin) {
     refuse(support + "/type", quoted(end.type), "beam is fed through a \"clamp\" or a \"pin\"");
   }
-  if (end.motion) refuse(support + "/motion", "this key", "what feeds the beam does not move: leave one of them out");
   check_parts(scene, at);
   const double rate = feed_rate(end),
                largest = std::abs(end.feed->rate) + std::abs(end.feed->amplitude * end.feed->frequency);

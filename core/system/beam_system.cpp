@@ -685,7 +685,7 @@ double BeamSystem<D>::line_power(const ChainView<D>& beam, double t) const {
         model_.transport == WeightTransport::transported && beam.weights(part.element).w != unit_weights;
     sum += swept(beam.kinematics(part.element), part.table, reshaped, model_.formulation);
   }
-  return model_.loads.line_force(t).dot(sum);
+  return model_.loads.line_force(t).dot(sum - beam.inflow());  // what comes in is not moved by it
 }
 
 template <int D>

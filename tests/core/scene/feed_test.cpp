@@ -17,8 +17,8 @@ Scene paid_out(ElementKind element = ElementKind::ale_ancf) {
   scene.gravity = {0, -9.81, 0};
   scene.beam.element = element;
   scene.beam.elements = 5;
-  scene.beam.curve.start = {0, 0, 0};
-  scene.beam.curve.end = {0.6, -0.8, 0};
+  scene.beam.curve.start = {0.5, 2, 0};
+  scene.beam.curve.end = {1.1, 1.2, 0};
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 500, .EI = 0.01, .rhoA = 0.1};
   scene.start.type = SupportType::pin;
   scene.start.feed = TimeSpec{.rate = 1, .ramp = 0.1};
@@ -63,6 +63,7 @@ TEST(Feed, BringsTheEnergyThatIsThen) {
       if (parts == 2) scene.sliding_joints.push_back(bead(0.3));
       if (parts == 3) {
         scene.gravity_ramp = 0.2;
+        scene.start.motion = {.direction = {1, 0.5, 0}, .displacement = {.rate = 1, .ramp = 0.2}};
         scene.drag.emplace().linear = {.normal = 0.1, .tangential = 0.05};
         scene.point_masses = {{.node = 3, .mass = 0.1}};
         scene.loads = {
@@ -70,7 +71,7 @@ TEST(Feed, BringsTheEnergyThatIsThen) {
       }
       const RunResult run = test::completed(scene);
       EXPECT_GE(count(run, EventType::segmentation), 1);
-      EXPECT_LT(run.samples.back().energy.supplied, -0.02);
+      EXPECT_GT(std::abs(run.samples.back().energy.supplied), 0.1);
       EXPECT_LT(run.max_energy_drift, 1e-9 * run.max_kinetic) << parts;
       if (parts == 2) continue;
       EXPECT_LT(test::completed(turned_round(scene)).max_energy_drift, 1e-9 * run.max_kinetic) << parts;
@@ -102,7 +103,7 @@ TEST(Feed, IsOneSideOfAGuidedRing) {
     one.length_control.lower = 0.3;
     Scene two = one;
     two.start = {};
-    two.beam.curve.start = {-0.6, 0.8, 0};
+    two.beam.curve.start = {-0.1, 2.8, 0};
     two.beam.elements = 10;
     SlidingJointSpec& ring = two.sliding_joints.emplace_back();
     ring.support = SupportType::pin;
@@ -166,6 +167,7 @@ TEST(Feed, IsTheSameWithEveryIntegrator) {
 TEST(Feed, LetsARodDownByItsWeight) {
   constexpr double rhoA = 0.1, g = 9.81, acceleration = 2, ramp = 0.2;
   Scene scene = paid_out();
+  scene.beam.curve.start = {0, 0, 0};
   scene.beam.curve.end = {0, -1, 0};
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e6, .EI = 1, .rhoA = rhoA};
   scene.initial_shape = InitialShape::equilibrium;
@@ -189,6 +191,7 @@ TEST(Feed, LetsARodDownByItsWeight) {
 TEST(Feed, TakesABeamThatMoves) {
   Scene scene = paid_out(ElementKind::ale_rancf);
   scene.dimension = 3;
+  scene.beam.curve.start = {0, 0, 0};
   scene.beam.curve.end = {0.48, 0.64, 0.6};
   scene.gravity = {};
   scene.start = {SupportType::clamp, ClampType::direction};
@@ -230,10 +233,6 @@ TEST(Feed, IsRefusedWhereItCannotBe) {
   };
   EXPECT_EQ(refused([](Scene& s) { s.start.type = SupportType::free; }), "/supports/at=start/type");
   EXPECT_EQ(refused([](Scene& s) { s.start.type = SupportType::slide; }), "/supports/at=start/type");
-  EXPECT_EQ(refused([](Scene& s) {
-              s.start.motion = {.direction = {1, 0, 0}, .displacement = {.rate = 1, .ramp = 1}};
-            }),
-            "/supports/at=start/motion");
   EXPECT_EQ(refused([](Scene& s) { s.start.feed->ramp = 0; }), "/supports/at=start/feed");
   EXPECT_EQ(refused([](Scene& s) { s.start.feed->rate = -4; }), "/supports/at=start/feed");
   EXPECT_EQ(refused([](Scene& s) { s.start.feed->rate = 1e9; }), "/supports/at=start/feed");

@@ -78,6 +78,11 @@ const std::vector<Feature>& features() {
          guided.mass = 0.3;
          guided.x = TimeSpec{.rate = 0.5, .amplitude = 0.01, .frequency = 20};
        }},
+      {"feed",
+       [](Scene& s) {
+         if (s.start.type == SupportType::free) s.start.type = SupportType::pin;
+         s.start.feed = TimeSpec{.acceleration = 50, .amplitude = 0.02, .frequency = 20, .phase_degrees = 90};
+       }},
       {"two slopes at the joint", [](Scene& s) { joint_that_is_there(s).slopes = JointSlopes::equal_stretch; }, true},
       {"friction at the joint",
        [](Scene& s) {
