@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes reference/scenes.json: what the numbers of scenes/*.json should be, by closed forms, by independent programs, or
-judged by their own convergence. Needs mpmath.
+judged by their own convergence; and reference/winch.json, the path of the weight in scenes/winch.json. Needs mpmath.
 
     scenes.py
 """
@@ -48,7 +48,7 @@ def torsion():
 
 
 def winch():
-    """Where a pendulum is whose length l(t) is given: l a'' + 2 l' a' + g sin a = 0. Gravity and winch start smoothly."""
+    """Path of a pendulum whose length l(t) is given: l a'' + 2 l' a' + g sin a = 0. Gravity and winch start smoothly."""
     given = scene("winch")
     feed, growth = given["supports"][0]["feed"], given["gravity_ramp"]
     speed, start = mp.mpf(str(feed["rate"])), mp.mpf(str(feed["ramp"]))
@@ -59,17 +59,19 @@ def winch():
         def rates(t, at):
             l, change = length(t)
             return [at[1], -(2 * change * at[1] + gravity(t) * mp.sin(at[0])) / l]
-        return mp.odefun(rates, begin, state, tol=mp.mpf(10) ** -14)(until)
+        return [mp.odefun(rates, begin, state, tol=mp.mpf(10) ** -14)(t) for t in until]
 
     whole = mp.hypot(x, y)
     starting = lambda t: (whole + speed * t * smooth_step(t / start),
                           speed * smooth_step(t / start) + speed * t * step_rate(t / start) / start)
     running = lambda t: (whole + speed * t, speed)
     g = -mp.mpf(str(given["gravity"][1]))
-    state = swing(0, ramp, [mp.asin(x / whole), mp.mpf(0)], lambda t: g * smooth_step(t / ramp), starting)
-    state = swing(ramp, start, state, lambda t: g, starting)
-    state = swing(start, given["duration"], state, lambda t: g, running)
-    return running(given["duration"])[0] * mp.sin(state[0])
+    state, = swing(0, [ramp], [mp.asin(x / whole), mp.mpf(0)], lambda t: g * smooth_step(t / ramp), starting)
+    state, = swing(ramp, [start], state, lambda t: g, starting)
+    times = [start + (given["duration"] - start) * k / 20 for k in range(21)]
+    states = swing(start, times, state, lambda t: g, running)
+    return [{"t": float(t), "x": float(running(t)[0] * mp.sin(angle)), "y": float(-running(t)[0] * mp.cos(angle))}
+            for t, (angle, _) in zip(times, states)]
 
 
 def hanging_cable():
@@ -173,7 +175,8 @@ end, turn = mp.matrix([-0.2, 1.6]), mp.atan2(1.6, -0.2)  # where the cable is dr
 answer("capstan", "reaction_end_y", 10 * mp.exp(0.3 * turn) * end[1] / mp.norm(end), 1e-3, "exact",
        "tensions in the ratio e^(mu phi) of a cable without mass; the scene's of 1e-4 kg/m leaves some 1e-4 N", 2)
 
-answer("winch", "end.x", winch(), 2e-4, "exact",
+path = winch()
+answer("winch", "end.x", path[-1]["x"], 2e-4, "exact",
        "pendulum of given length; the scene's cable has 1e-4 of the weight's mass and stretches by as much", 3)
 
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
@@ -190,4 +193,9 @@ for name, quantity, value, uncertainty, t in (
 
 with open(os.path.join(here, "scenes.json"), "w") as file:
     json.dump({"source": "reference/scenes.py, which names the source of each", "answers": answers}, file, indent=1)
+    file.write("\n")
+
+with open(os.path.join(here, "winch.json"), "w") as file:
+    json.dump({"source": "reference/scenes.py, winch(): pendulum of given length, integrated to 1e-14",
+               "units": {"t": "s", "x": "m", "y": "m"}, "path": path}, file, indent=1)
     file.write("\n")

@@ -27,7 +27,8 @@ class Report {
       : context_(context),
         root_(context.folder.parent_path().parent_path()),
         statics_(parse_json(read_text(root_ / "reference" / "joints.json"))),
-        bridge_(parse_json(read_text(root_ / "reference" / "bridge.json"))) {}
+        bridge_(parse_json(read_text(root_ / "reference" / "bridge.json"))),
+        hoisted_(parse_json(read_text(root_ / "reference" / "winch.json")).at("path")) {}
 
   StudyReport operator()() {
     sleeves();
@@ -38,12 +39,16 @@ class Report {
     trolleys();
     driven_mass();
     guided_bead();
+    rod_let_down();
+    hoisted_weight();
+    fed_under_a_bead();
     report_.tables.push_back(std::move(errors_));
     const GnuplotVariables variables{{"folder", context_.folder.string()}};
     report_.figures = {{"sleeve", "A rod that leaves a sleeve and bears a weight, in balance", "sleeve.gp", variables},
                        {"errors", "Error of the equilibria against the number of elements", "errors.gp", variables},
                        {"trolleys", "Two trolleys on a rope", "trolleys.gp", variables},
-                       {"bridge", "A mass that is driven over a bridge, and its modes", "bridge.gp", variables}};
+                       {"bridge", "A mass that is driven over a bridge, and its modes", "bridge.gp", variables},
+                       {"winch", "A weight that a winch hoists while it swings", "winch.gp", variables}};
     return std::move(report_);
   }
 
@@ -300,9 +305,86 @@ class Report {
     report_.measured["evenly_guided_force"] = mean(0);
   }
 
+  /// At constant speed, after a start from rest: an inextensible rod hangs at the length that is out, by its weight.
+  /// The reaction gives what comes out its momentum.
+  void rod_let_down() {
+    constexpr double rhoA = 0.1, gravity = 9.81, speed = 1, length = 1;
+    std::vector<double> places, forces;
+    for (const double EA : levels("stiffnesses")) {
+      Scene scene;
+      scene.gravity = {0, -gravity, 0};
+      scene.beam.element = ElementKind::ale_ancf;
+      scene.beam.elements = 8;
+      scene.beam.curve.end = {0, -length, 0};
+      scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = 0.01, .rhoA = rhoA};
+      scene.start.type = SupportType::pin;
+      scene.start.feed = TimeSpec{.rate = speed, .ramp = 0.5};
+      scene.initial_shape = InitialShape::equilibrium;
+      scene.integrator = {};
+      scene.integrator.type = IntegratorType::generalized_alpha;
+      scene.integrator.step = 2e-4;
+      scene.duration = 2;
+      scene.output.interval = 0.01;
+      double place = 0, force = 0;
+      for (const Sample& sample : StudyContext::simulate_to_the_end(scene).samples) {
+        if (sample.t < 1) continue;
+        const double out = length + speed * sample.t, expected = rhoA * (gravity * out - speed * speed);
+        place = std::max(place, std::abs(sample.end[1] + out) / out);
+        force = std::max(force, std::abs(sample.reactions[0].position[1] / expected - 1));
+      }
+      places.push_back(place);
+      forces.push_back(force);
+    }
+    add("winch_place", "EA", levels("stiffnesses"), places, 1e-12);
+    report_.measured["winch_force_error"] = forces.back();
+  }
+
+  void hoisted_weight() {
+    Scene scene = library("winch");
+    scene.output.interval = 0.025;
+    Table path{.name = "winch",
+               .caption = "Path of a weight that a winch hoists while it swings [m]",
+               .columns = {"t", "X", "Y"},
+               .curve = true};
+    Table pendulum{.name = "winch_pendulum",
+                   .caption = "The same of a point on an inextensible cable without mass [m]",
+                   .columns = {"t", "X", "Y"}};
+    const RunResult result = StudyContext::simulate_to_the_end(scene);
+    for (const Sample& sample : result.samples) path.rows.push_back({sample.t, sample.end[0], sample.end[1]});
+    double worst = 0;
+    for (const auto& at : hoisted_) {
+      const double t = at.at("t"), x = at.at("x"), y = at.at("y");
+      const auto sample =
+          std::ranges::min_element(result.samples, {}, [t](const Sample& s) { return std::abs(s.t - t); });
+      worst = std::max(worst, distance(sample->end, {x, y, 0}));
+      pendulum.rows.push_back({t, x, y});
+    }
+    report_.measured["hoisted_error"] = worst;
+    report_.measured["hoisted_events"] = static_cast<int>(result.events.size());
+    report_.tables.push_back(std::move(path));
+    report_.tables.push_back(std::move(pendulum));
+  }
+
+  /// A bead slides down a cable that is paid out askew, by a pin that moves.
+  void fed_under_a_bead() {
+    double worst = 0;
+    for (const ElementKind element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
+      Scene scene = rope({{0.3, 0.05, 0.5}});
+      scene.beam.element = element;
+      scene.end = {};
+      scene.start.feed = TimeSpec{.rate = 1, .ramp = 0.1};
+      scene.start.motion = {.direction = {0, 1, 0}, .displacement = {.rate = 0.5, .ramp = 0.2}};
+      explicitly(scene, 1e-12);
+      scene.duration = 0.4;
+      const RunResult result = StudyContext::simulate_to_the_end(scene);
+      worst = std::max(worst, result.max_energy_drift / result.max_kinetic);
+    }
+    report_.measured["fed_ledger"] = worst;
+  }
+
   const StudyContext& context_;
   std::filesystem::path root_;
-  Json statics_, bridge_;
+  Json statics_, bridge_, hoisted_;
   StudyReport report_;
   Table errors_{
       .name = "errors",
