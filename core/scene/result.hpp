@@ -132,7 +132,7 @@ struct Configuration {
 struct Event {
   double t = 0;
   EventType type = EventType::segment_merge;
-  int joint = 0;  ///< which of the scene's
+  int joint = 0;  ///< which of the scene's joints; the ends that feed the beam come behind them
   double joint_position = 0;
   std::array<double, 3> weights{1, 1, 1};  ///< k_0, k_1, k_2 of the merged element (k_3 = 1)
   bool unit_fallback = false;              ///< a k_i <= 0 was found and unit weights taken instead (Eq. 38)

@@ -319,15 +319,16 @@ void check_held_joint(const Scene& scene, std::size_t which) {
 /// A guide may lead off a free end, but not into a support.
 void check_way(const Scene& scene, const SlidingJointSpec& joint, const std::string& at) {
   const TimeFunction way = time_function(*joint.x);
-  const double length = beam_length(scene);
+  const auto ends = beam_ends(scene);
   for (int i = 0; i <= samples_of_a_way; ++i) {
     const double t = scene.duration * i / samples_of_a_way, x = joint.position + way(t).value;
-    const bool beyond_start = x <= 0, beyond_end = x >= length;
+    const auto [first, last] = ends(t);
+    const bool beyond_start = x <= first, beyond_end = x >= last;
     if (!beyond_start && !beyond_end) continue;
     if ((beyond_start ? scene.start : scene.end).type == SupportType::free) return;
     refuse(at, "a material coordinate of " + number_text(x) + " m at t = " + number_text(t) + " s",
-           "the beam's " + std::string(beyond_start ? "start, 0 m," : "end, " + number_text(length) + " m,") +
-               " is held: the joint must not reach it within /duration");
+           "the beam's " + std::string(beyond_start ? "start, " : "end, ") + number_text(beyond_start ? first : last) +
+               " m, is held: the joint must not reach it within /duration");
   }
 }
 

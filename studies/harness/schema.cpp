@@ -439,19 +439,20 @@ Json run_schema() {
        {"bending", described(nullable_number, "of the strain energy of bending", "J")},
        {"gravity", described(nullable_number, "of the potential energy", "J")},
        {"discrete_total", described(nullable_number, "of the total, by the model's own quadrature points", "J")}});
-  const Json event =
-      record({{"t", described(number, "time", "s")},
-              {"type", described(choice_of<EventType>(), "what happened to the mesh")},
-              {"joint", described(whole, "which of the scene's sliding joints, from 0", "-")},
-              {"joint_position", described(number, "its material coordinate", "m")},
-              {"weights", described(array_of(number), "k_0, k_1, k_2 of the merged element, over the last", "-")},
-              {"unit_fallback", described(flag, "whether the fit found a weight <= 0 and unit weights were taken")},
-              {"energy_jumps", described(jumps, "after minus before, by a 25-point rule")},
-              {"momentum_jumps", described(array_of(number),
-                                           "linear [kg m/s], then angular about the origin [kg m^2/s]; none "
-                                           "where the mass leaves")},
-              {"energy_restored",
-               described(flag, "false where velocities are conservative and yet the total energy changed")}});
+  const Json event = record(
+      {{"t", described(number, "time", "s")},
+       {"type", described(choice_of<EventType>(), "what happened to the mesh")},
+       {"joint",
+        described(whole, "which of the scene's sliding joints, from 0; behind them the ends that feed the beam", "-")},
+       {"joint_position", described(number, "its material coordinate", "m")},
+       {"weights", described(array_of(number), "k_0, k_1, k_2 of the merged element, over the last", "-")},
+       {"unit_fallback", described(flag, "whether the fit found a weight <= 0 and unit weights were taken")},
+       {"energy_jumps", described(jumps, "after minus before, by a 25-point rule")},
+       {"momentum_jumps", described(array_of(number),
+                                    "linear [kg m/s], then angular about the origin [kg m^2/s]; none "
+                                    "where the mass leaves")},
+       {"energy_restored",
+        described(flag, "false where velocities are conservative and yet the total energy changed")}});
   const auto residual = [](const std::string& of, const char* position, const char* velocity) {
     return described(record({{"position", described(number, "largest", position)},
                              {"velocity", described(number, "largest of its rate", velocity)}}),

@@ -216,13 +216,25 @@ TEST(Feed, EndsWhereNoElementIsLeft) {
   EXPECT_EQ(alone.status, RunStatus::failed);
   EXPECT_NE(alone.failure.find("the feed at the beam's start has drawn in what there was"), std::string::npos)
       << alone.failure;
+  scene.gravity = {};
+  scene.start.feed->rate = -0.1;
   scene.sliding_joints = {bead(0.5)};
-  scene.sliding_joints.front().support = SupportType::pin;
-  scene.sliding_joints.front().x = TimeSpec{.value = 0};
+  scene.sliding_joints.front().velocity = -2;
   const RunResult met = simulate(scene);
   EXPECT_EQ(met.status, RunStatus::failed);
   EXPECT_NE(met.failure.find("the feed at the beam's start and the sliding joint 0 met"), std::string::npos)
       << met.failure;
+}
+
+TEST(Feed, LetsAGuidedJointGoWhereBeamHasComeIn) {
+  Scene scene = paid_out();
+  scene.sliding_joints = {bead(0.15)};
+  scene.sliding_joints.front().x = TimeSpec{.rate = -0.8, .ramp = 0.1};
+  const RunResult run = test::completed(scene);
+  EXPECT_LT(*run.samples.back().joint_position, 0);
+  EXPECT_LT(run.max_energy_drift, 1e-9 * run.max_kinetic);
+  scene.start.feed->rate = 0.1;
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/0/x");
 }
 
 TEST(Feed, IsRefusedWhereItCannotBe) {
