@@ -168,6 +168,12 @@ constexpr std::string_view to_string(E value) {
   return "?";
 }
 
+/// The name as a message writes what the scene says.
+template <NamedEnum E>
+std::string quoted(E value) {
+  return "\"" + std::string(to_string(value)) + "\"";
+}
+
 /// The choice called `name`, or nothing.
 template <NamedEnum E>
 constexpr std::optional<E> from_string(std::string_view name) {

@@ -228,8 +228,6 @@ void check_beam(const Scene& scene) {
   }
 }
 
-std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
-
 bool is_zero(const TimeSpec& f) { return f.value == 0 && f.rate == 0 && f.acceleration == 0 && f.amplitude == 0; }
 
 /// What the rate of a function of time may be at t = 0, but for its ramp: a cosine, of phase 90 degrees, has a rate of
@@ -252,8 +250,7 @@ void check_several_joints(const Scene& scene) {
                  number_text(joints[i - 1].position + apart) + " [m], by that of " + joint_key(scene, i - 1));
     }
     if (joints[i].at_support != AtSupport::stop) {
-      refuse(key + "/at_support", quoted(to_string(joints[i].at_support)),
-             "of one of several joints it must be \"stop\"");
+      refuse(key + "/at_support", quoted(joints[i].at_support), "of one of several joints it must be \"stop\"");
     }
   }
   if (scene.length_control.end_merge.value_or(0) > 0) {
@@ -261,8 +258,7 @@ void check_several_joints(const Scene& scene) {
            "with several joints each keeps its node: it must be 0");
   }
   if (scene.integrator.type == IntegratorType::energy_momentum) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
-           "it knows one sliding mass at most: take any other");
+    refuse("/integrator/type", quoted(scene.integrator.type), "it knows one sliding mass at most: take any other");
   }
   if (axis_form(scene) == AxisForm::exact && scene.beam.curve.type != CurveType::line) {
     refuse("/beam/axis", "\"exact\"", "with several joints it must be \"even\"");
@@ -273,7 +269,7 @@ void check_several_joints(const Scene& scene) {
 void check_held_joint(const Scene& scene, std::size_t which) {
   const std::string key = joint_key(scene, which);
   const SlidingJointSpec& joint = scene.sliding_joints[which];
-  const std::string support = quoted(to_string(joint.support));
+  const std::string support = quoted(joint.support);
   if (joint.support == SupportType::free) {
     if (!(joint.mass > 0) && !joint.x) {
       refuse(key + "/mass", number_text(joint.mass),
@@ -288,11 +284,11 @@ void check_held_joint(const Scene& scene, std::size_t which) {
     refuse(key + "/velocity", number_text(joint.velocity), "what is held starts at rest, with the beam in it");
   }
   if (joint.friction && joint.slopes == JointSlopes::equal_stretch) {
-    refuse(key + "/slopes", quoted(to_string(joint.slopes)),
+    refuse(key + "/slopes", quoted(joint.slopes),
            "friction makes the tensions differ on the two sides of what is held: take \"free\"");
   }
   if (joint.at_support != AtSupport::stop) {
-    refuse(key + "/at_support", quoted(to_string(joint.at_support)), "of a joint that is held it must be \"stop\"");
+    refuse(key + "/at_support", quoted(joint.at_support), "of a joint that is held it must be \"stop\"");
   }
   if (scene.length_control.end_merge.value_or(0) > 0) {
     refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
@@ -302,13 +298,12 @@ void check_held_joint(const Scene& scene, std::size_t which) {
     refuse("/length_control/velocities", "\"conservative\"", "with a joint that is held take \"projected\"");
   }
   if (scene.integrator.type == IntegratorType::energy_momentum) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
-           "it knows no joint that is held: take any other");
+    refuse("/integrator/type", quoted(scene.integrator.type), "it knows no joint that is held: take any other");
   }
   if (joint.support == SupportType::pin) return;
   const bool tangent = scene.analysis == Analysis::statics && joint.slopes == JointSlopes::tangent;
   if (joint.slopes != JointSlopes::continuous && !tangent) {
-    refuse(key + "/slopes", quoted(to_string(joint.slopes)),
+    refuse(key + "/slopes", quoted(joint.slopes),
            "in a sleeve they must be \"continuous\", or in statics \"tangent\", which they are there");
   }
   if (merge_policy(scene) == MergePolicy::least_change) {
@@ -352,7 +347,7 @@ void check_guided_joint(const Scene& scene, std::size_t which) {
       refuse(at, "this key", "of a joint that is held it does not go together with /initial_velocity");
   }
   if (joint.at_support != AtSupport::stop) {
-    refuse(key + "/at_support", quoted(to_string(joint.at_support)), "of a joint that is guided it must be \"stop\"");
+    refuse(key + "/at_support", quoted(joint.at_support), "of a joint that is guided it must be \"stop\"");
   }
   check_way(scene, joint, at);
   if (scene.length_control.end_merge.value_or(0) > 0) {
@@ -364,7 +359,7 @@ void check_guided_joint(const Scene& scene, std::size_t which) {
   }
   const IntegratorType type = scene.integrator.type;
   if (type == IntegratorType::energy_momentum || type == IntegratorType::ida) {
-    refuse("/integrator/type", quoted(to_string(type)), "it knows no joint that is guided: take any other");
+    refuse("/integrator/type", quoted(type), "it knows no joint that is guided: take any other");
   }
   if (scene.analysis == Analysis::statics) {
     refuse(at, "this key", "statics knows none: hold the joint with \"statics\": {\"joints\": \"held\"}");
@@ -375,7 +370,7 @@ void check_sliding_mass(const Scene& scene) {
   if (!sliding_joint(scene)) return;
   const double length = beam_length(scene);
   if (scene.beam.element == ElementKind::rancf || scene.beam.element == ElementKind::ancf) {
-    refuse("/beam/element", "\"" + std::string(to_string(scene.beam.element)) + "\"",
+    refuse("/beam/element", quoted(scene.beam.element),
            "a sliding mass needs an element of variable length: \"ALE-RANCF\" or \"ALE-ANCF\"");
   }
   const auto joints = sliding_joints(scene);
@@ -428,15 +423,15 @@ void check_length_control(const Scene& scene) {
   }
   if (own && is_polynomial(scene.beam.element)) {
     refuse("/length_control/merge", "\"own\"",
-           "weights are those of \"ale-rancf\": " + quoted(to_string(scene.beam.element)) + " has none");
+           "weights are those of \"ale-rancf\": " + quoted(scene.beam.element) + " has none");
   }
   if (control.merge_rule && !own) {
-    refuse("/length_control/merge", control.merge ? quoted(to_string(*control.merge)) : "left out",
+    refuse("/length_control/merge", control.merge ? quoted(*control.merge) : "left out",
            "with a merge rule it must be \"own\"");
   }
   if (sliding_joint(scene) && sliding_joint(scene)->at_support != AtSupport::stop && end_merge(scene) == 0) {
     refuse(control.enabled ? "/length_control/end_merge" : "/length_control/enabled", control.enabled ? "0" : "false",
-           "\"at_support\": " + quoted(to_string(sliding_joint(scene)->at_support)) +
+           "\"at_support\": " + quoted(sliding_joint(scene)->at_support) +
                " needs a mass that reaches the support: take " + (control.enabled ? "a number in (0, 0.9]" : "true") +
                ", or \"at_support\": \"stop\"");
   }
@@ -449,14 +444,14 @@ void check_joint(const Scene& scene, std::size_t which) {
   if (mass.slopes != JointSlopes::continuous) {
     const bool eliminated = scene.constraints == Constraints::eliminated;
     if (type == IntegratorType::generalized_alpha && eliminated) {
-      refuse(key + "/slopes", quoted(to_string(mass.slopes)),
+      refuse(key + "/slopes", quoted(mass.slopes),
              "\"generalized-alpha\" needs \"constraints\": \"multipliers\" for two slopes at the mass, or an explicit "
              "integrator; with \"eliminated\" they must be \"continuous\"");
     }
     if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum ||
         type == IntegratorType::cvode) {
-      refuse(key + "/slopes", quoted(to_string(mass.slopes)),
-             quoted(to_string(type)) +
+      refuse(key + "/slopes", quoted(mass.slopes),
+             quoted(type) +
                  " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\" with "
                  "\"constraints\": \"multipliers\"");
     }
@@ -470,35 +465,34 @@ void check_joint(const Scene& scene, std::size_t which) {
 void check_energy_momentum(const Scene& scene) {
   if (scene.integrator.type != IntegratorType::energy_momentum) return;
   if (has_rest_shape(scene)) {
-    refuse("/beam/rest_shape", quoted(to_string(scene.beam.rest_shape)),
+    refuse("/beam/rest_shape", quoted(scene.beam.rest_shape),
            "\"energy-momentum\" measures strains from a straight beam: take \"paper\", or another integrator");
   }
   if (!scene.loads.empty()) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+    refuse("/integrator/type", quoted(scene.integrator.type),
            "it keeps an energy that loads change: take any other integrator");
   }
   if (scene.drag || scene.beam.material.mass_damping > 0) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+    refuse("/integrator/type", quoted(scene.integrator.type),
            "it keeps an energy that /drag and mass_damping take: take any other integrator");
   }
   if (!scene.point_masses.empty()) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
-           "it knows no /point_masses: take any other integrator");
+    refuse("/integrator/type", quoted(scene.integrator.type), "it knows no /point_masses: take any other integrator");
   }
   if (!sliding_joint(scene)) return;
   if (scene.formulation != Formulation::variational) {
-    refuse("/formulation", quoted(to_string(scene.formulation)),
+    refuse("/formulation", quoted(scene.formulation),
            "\"energy-momentum\" with a sliding mass needs \"variational\": the virtual work has no energy to keep");
   }
   if (weight_transport(scene) == WeightTransport::transported && scene.beam.element == ElementKind::ale_rancf) {
-    refuse("/weights", quoted(to_string(weight_transport(scene))),
+    refuse("/weights", quoted(weight_transport(scene)),
            "\"energy-momentum\" with a sliding mass needs \"frozen\" weights, or \"ALE-ANCF\" elements");
   }
 }
 
 void check_integrator(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
-  const std::string type = "\"" + std::string(to_string(integrator.type)) + "\"";
+  const std::string type = quoted(integrator.type);
   if (of_sundials(integrator.type) && !have_sundials()) {
     refuse("/integrator/type", type,
            "this program is built without SUNDIALS: install it (Debian: libsundials-dev) and build with "
@@ -526,12 +520,12 @@ void check_integrator(const Scene& scene) {
 void check_turning(const Scene& scene, const std::string& at, const SupportSpec& support) {
   const std::string key = at + "/angle";
   if (support.type != SupportType::clamp) {
-    refuse(key, "this key", "only a \"clamp\" can turn: a " + quoted(to_string(support.type)) + " holds no direction");
+    refuse(key, "this key", "only a \"clamp\" can turn: a " + quoted(support.type) + " holds no direction");
   }
   if (scene.dimension == 3) refuse(key, "this key", "a clamp turns in a planar scene only");
   if (scene.analysis == Analysis::statics) refuse(key, "this key", "statics knows none: leave it out");
   if (scene.integrator.type == IntegratorType::ida) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+    refuse("/integrator/type", quoted(scene.integrator.type),
            "it knows no clamp that turns: take any other but \"energy-momentum\"");
   }
   const double rate = time_function(*support.motion->angle)(0).rate;
@@ -546,7 +540,7 @@ void check_turning(const Scene& scene, const std::string& at, const SupportSpec&
 /// Of what moves as `motion`, which stands at `at`.
 void check_motion(const Scene& scene, const std::string& at, SupportType type, const SupportMotionSpec& motion) {
   if (type != SupportType::clamp && type != SupportType::pin) {
-    refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(to_string(type)));
+    refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(type));
   }
   const TimeSpec& displacement = motion.displacement;
   if (motion.direction == Point{} && !(motion.angle && is_zero(displacement))) {
@@ -559,11 +553,11 @@ void check_motion(const Scene& scene, const std::string& at, SupportType type, c
         "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 degrees");
   }
   if (scene.integrator.type == IntegratorType::energy_momentum) {
-    refuse("/integrator/type", quoted(to_string(scene.integrator.type)),
+    refuse("/integrator/type", quoted(scene.integrator.type),
            "it keeps an energy that moving supports change: take any other integrator");
   }
   if (sliding_joint(scene) && scene.length_control.velocities == VelocityTransfer::conservative) {
-    refuse("/length_control/velocities", quoted(to_string(scene.length_control.velocities)),
+    refuse("/length_control/velocities", quoted(scene.length_control.velocities),
            "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
   }
   if (flows(scene)) refuse(at, "this key", "it goes together with neither /flow nor rotary inertia");
@@ -598,12 +592,12 @@ void check_loads(const Scene& scene) {
              "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
     }
     if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
-      refuse(at + "/at", quoted(to_string(load.at)), "a follower is at a \"node\" or a \"point\"");
+      refuse(at + "/at", quoted(load.at), "a follower is at a \"node\" or a \"point\"");
     }
     if (load.type == LoadType::moment) {
       if (scene.dimension == 3) refuse(at + "/type", "\"moment\"", "it turns the tangent in a planar scene only");
       if (load.at == LoadPlace::beam) {
-        refuse(at + "/at", quoted(to_string(load.at)), "a moment is at a \"node\" or a \"point\"");
+        refuse(at + "/at", quoted(load.at), "a moment is at a \"node\" or a \"point\"");
       }
       if (flows(scene)) refuse(at + "/type", "\"moment\"", "it goes together with neither /flow nor rotary inertia");
     }
@@ -648,7 +642,7 @@ void check_point_masses(const Scene& scene) {
   const auto joints = sliding_joints(scene);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (joints[i].slopes == JointSlopes::continuous) continue;
-    refuse(joint_key(scene, i) + "/slopes", quoted(to_string(joints[i].slopes)),
+    refuse(joint_key(scene, i) + "/slopes", quoted(joints[i].slopes),
            "with /point_masses they must be \"continuous\": a kink that passes over a mass is an impact");
   }
 }
@@ -710,7 +704,7 @@ void check_equilibrium(const Scene& scene) {
     refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", who + " knows one, so far");
   }
   if (sliding_joint(scene) && scene.formulation != Formulation::variational) {
-    refuse("/formulation", quoted(to_string(scene.formulation)),
+    refuse("/formulation", quoted(scene.formulation),
            "in " + std::string(starts ? "the equilibrium to start from" : "statics") +
                " with a joint that slides it must be \"variational\": the virtual work has no potential");
   }
@@ -718,8 +712,7 @@ void check_equilibrium(const Scene& scene) {
   none(scene.flow.has_value(), "/flow",
        starts ? "leave one of the two out" : "leave it out, or start a motion from its \"steady\" flow");
   if (scene.beam.rotary_inertia != BendingInertia::none) {
-    refuse("/beam/rotary_inertia", quoted(to_string(scene.beam.rotary_inertia)),
-           "with " + who + " it must be \"none\"");
+    refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), "with " + who + " it must be \"none\"");
   }
   const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
   const bool in_sleeve = joint_support(scene) == SupportType::clamp;
@@ -749,7 +742,7 @@ void check_start(const Scene& scene) {
   }
   const double rate = guided(scene) ? time_function(*scene.sliding_joints.front().x)(0).rate : joint->velocity;
   if (rate != 0 && joint->slopes != JointSlopes::continuous) {
-    refuse(joint_key(scene) + "/slopes", quoted(to_string(joint->slopes)),
+    refuse(joint_key(scene) + "/slopes", quoted(joint->slopes),
            "what starts from an equilibrium with a velocity along the beam, here " + number_text(rate) +
                " m/s, needs \"continuous\" ones: the beam is not at rest where a kink moves along it");
   }
@@ -765,7 +758,7 @@ void check_statics(const Scene& scene) {
     none(joint->friction.has_value(), key + "/friction", "in equilibrium nothing slides; leave it out");
     if (joint->velocity != 0) refuse(key + "/velocity", number_text(joint->velocity), "in statics it must be 0");
     if (joint->at_support != AtSupport::stop) {
-      refuse(key + "/at_support", quoted(to_string(joint->at_support)), "in statics it must be \"stop\"");
+      refuse(key + "/at_support", quoted(joint->at_support), "in statics it must be \"stop\"");
     }
     if (scene.length_control.end_merge.value_or(0) > 0) {
       refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge), "in statics it must be 0");
@@ -776,7 +769,7 @@ void check_statics(const Scene& scene) {
   }
   none(scene.initial_velocity.has_value(), "/initial_velocity", "leave it out");
   if (scene.constraints != Constraints::eliminated) {
-    refuse("/constraints", quoted(to_string(scene.constraints)), "in statics it must be \"eliminated\"");
+    refuse("/constraints", quoted(scene.constraints), "in statics it must be \"eliminated\"");
   }
   const auto constant = [&](const std::string& at, const TimeSpec& f) {
     const auto zero = [&](const char* key, double value) {

@@ -14,11 +14,6 @@ namespace {
 constexpr int instants = 1000;         // at which the way of a feed is looked at
 constexpr double most_elements = 1e6;  // as there may be at the start
 
-template <NamedEnum E>
-std::string quoted(E value) {
-  return "\"" + std::string(to_string(value)) + "\"";
-}
-
 /// What a scene that is fed is made of.
 void check_parts(const Scene& scene, const std::string& at) {
   const auto& control = scene.length_control;

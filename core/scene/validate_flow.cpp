@@ -15,11 +15,6 @@ namespace {
 
 constexpr double length_tolerance = 0.01;  // of the nodes' initial distance against the curve's length
 
-template <NamedEnum E>
-std::string quoted(E value) {
-  return "\"" + std::string(to_string(value)) + "\"";
-}
-
 void check_parts(const Scene& scene) {
   if (sliding_joint(scene)) {
     refuse(joint_key(scene), "this key", "it goes together with neither /spin, /flow nor rotary inertia");

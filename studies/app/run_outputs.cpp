@@ -23,7 +23,7 @@ bool holds_a_result(const fs::path& file) {
   std::ifstream(file, std::ios::binary).read(head.data(), head.size() - 1);
   const std::string text = head.data();
   for (const RunStatus status : {RunStatus::failed, RunStatus::interrupted}) {
-    if (text.find("\"status\": \"" + std::string(to_string(status)) + "\"") != std::string::npos) return false;
+    if (text.find("\"status\": " + quoted(status)) != std::string::npos) return false;
   }
   return true;
 }
