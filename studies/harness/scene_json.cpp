@@ -353,7 +353,10 @@ Scene scene_with_every_part() {
   scene.sliding_joints.back().friction.emplace();
   scene.sliding_joints.back().x.emplace();
   scene.sliding_joints.back().motion.emplace();
-  for (SupportSpec* support : {&scene.start, &scene.end}) support->motion.emplace().angle.emplace();
+  for (SupportSpec* support : {&scene.start, &scene.end}) {
+    support->motion.emplace().angle.emplace();
+    support->feed.emplace();
+  }
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();

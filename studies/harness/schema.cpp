@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -120,14 +121,16 @@ class SceneSchemaBuilder {
   }
 
   template <class T>
-  bool present(const Option& option, const std::optional<T>&) {
+  bool present(const Option& option, const std::optional<T>& part) {
+    if (!part) throw std::logic_error("scene_with_every_part() lacks " + std::string(option.pointer));
     const auto path = segments(option.pointer);
     object(path, path.size())["description"] = option.description;
     return true;
   }
 
   template <class T>
-  bool number_or(const Option& option, double standard, const std::optional<T>&) {
+  bool number_or(const Option& option, double standard, const std::optional<T>& part) {
+    if (!part) throw std::logic_error("scene_with_every_part() lacks " + std::string(option.pointer));
     const auto path = segments(option.pointer);
     Json& schema = object(path, path.size());  // what is said of objects does not hold for numbers, and the reverse
     schema.update(number("number", option.range));
