@@ -74,6 +74,18 @@ def winch():
             for t, (angle, _) in zip(times, states)]
 
 
+def lead_screw():
+    """A rigid screw with a nut that does not turn: (I + m l^2) theta'' = T - m g l, l the way of a radian. Gravity and
+    torque grow alike, S(t/ramp), whose second integral over the ramp is 5/36 of its square."""
+    given = scene("lead_screw")
+    nut, load, length = given["sliding_joints"][0], given["loads"][0]["magnitude"], mp.mpf(1)
+    lead, ramp, t = mp.mpf(str(nut["pitch"])) / (2 * mp.pi), mp.mpf(str(load["ramp"])), given["duration"]
+    inertia = mp.mpf(str(given["beam"]["section"]["rhoIp"])) * length + nut["mass"] * lead**2
+    weight = nut["mass"] * mp.mpf(str(-given["gravity"][1]))
+    turned = ramp**2 * 5 / 36 + ramp / 2 * (t - ramp) + (t - ramp) ** 2 / 2
+    return nut["position"] - lead * (load["value"] - weight * lead) / inertia * turned
+
+
 def hanging_cable():
     """EA (lambda^3 - lambda)/2 = rhoA g (L - s), the stretch of Green's law under the weight below."""
     section = scene("hanging_cable")["beam"]["section"]
@@ -178,6 +190,10 @@ answer("capstan", "reaction_end_y", 10 * mp.exp(0.3 * turn) * end[1] / mp.norm(e
 path = winch()
 answer("winch", "end.x", path[-1]["x"], 2e-4, "exact",
        "pendulum of given length; the scene's cable has 1e-4 of the weight's mass and stretches by as much", 3)
+
+answer("lead_screw", "joint_position", lead_screw(), 3e-4, "exact",
+       "a rigid screw; this one is stretched by 1.2e-4 under the weights, by which the load asks for 6e-4 more of what is "
+       "left to lift it, and twisted by 5e-3 rad, which is 1.6e-4 m of the thread")
 
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (

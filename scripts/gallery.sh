@@ -14,7 +14,7 @@ for file in scenes/*.json; do
     drill_stem) what=(--quantity end.x end.y) ;;
     bridge) what=(--quantity mass_position.y) ;;
     rotating_load) what=(--quantity load0_x load0_y) ;;
-    incline | suspended_beam_friction) what=(--what joint) ;;
+    incline | lead_screw | suspended_beam_friction) what=(--what joint) ;;
     hanging_cable) what=(--what tension) ;;
     pulled_bar) what=(--what strain) ;;
     *) what=(--what shape) ;;

@@ -158,6 +158,7 @@ void JointChain<D>::assemble(const std::vector<MovingEquations<double, D>>& equa
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     Station& station = stations_[of_joint_[j]];
     add(station.diagonal, 0, 0, joints_[j].law->mass);
+    station.diagonal(station.mark, station.mark) += motion[j].x_inertia;
     if (!joints_[j].law->kinked()) continue;
     const SlopeConditions<D> conditions(joints_[j].law->slopes, longest_axis<D>(motion[j].slopes.template head<D>()));
     for (int i = 0; i < conditions.count(); ++i) {

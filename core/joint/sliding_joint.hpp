@@ -34,6 +34,7 @@ struct JointMotion {
   double x_rate;                                        ///< [m/s]
   Vec<double, D> gravity;                               ///< [m/s^2]
   std::optional<double> x_acceleration = std::nullopt;  ///< [m/s^2], where a guide prescribes it
+  double x_inertia = 0;                                 ///< against x'' itself: of what turns with a nut [kg]
 };
 
 /// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force`

@@ -153,9 +153,21 @@ void Spin::drive(const double* a, double t, double* r) const {
   }
 }
 
-Tally Spin::power(const double* q, const double* rate, const double* a, double t) {
+Spin::Section Spin::section(const double* q, const double* rate, double x) const {
+  const int k = element_at(marks_, x);
+  const SpinChain::Coordinates at = chain_.local(q, marks_, &Prescribed::value, k);
+  return {k, chain_.at(at, chain_.local(rate, marks_, &Prescribed::rate, k), (x - at.x_a) / (at.x_b - at.x_a))};
+}
+
+void Spin::scatter(const Section& at, double torque, double* f) const {
+  const auto& s = at.at.s;
+  chain_.scatter(at.element, {s[0] * torque, s[1] * torque, s[2] * torque, s[3] * torque}, f);
+}
+
+Tally Spin::power(const double* q, const double* rate, const double* a, double t, const Eigen::VectorXd* more) {
   Tally power;
   residual(q, rate, a, t, residual_.data());
+  if (more != nullptr) residual_ -= *more;
   for (const DrivenAngle& drive : model_.drives) power.ends += residual_[angle(drive.node)] * rate[angle(drive.node)];
   if (model_.torques.present()) power.loads = add_torques(q, rate, t, forces_.data());
   return power;

@@ -70,8 +70,8 @@ class Spin {
   double inner_residual(const double* q, const double* rate, const double* a, double* r);
   /// Puts the equations of driven angles in place of theirs.
   void drive(const double* a, double t, double* r) const;
-  /// Powers of drives and torques at the accelerations `a`.
-  Tally power(const double* q, const double* rate, const double* a, double t);
+  /// Powers of drives and torques at the accelerations `a`; `more` acts on the angles, too, unless it is null.
+  Tally power(const double* q, const double* rate, const double* a, double t, const Eigen::VectorXd* more = nullptr);
   /// Torque of each drive on the beam [N m], from what residual() wrote.
   std::vector<double> drive_torques(const double* residual) const;
   /// Adds the torques; returns their power [W]. What they do along the beam [N] is added to `on_marks`, one entry a
@@ -84,6 +84,17 @@ class Spin {
   /// Factors it; false where it is singular.
   bool factor(double by_a, SpinTangent& tangent) const { return tangent.factor(chain_, by_a); }
   bool driven(int node) const { return chain_.driven(node); }
+
+  /// What is at the material coordinate x, and the element that it is in.
+  struct Section {
+    int element;
+    SpinChain::Point at;
+  };
+  Section section(const double* q, const double* rate, double x) const;
+  /// Adds a torque times the shape functions there.
+  void scatter(const Section& at, double torque, double* f) const;
+  /// M a = f in place by the factor of the last accelerate().
+  void solve_again(double* f) { chain_.solve_again(f); }
 
   struct Seen {
     double kinetic = 0, torsion = 0, momentum = 0;  ///< [J], [J], [N m s]

@@ -67,14 +67,18 @@ bool SpinChain::solve(double* f) {
   mass_.reset(nodes());
   for (std::size_t k = 0; k < elements_.size(); ++k) mass_.add(static_cast<int>(k), elements_[k].mass);
   if (!mass_.factor(free_)) return false;
+  solve_again(f);
+  return true;
+}
+
+void SpinChain::solve_again(double* f) {
   if (field_ == AngleField::hermite) {
     mass_.solve(f);
-    return true;
+    return;
   }
   for (int k = 0; k < nodes(); ++k) work_[2 * static_cast<std::size_t>(k)] = f[k];
   mass_.solve(work_.data());
   for (int k = 0; k < nodes(); ++k) f[k] = work_[2 * static_cast<std::size_t>(k)];
-  return true;
 }
 
 double SpinChain::dissipation() const {
@@ -106,11 +110,14 @@ SpinChain::Point SpinChain::at(const Coordinates& q, const Coordinates& rate, do
             -motion.tau * (1 - u),
             -motion.tau * u,
             motion.tau,
-            motion.omega_a * (1 - u) + motion.omega_b * u};
+            motion.omega_a * (1 - u) + motion.omega_b * u,
+            q.e.r_a[0] * (1 - u) + q.e.r_b[0] * u,
+            motion.tau_rate,
+            0};
   }
   const MovingKinematics<double, 1> kinematics(q, rate, WeightTransport::frozen, {});
   const PointMotion<double, 1> point = kinematics.at(u, hermite_shape(u));
-  return {point.s, point.y_a[0], point.y_b[0], point.r_x[0], point.v[0]};
+  return {point.s, point.y_a[0], point.y_b[0], point.r_x[0], point.v[0], point.r[0], point.v_x[0], point.r_xx[0]};
 }
 
 void SpinTangent::assemble(const SpinChain& chain, const SpinChain::Nodes& nodes, const TangentWeights& by) {

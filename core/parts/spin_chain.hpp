@@ -46,15 +46,18 @@ class SpinChain {
   void add_residual(const double* a, const Nodes& nodes, double* r) const;
   /// Solves M a = f in place; of driven angles f becomes zero.
   bool solve(double* f);
+  /// The same by the factor that is there.
+  void solve_again(double* f);
   double dissipation() const;
   /// Derivative of the residual of element k by angle and twist at its ends.
   Eigen::Matrix4d tangent(const Nodes& nodes, const TangentWeights& by, int k) const;
 
   /// What is at a point of element k: its shape functions, how its angle changes with x_A and x_B at a fixed material
-  /// point, its twist [rad/m] and the spin of the matter there [rad/s].
+  /// point, its twist [rad/m] and the spin of the matter there [rad/s]; then the angle [rad], the rate of the twist at
+  /// a fixed material point and the twist's gradient along the beam [rad/m^2].
   struct Point {
     std::array<double, 4> s;
-    double by_a, by_b, twist, spin;
+    double by_a, by_b, twist, spin, angle, twist_rate, twist_gradient;
   };
   Point at(const Coordinates& q, const Coordinates& rate, double u) const;
 

@@ -219,7 +219,7 @@ double end_merge(const Scene& scene) {
   const bool kinked =
       sliding_joint(scene) && joint_slopes(scene, sliding_joints(scene).front()) != JointSlopes::continuous;
   const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
-  const bool held = joint_support(scene) != SupportType::free || guided(scene);  // it needs a node to hold
+  const bool held = joint_support(scene) != SupportType::free || guided(scene) || threaded(scene);  // it needs a node
   const bool several = scene.sliding_joints.size() > 1;
   const double otherwise =
       !scene.length_control.enabled || (kinked && stops) || held || several || fed(scene) ? 0 : default_end_merge;
@@ -334,6 +334,7 @@ BeamModel<D> build_model(const Scene& scene) {
     joint.separation_distance = separation_distance(scene, spec);
     joint.at_support = {spec.at_support, spec.restitution};
     if (spec.x) joint.x = travelling(spec.position, time_function(*spec.x));
+    joint.pitch = spec.pitch.value_or(0);
   }
   if (scene.start.feed) {
     model.joints.emplace_back().x = travelling(0, [in = time_function(*scene.start.feed)](double t) -> Prescribed {
@@ -445,7 +446,9 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     const auto r_x = slope<D>(chain.q.data(), j);
     const bool held = joints[i].support != SupportType::free;
     // what is held stands still, and what goes through it is the beam
-    const double own = joints[i].x ? time_function(*joints[i].x)(0).rate : joints[i].velocity;
+    const double own = joints[i].x       ? time_function(*joints[i].x)(0).rate
+                       : joints[i].pitch ? -initial_spin(scene) * *joints[i].pitch / (2 * std::numbers::pi)
+                                         : joints[i].velocity;
     const double rate = held ? -position<D>(chain.rate.data(), j).dot(r_x) / r_x.squaredNorm() : own;
     joint.rate = rate;
     position<D>(chain.rate.data(), j) += rate * r_x;

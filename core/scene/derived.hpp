@@ -53,6 +53,11 @@ inline bool guided(const Scene& scene) {
   return std::any_of(scene.sliding_joints.begin(), scene.sliding_joints.end(),
                      [](const SlidingJointSpec& joint) { return joint.x.has_value(); });
 }
+/// Whether one of the joints is a nut.
+inline bool threaded(const Scene& scene) {
+  return std::any_of(scene.sliding_joints.begin(), scene.sliding_joints.end(),
+                     [](const SlidingJointSpec& joint) { return joint.pitch.has_value(); });
+}
 /// Whether beam comes in or leaves through its ends.
 inline bool fed(const Scene& scene) { return scene.start.feed || scene.end.feed; }
 inline std::string joint_key(const Scene& scene, std::size_t which = 0) {

@@ -579,6 +579,12 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
                               "guides it does the work"},
         joint.x);
     if (guided) time_function(at + "/x", "m", {}, *joint.x);
+    visitor(Option{.pointer = at + "/pitch",
+                   .unit = "m",
+                   .description = "of a nut on a beam that spins: its way along the beam at one turn of the section, "
+                                  "backwards at a positive angle where the thread is right-handed, > 0; it does not "
+                                  "turn itself"},
+            joint.pitch);
     joint_options(at, guided || joint.support != SupportType::free, joint);
   }
 

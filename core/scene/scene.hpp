@@ -153,7 +153,8 @@ struct SlidingJointSpec : SlidingMassSpec {
 
   SupportType support = SupportType::free;
   std::optional<SupportMotionSpec> motion;  ///< of what holds it, without an angle
-  std::optional<TimeSpec> x;  ///< way of the joint along the beam as a function of time, counted from `position` [m]
+  std::optional<TimeSpec> x;    ///< way of the joint along the beam as a function of time, counted from `position` [m]
+  std::optional<double> pitch;  ///< of a nut on a beam that spins [m a turn], right-handed where > 0
 };
 
 /// The section's rotation about the axis of the beam.

@@ -115,8 +115,15 @@ class Run {
     const ChainState<D> chain = chain_at(y, t);
     Configuration shape = configuration_of(chain, t, weight_transport(scene_), mark_rates);
     for (int k = 0; system_.spin() != nullptr && k <= chain.mesh.last(); ++k) {
-      shape.angles.push_back(y[system_.angle(k)]);
-      shape.rates.spins.push_back(y[system_.coordinates() + system_.angle(k)]);
+      if constexpr (prescribed) {
+        shape.angles.push_back(y[system_.angle(k)]);
+        shape.rates.spins.push_back(y[system_.coordinates() + system_.angle(k)]);
+      } else {
+        const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
+        const auto section = system_.spin()->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
+        shape.angles.push_back(section.angle);
+        shape.rates.spins.push_back(section.spin);
+      }
     }
     result_.configurations.push_back(std::move(shape));
   }

@@ -12,6 +12,7 @@
 #include "core/scene/time_function.hpp"
 #include "core/scene/validate_feed.hpp"
 #include "core/scene/validate_flow.hpp"
+#include "core/scene/validate_nut.hpp"
 
 namespace vlbeam {
 namespace {
@@ -832,6 +833,7 @@ void validate(const Scene& scene) {
     check_guided_joint(scene, i);
   }
   check_sliding_mass(scene);
+  validate_nut(scene);
   check_length_control(scene);
   check_integrator(scene);
   for (std::size_t i = 0; i < sliding_joints(scene).size(); ++i) check_joint(scene, i);

@@ -16,8 +16,8 @@ namespace {
 constexpr double length_tolerance = 0.01;  // of the nodes' initial distance against the curve's length
 
 void check_parts(const Scene& scene) {
-  if (sliding_joint(scene)) {
-    refuse(joint_key(scene), "this key", "it goes together with neither /spin, /flow nor rotary inertia");
+  if (sliding_joint(scene) && flows(scene)) {
+    refuse(joint_key(scene), "this key", "it goes together with neither /flow nor rotary inertia");
   }
   if (flows(scene) && scene.beam.curve.type != CurveType::line) {
     refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /flow or rotary inertia it must be \"line\"");

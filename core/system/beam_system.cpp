@@ -11,10 +11,12 @@
 namespace vlbeam {
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
-  if (model.spin && !model.joints.empty()) {
-    throw InvalidInput("/sliding_mass", "this key", "it does not go together with /spin");
+  if (model.spin) {
+    check_drives(model.spin->drives, chain.mesh.last());
+    std::vector<Prescribed> marks;
+    for (const double x : chain.mesh.x) marks.push_back({x, 0, 0});
+    spin_.emplace(model.spin.value(), std::move(marks), model.formulation, model.quadrature_points);
   }
-  if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
   if (model.driven() && !model.joints.empty() && model.length_control.velocities == VelocityTransfer::conservative) {
     throw InvalidInput("/length_control/velocities", "\"conservative\"",
                        "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
@@ -22,7 +24,13 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   adopt(chain);
   initial_ = state_of(chain, {});
-  if (spin_) spin_->start(initial_.data() + nodal_, initial_.data() + coordinates_ + nodal_);
+  if (spin_) spin_->start(initial_.data() + angles(), initial_.data() + coordinates_ + angles());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (joint(i).pitch == 0) continue;
+    const double x = initial_[places_[i].mark];
+    nut_.emplace(joint(i).pitch, x,
+                 spin_->section(initial_.data() + angles(), initial_.data() + coordinates_ + angles(), x).at.angle);
+  }
   anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
   joint_anchors_.assign(model.joints.size(), Eigen::Matrix<double, node_size<D>, 1>::Zero());
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -52,15 +60,9 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   }
   if (chain.rider) passed_.front() = -1;
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
-  spin_.reset();
-  if (model_.spin) {
-    std::vector<Prescribed> marks;
-    for (const double x : mesh_.x) marks.push_back({x, 0, 0});
-    spin_.emplace(*model_.spin, std::move(marks), model_.formulation, model_.quadrature_points);
-  }
   places_.clear();
   index_.clear();
-  Eigen::Index next = nodal_ + (spin_ ? spin_->coordinates() : 0);
+  Eigen::Index next = nodal_;
   for (const auto& joint : chain.joints) {
     places_.push_back({.node = joint.node, .mark = next++, .passed = passed_[static_cast<std::size_t>(joint.index)]});
     index_.push_back(joint.index);
@@ -71,7 +73,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     places_[i].behind = next;
     next += D;
   }
-  coordinates_ = next + D * static_cast<Eigen::Index>(departed_.size());
+  coordinates_ = next + D * static_cast<Eigen::Index>(departed_.size()) + (spin_ ? spin_->coordinates() : 0);
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
   const int left_open = has_joint() ? std::max(0, places_.front().node - 1) : middle,
@@ -152,7 +154,7 @@ std::vector<FieldRun> BeamSystem<D>::fields() const {
   if (!departed_.empty())
     runs.push_back({Field::mass, departed_at(0), D * static_cast<Eigen::Index>(departed_.size())});
   if (spin_) {
-    for (const FieldRun& run : spin_->fields(nodal_)) runs.push_back(run);
+    for (const FieldRun& run : spin_->fields(angles())) runs.push_back(run);
   }
   return runs;
 }
@@ -179,8 +181,14 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y[nodal_] = chain.rider->x;
     y[coordinates_ + nodal_] = chain.rider->rate;
   }
+  if (old.size() == 0) return y;
   const Eigen::Index tallies = model_.tallies().count();
-  if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
+  y.tail(tallies) = old.tail(tallies);
+  if (spin_) {
+    const Eigen::Index count = spin_->coordinates(), before = (old.size() - tallies) / 2;
+    y.segment(angles(), count) = old.segment(before - count, count);
+    y.segment(coordinates_ + angles(), count) = old.segment(2 * before - count, count);
+  }
   return y;
 }
 
@@ -303,6 +311,12 @@ std::optional<JointPower> BeamSystem<D>::solve_joints(const JointElements& eleme
 
 template <int D>
 void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
+  if (const auto which = nut_place()) {
+    const Eigen::Index mark = places_[*which].mark;
+    const Nut::Place place = nut_->place(*spin_, y.data() + angles(), y.data() + coordinates_ + angles(), y[mark]);
+    y[mark] = place.x;
+    y[coordinates_ + mark] = place.rate;
+  }
   if (!model_.driven()) return;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto guide = guided(i, t);
@@ -347,7 +361,7 @@ void BeamSystem<D>::orient(double t) const {
 template <int D>
 void BeamSystem<D>::sample(const Eigen::VectorXd& y, double t) {
   if (!on_sample) return;
-  if (!model_.driven()) return on_sample(y, t);
+  if (!imposes()) return on_sample(y, t);
   Eigen::VectorXd exact = y;
   impose(exact, t);
   on_sample(exact, t);
@@ -537,12 +551,12 @@ template <int D>
 void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
   ++rhs_evaluations_;
   const bool driven = model_.driven();
-  if (driven) {
+  if (imposes()) {
     imposed_ = y;
     impose(imposed_, t);
     orient(t);
   }
-  const double* q = driven ? imposed_.data() : y.data();
+  const double* q = imposes() ? imposed_.data() : y.data();
   const double* rate = q + coordinates_;
   dydt.head(coordinates_) = Eigen::Map<const Eigen::VectorXd>(rate, coordinates_);
   dydt.tail(dydt.size() - coordinates_).setZero();
@@ -558,8 +572,14 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   }
   if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
   if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
-  std::optional<Pull> pull;  // of moving supports
+  std::optional<Pull> pull;       // of moving supports
+  const auto invalid = [&dydt] {  // outside the domain: the step is repeated, shorter
+    dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
+  };
+  const Eigen::Index angles = this->angles();
+  if (spin_ && !spin_->accelerate(q + angles, rate + angles, t, force + angles, power.dissipated)) return invalid();
 
+  const auto nut = nut_place();
   if (has_joint()) {
     fill_elements(q, rate, t, elements_);
     double lost = 0;
@@ -578,12 +598,15 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       position<D>(force, places_[i].node) += joint(i).law.mass * g;
       motions_.push_back(joint_motion(i, q, rate, t));
     }
+    if (nut) {
+      const Eigen::Index mark = places_[*nut].mark;
+      if (!nut_->couple(*spin_, q + angles, rate + angles, force + angles, q[mark], rate[mark])) return invalid();
+      motions_[*nut].x_inertia = nut_->load().inertia;
+      force[mark] += nut_->load().force;
+    }
     if (driven) pull.emplace(*this, elements_, q, rate, force, t);
     const auto at_joints = solve_joints(elements_, motions_, force);
-    if (!at_joints) {
-      dydt.setConstant(std::numeric_limits<double>::quiet_NaN());  // outside the domain: the step is repeated, shorter
-      return;
-    }
+    if (!at_joints) return invalid();
     power.dissipated += at_joints->dissipated;
     power.supports += at_joints->guided;
     if (driven) pull->complete(force);
@@ -592,22 +615,17 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     if (rider_) {
       const auto at = rider_motion(q, rate);
       const auto solved = solve_rider(at, g, force);
-      if (!solved) {
-        dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
-        return;
-      }
+      if (!solved) return invalid();
       force[nodal_] = solved->x;
       power.dissipated += solved->dissipation;
       if (driven) pull->add_rider(solved->force, at.s);
     }
   }
   for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates_ + departed_at(i)) = g;
-  if (spin_) {
-    if (!spin_->accelerate(q + nodal_, rate + nodal_, t, force + nodal_, power.dissipated)) {
-      dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
-      return;
-    }
-    if (model_.spin->supplied()) power = power + spin_->power(q + nodal_, rate + nodal_, force + nodal_, t);
+  const Eigen::VectorXd* by_nut = nullptr;
+  if (nut) by_nut = &nut_->torque(nut_->turn(force[places_[*nut].mark], force + angles));
+  if (spin_ && model_.spin->supplied()) {
+    power = power + spin_->power(q + angles, rate + angles, force + angles, t, by_nut);
   }
   if (driven) power.supports += pull->power(force);
   model_.tallies().add(power, dydt);
@@ -698,7 +716,7 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     if (mass) seen.add_mass(model_.joints[i].law.mass, mass->r, mass->v, gravity(t));
   }
   if (spin_) {
-    const Spin::Seen turning = spin_->observe(y.data() + nodal_, y.data() + coordinates_ + nodal_, points);
+    const Spin::Seen turning = spin_->observe(y.data() + angles(), y.data() + coordinates_ + angles(), points);
     seen.energy.kinetic += turning.kinetic;
     seen.energy.torsion += turning.torsion;
     seen.spin_momentum += turning.momentum;

@@ -18,6 +18,7 @@
 #include "core/length_control/length_control.hpp"
 #include "core/parts/drag.hpp"
 #include "core/parts/loads.hpp"
+#include "core/parts/nut.hpp"
 #include "core/parts/point_masses.hpp"
 #include "core/parts/spin.hpp"
 #include "core/system/constraints.hpp"
@@ -36,6 +37,7 @@ struct ModelJoint {
   double separation_distance = 0;  ///< [m]
   Impact at_support = {};          ///< where it may not leave
   TimeFunction x = {};             ///< its material coordinate, where a guide prescribes it [m]
+  double pitch = 0;                ///< of a nut on a beam that spins [m a turn], right-handed where > 0; 0 for none
 };
 
 /// What a beam system is made of and which choices its equations follow.
@@ -53,7 +55,7 @@ struct BeamModel {
   bool start_releases = false, end_releases = false;  ///< joints may leave the beam there
   Loads<D> loads;
   Drag<D> drag;
-  std::optional<SpinModel> spin;  ///< without it there is no angle at all; goes with no joint
+  std::optional<SpinModel> spin;  ///< without it there is no angle at all
   PointMasses<D> masses;
   /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
   std::vector<ModelJoint<D>> joints;
@@ -82,6 +84,11 @@ struct BeamModel {
   /// Whether something moves as prescribed, and so does work.
   bool driven() const { return supports_move() || guides(); }
   bool turns() const { return start_motion.turns() || end_motion.turns(); }
+  /// Which of the joints is a nut, of which there is one at most; -1 for none.
+  int nut() const {
+    const auto at = std::find_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.pitch != 0; });
+    return at == joints.end() ? -1 : static_cast<int>(at - joints.begin());
+  }
   /// The energies that the state counts.
   Tallies tallies() const {
     return {dissipates(), loads.present() || (spin && spin->torques.present()), spin && !spin->drives.empty(),
@@ -110,10 +117,11 @@ template <int D>
 class ImplicitBeam;
 
 /// One beam with, possibly, joints that slide on it and may leave it: the equations of motion in minimal coordinates.
-/// State y = (q, q', tallies): q holds the nodes (position and slope each) and then the angles of a section that spins,
-/// or x_i of the joints, the slopes behind those that are kinked, and the positions of masses that have left; or x of a
-/// mass that rides inside an end element. The tallies are those of BeamModel::tallies(). What a support drives stands
-/// in the state too, but is read from its motion, wherever it counts.
+/// State y = (q, q', tallies): q holds the nodes (position and slope each), x_i of the joints, the slopes behind those
+/// that are kinked, and the positions of masses that have left; or x of a mass that rides inside an end element; then
+/// the angles of a section that spins, at the nodes that there were at t = 0: joints and what they do to the mesh leave
+/// them alone. The tallies are those of BeamModel::tallies(). What a support drives stands in the state too, but is
+/// read from its motion, wherever it counts, and so is where a nut is, from the angles.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
@@ -207,7 +215,7 @@ class BeamSystem final : public EventedOde {
   const std::vector<int>& departed() const { return departed_; }
   /// Where the position of one of them stands.
   Eigen::Index departed_at(std::size_t i) const {
-    return coordinates_ - D * static_cast<Eigen::Index>(departed_.size() - i);
+    return angles() - D * static_cast<Eigen::Index>(departed_.size() - i);
   }
   /// Whether joint `index` of the model is on the beam.
   bool on_beam(int index) const {
@@ -220,11 +228,26 @@ class BeamSystem final : public EventedOde {
                                            element_nodes<D>(rate, rider_->element), held ? rider_->end : q[nodal_],
                                            held ? 0 : rate[nodal_]);
   }
-  /// How the section turns; null if it does not. Its angles stand behind the nodes.
+  /// How the section turns; null if it does not. Its angles stand behind all else.
   Spin* spin() { return spin_ ? &*spin_ : nullptr; }
   const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
-  /// Where the angle of a node stands among the coordinates.
-  Eigen::Index angle(int node) const { return nodal_ + spin_->angle(node); }
+  /// Where the angles stand among the coordinates.
+  Eigen::Index angles() const { return coordinates_ - (spin_ ? spin_->coordinates() : 0); }
+  /// Where the angle of a node of the mesh at t = 0 stands.
+  Eigen::Index angle(int node) const { return angles() + spin_->angle(node); }
+  /// Which of the joints on the beam is a nut; nothing where none is.
+  std::optional<std::size_t> nut_place() const {
+    for (std::size_t i = 0; nut_ && i < places_.size(); ++i) {
+      if (joint(i).pitch != 0) return i;
+    }
+    return std::nullopt;
+  }
+  /// What the thread does to the angles as it pushes the nut by `push` [N]; arrays like those of the state.
+  Eigen::VectorXd nut_torque(const double* q, const double* rate, double push) const {
+    const auto which = nut_place();
+    if (!which) return Eigen::VectorXd::Zero(spin_->coordinates());
+    return nut_->torque(*spin_, q + angles(), rate + angles(), q[places_[*which].mark], push);
+  }
   /// Where the concentrated loads are.
   std::vector<Vector> load_places(const Eigen::VectorXd& y, double t) const {
     return model_.loads.places(view(y.data(), y.data() + coordinates_), t);
@@ -313,7 +336,9 @@ class BeamSystem final : public EventedOde {
 
   void adopt(const ChainState<D>& chain);
   /// The joints are solved for as a chain.
-  bool chained() const { return places_.size() > 1 || (has_joint() && joint(0).x); }
+  bool chained() const { return places_.size() > 1 || (has_joint() && (joint(0).x || joint(0).pitch != 0)); }
+  /// The state is read from what prescribes parts of it.
+  bool imposes() const { return model_.driven() || nut_; }
   /// Lengths of the last and the first element below which an end-merge is due [m]; 0 where none will be.
   void set_end_limits();
   /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
@@ -322,7 +347,10 @@ class BeamSystem final : public EventedOde {
   /// integration has it [m].
   double mark_at(std::size_t which, const Eigen::VectorXd& y, double t) const {
     const auto guide = guided(which, t);
-    return guide ? guide->value : y[places_[which].mark];
+    if (guide) return guide->value;
+    const double x = y[places_[which].mark];
+    if (!nut_ || joint(which).pitch == 0) return x;
+    return nut_->place(*spin_, y.data() + angles(), y.data() + coordinates_ + angles(), x).x;
   }
   void add_feed_guards(std::size_t which, const Eigen::VectorXd& y, double t, Guards& guards) const;
   /// Throws ComputationFailed: joint `which` is as near the next one as joints come.
@@ -428,6 +456,7 @@ class BeamSystem final : public EventedOde {
   Eigen::VectorXd initial_, imposed_;
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
   std::optional<Spin> spin_;
+  std::optional<Nut> nut_;
   RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;
   std::unique_ptr<ImplicitBeam<D>> implicit_;

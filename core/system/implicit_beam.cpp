@@ -131,7 +131,7 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   const auto left = static_cast<Eigen::Index>(system_.departed().size());
   if (left > 0) runs.push_back({Field::mass, departed(), D * left});
   if (const Spin* spin = system_.spin()) {
-    for (const FieldRun& run : spin->fields(after_nodes())) runs.push_back(run);
+    for (const FieldRun& run : spin->fields(angles())) runs.push_back(run);
   }
   Eigen::Index at = coordinates() - multipliers();
   for (const auto& constraint : constraints_) {
@@ -328,7 +328,8 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     r.segment<D>(at) = mass * (a.segment<D>(at) - gravity);
   }
   if (Spin* spin = system_.spin()) {
-    dissipation += spin->residual(q.data() + extra, v.data() + extra, a.data() + extra, t, r.data() + extra);
+    const Eigen::Index at = angles();
+    dissipation += spin->residual(q.data() + at, v.data() + at, a.data() + at, t, r.data() + at);
   }
   return dissipation;
 }
@@ -342,7 +343,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  if (const Spin* spin = system_.spin()) spin->drive(a.data() + after_nodes(), t, r.data() + after_nodes());
+  if (const Spin* spin = system_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
   const DrivenPoints& driven = driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const auto& constraint = constraints_[i];
@@ -440,7 +441,7 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     power.supports += system_.fed_line_power(view(q, v), t);
   }
   if (Spin* spin = system_.spin(); spin != nullptr && spin->model().supplied()) {
-    const Eigen::Index at = after_nodes();
+    const Eigen::Index at = angles();
     power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t);
   }
   if (!driven()) return power;
@@ -763,7 +764,7 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   if (system_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
     project(r.data());
   }
-  if (system_.spin() != nullptr) spin_tangent_.solve(r.data() + after_nodes());
+  if (system_.spin() != nullptr) spin_tangent_.solve(r.data() + angles());
 }
 
 template <int D>
@@ -791,13 +792,23 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   free_residual(q, v, a, t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
-  if (const Spin* spin = system_.spin()) forces.drives = spin->drive_torques(free_.data() + after_nodes());
+  if (const Spin* spin = system_.spin()) {
+    Eigen::VectorXd torques = free_.segment(angles(), spin->coordinates());
+    if (const auto nut = system_.nut_place()) {
+      const double* rate = y.data() + system_.coordinates();
+      torques -= system_.nut_torque(y.data(), rate, free_[places()[*nut].mark]);
+    }
+    forces.drives = spin->drive_torques(torques.data());
+  }
   const auto& joints = system_.model().joints;
   forces.on_masses.assign(joints.size(), Vec<double, D>::Zero());
   forces.guiding.assign(joints.size(), 0);
   at_guides([&](std::size_t i) {
     forces.guiding[static_cast<std::size_t>(system_.joint_index(i))] = free_[places()[i].mark];
   });
+  if (const auto nut = system_.nut_place()) {
+    forces.guiding[static_cast<std::size_t>(system_.joint_index(*nut))] = free_[places()[*nut].mark];
+  }
   if (const auto& rider = system_.rider()) {
     const auto at = system_.rider_motion(q.data(), v.data());
     const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +

@@ -158,6 +158,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   Eigen::Index after_nodes() const { return Eigen::Index{B} * nodes(); }
   /// Where the masses that have left stand.
   Eigen::Index departed() const { return after_nodes() + static_cast<Eigen::Index>(places().size()); }
+  /// Where the angles of a beam that spins stand: behind all but multipliers.
+  Eigen::Index angles() const {
+    return coordinates() - multipliers() - (system_.spin() ? system_.spin()->coordinates() : 0);
+  }
   ChainView<D> view(const double* q, const double* v) const {
     return {system_.mesh(), system_.model().transport, q, v, places()};
   }

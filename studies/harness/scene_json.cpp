@@ -352,6 +352,7 @@ Scene scene_with_every_part() {
   scene.sliding_joints.emplace_back().support = SupportType::pin;  // one that needs no mass
   scene.sliding_joints.back().friction.emplace();
   scene.sliding_joints.back().x.emplace();
+  scene.sliding_joints.back().pitch.emplace();
   scene.sliding_joints.back().motion.emplace();
   for (SupportSpec* support : {&scene.start, &scene.end}) {
     support->motion.emplace().angle.emplace();

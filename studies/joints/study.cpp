@@ -42,13 +42,16 @@ class Report {
     rod_let_down();
     hoisted_weight();
     fed_under_a_bead();
+    lead_screws();
+    lifted_load();
     report_.tables.push_back(std::move(errors_));
     const GnuplotVariables variables{{"folder", context_.folder.string()}};
     report_.figures = {{"sleeve", "A rod that leaves a sleeve and bears a weight, in balance", "sleeve.gp", variables},
                        {"errors", "Error of the equilibria against the number of elements", "errors.gp", variables},
                        {"trolleys", "Two trolleys on a rope", "trolleys.gp", variables},
                        {"bridge", "A mass that is driven over a bridge, and its modes", "bridge.gp", variables},
-                       {"winch", "A weight that a winch hoists while it swings", "winch.gp", variables}};
+                       {"winch", "A weight that a winch hoists while it swings", "winch.gp", variables},
+                       {"screw", "A load on a lead screw, by the torque that turns it", "screw.gp", variables}};
     return std::move(report_);
   }
 
@@ -380,6 +383,78 @@ class Report {
       worst = std::max(worst, result.max_energy_drift / result.max_kinetic);
     }
     report_.measured["fed_ledger"] = worst;
+  }
+
+  /// The scene of the library as a rigid screw: its nut's material coordinate under a torque that grows as gravity
+  /// does.
+  static double on_a_rigid_screw(const Scene& scene, double t) {
+    const SlidingJointSpec& nut = scene.sliding_joints.front();
+    const double lead = *nut.pitch / (2 * std::numbers::pi), ramp = scene.gravity_ramp,
+                 inertia = scene.beam.section.rhoIp + nut.mass * lead * lead,
+                 torque = scene.loads.front().magnitude.value + nut.mass * scene.gravity[1] * lead;
+    const double turned = ramp * ramp * 5 / 36 + ramp / 2 * (t - ramp) + (t - ramp) * (t - ramp) / 2;
+    return nut.position - lead * torque / inertia * turned;
+  }
+
+  /// Against the rigid screw, the stiffer the nearer; and what the ledger leaves where it is soft.
+  void lead_screws() {
+    std::vector<double> places;
+    for (const double EA : levels("screw_stiffnesses")) {
+      Scene scene = library("lead_screw");
+      scene.beam.section.EA = EA;
+      scene.beam.section.GIp = 1e-4 * EA;
+      scene.integrator.rtol = scene.integrator.atol = 1e-9;
+      double place = 0;
+      for (const Sample& sample : StudyContext::simulate_to_the_end(scene).samples) {
+        if (sample.t < scene.gravity_ramp) continue;
+        place = std::max(place, std::abs(*sample.joint_position - on_a_rigid_screw(scene, sample.t)));
+      }
+      places.push_back(place);
+    }
+    add("screw_place", "EA", levels("screw_stiffnesses"), places, 1e-8);
+    double worst = 0;
+    for (const ElementKind element : {ElementKind::ale_ancf, ElementKind::ale_rancf}) {
+      Scene scene = library("lead_screw");
+      scene.beam.element = element;
+      scene.beam.section.EA = 1e5;
+      scene.beam.section.GIp = 10;
+      scene.duration = 1;
+      scene.gravity_ramp = 0;  // the work of gravity that grows is summed up to order 4 only
+      explicitly(scene, 1e-11);
+      const RunResult result = StudyContext::simulate_to_the_end(scene);
+      worst = std::max(worst, result.max_energy_drift / result.max_kinetic);
+      report_.measured["screw_events"] = static_cast<int>(result.events.size());
+    }
+    report_.measured["screw_ledger"] = worst;
+  }
+
+  void lifted_load() {
+    const Scene given = library("lead_screw");
+    const double weight = given.sliding_joints.front().mass * -given.gravity[1],
+                 balance = weight * *given.sliding_joints.front().pitch / (2 * std::numbers::pi);
+    Table heights{
+        .name = "screw",
+        .caption = "Height of a load on a lead screw over time, by the torque on the screw over that of balance",
+        .columns = {"t", "torque", "height"},
+        .curve = true};
+    Table rigid{
+        .name = "screw_rigid", .caption = "The same on a rigid screw [m]", .columns = {"t", "torque", "height"}};
+    double worst = 0;
+    for (const double share : {0.96, 1.0, 1.06, 1.2}) {
+      Scene scene = given;
+      scene.loads.front().magnitude.value = share * balance;
+      scene.duration = 1;
+      for (const Sample& sample : StudyContext::simulate_to_the_end(scene).samples) {
+        heights.rows.push_back({sample.t, share, 1 - *sample.joint_position});
+        if (sample.t < scene.gravity_ramp) continue;
+        const double known = on_a_rigid_screw(scene, sample.t);
+        worst = std::max(worst, std::abs(*sample.joint_position - known));
+        if (std::lround(sample.t / scene.output.interval) % 5 == 0) rigid.rows.push_back({sample.t, share, 1 - known});
+      }
+    }
+    report_.measured["screw_lift_error"] = worst;
+    report_.tables.push_back(std::move(heights));
+    report_.tables.push_back(std::move(rigid));
   }
 
   const StudyContext& context_;

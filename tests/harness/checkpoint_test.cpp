@@ -95,6 +95,12 @@ std::vector<Case> cases() {
                    scene["beam"]["elements"] = 8;
                    scene["sliding_joints"] = {{{"mass", 0.8}, {"position", 0.3}}, {{"mass", 0.5}, {"position", 0.7}}};
                  }});
+  all.push_back({"a nut on a screw", [](Json& scene) {
+                   scene.erase("sliding_mass");
+                   scene["integrator"] = {{"type", "dopri5"}, {"rtol", 1e-6}};
+                   scene["sliding_joints"] = {{{"mass", 0.8}, {"position", 0.3}, {"pitch", 0.5}}};
+                   scene["spin"] = {{"angles", "hermite"}, {"rate", -10}};
+                 }});
   all.push_back(
       {"a clamp that turns", [alpha](Json& scene) {
          alpha(scene);

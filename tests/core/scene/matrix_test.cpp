@@ -142,13 +142,24 @@ const std::vector<Feature>& features() {
          s.drag = DragSpec{{0.4, 0.1}, {0.3, 0.05}};
          s.beam.material.mass_damping = 2;
        }},
-      {"spin", [](Scene& s) { s.spin.emplace().drives = {{.node = 0, .angle = {.rate = 20}}}; }},
+      {"spin",
+       [](Scene& s) {
+         if (!s.spin) s.spin.emplace();
+         s.spin->drives = {{.node = 0, .angle = {.rate = 20}}};
+       }},
       {"flow",
        [](Scene& s) {
          s.flow.emplace().nodes = {
              {.node = 0, .x = {}}, {.node = 2, .x = {.value = 0.5, .rate = 0.7}}, {.node = 4, .x = {.value = 1}}};
        }},
-      {"rotary inertia", [](Scene& s) { s.beam.rotary_inertia = BendingInertia::rayleigh; }}};
+      {"rotary inertia", [](Scene& s) { s.beam.rotary_inertia = BendingInertia::rayleigh; }},
+      {"nut", [](Scene& s) {
+         SlidingJointSpec& nut = joint(s);
+         nut.mass = 0.5;
+         nut.pitch = 0.1;
+         s.spin.emplace().angles = AngleField::hermite;
+         s.spin->rate = 20;
+       }}};
   return all;
 }
 
