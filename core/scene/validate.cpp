@@ -839,10 +839,10 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < sliding_joints(scene).size(); ++i) check_joint(scene, i);
   check_energy_momentum(scene);
   check_support_motion(scene);
+  check_point_masses(scene);
   validate_feeds(scene);
   check_output(scene);
   check_loads(scene);
-  check_point_masses(scene);
   scene.dimension == 2 ? check_initial_velocity<2>(scene) : check_initial_velocity<3>(scene);
   check_equilibrium(scene);
   check_start(scene);

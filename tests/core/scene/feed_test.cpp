@@ -256,6 +256,7 @@ TEST(Feed, IsRefusedWhereItCannotBe) {
             "/length_control/velocities");
   EXPECT_EQ(refused([](Scene& s) { s.integrator.type = IntegratorType::energy_momentum; }), "/integrator/type");
   EXPECT_EQ(refused([](Scene& s) { s.analysis = Analysis::statics; }), "/supports/at=start/feed");
+  EXPECT_EQ(refused([](Scene& s) { s.point_masses = {{.node = 20, .mass = 0.1}}; }), "/point_masses/0/node");
   EXPECT_EQ(refused([](Scene& s) {
               s.start.feed->rate = -1;
               s.point_masses = {{.node = 1, .mass = 0.1}};
