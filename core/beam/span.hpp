@@ -84,8 +84,6 @@ class Span {
   };
   double forces(const double* q, const double* rate, double* force) const;
   void rest_forces(const double* q, double* force) const;
-  void tangents(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
-                NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
   void build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest,
                    const std::vector<PointMass>& masses);

@@ -62,24 +62,96 @@ void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
   }
 }
 
-}  // namespace
+/// What a kernel is compiled for: branches on the section cost much between the few operations of a pack. Bending
+/// without damping, by either law, has its own; all else shares one.
+enum class Kernel { green, engineering, general };
+
+/// Tells the compiler so.
+template <Kernel K>
+BeamSection known(BeamSection section) {
+  if constexpr (K != Kernel::general) {
+    section.stiffness.law = K == Kernel::green ? StrainLaw::green : StrainLaw::engineering;
+    section.damping = 0;
+    if (!section.bends()) __builtin_unreachable();
+  }
+  return section;
+}
+
+/// Calls f with the kernel for the section.
+template <class Function>
+auto with_kernel(const BeamSection& section, const Function& f) {
+  if (section.damped() || !section.bends()) return f.template operator()<Kernel::general>();
+  return section.stiffness.green() ? f.template operator()<Kernel::green>()
+                                   : f.template operator()<Kernel::engineering>();
+}
 
 // Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
-// calls.
-template <int D>
-[[gnu::flatten]] double Span<D>::forces(const double* q, const double* rate, double* force) const {
+// calls. Free functions: for a member of a class template GCC takes the attribute at its declaration only.
+
+template <int D, Kernel K, class Packs>
+[[gnu::flatten]] double add_pack_forces(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
+                                        double* force) {
+  const BeamSection section = known<K>(of);
   double dissipation = 0;
-  for (const auto& pack : packs_) {
+  for (const auto& pack : packs) {
     const auto offset = lane_offsets<D>(pack.count);
     const auto e = load_elements<D>(q, pack.first, offset);
-    const auto e_rate = section_.damped() ? load_elements<D>(rate, pack.first, offset) : e;
-    const auto f = fixed_force<Pack, D>(pack.tables->basis, e, e_rate, section_);
+    const auto e_rate = section.damped() ? load_elements<D>(rate, pack.first, offset) : e;
+    const auto f = fixed_force<Pack, D>(pack.tables->basis, e, e_rate, section);
     add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
-    if (section_.damped()) {
+    if (section.damped()) {
       for (int i = 0; i < pack.count; ++i) dissipation += f.dissipation[i];
     }
   }
   return dissipation;
+}
+
+template <int D, Kernel K, class Packs>
+[[gnu::flatten]] void add_pack_tangents(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
+                                        double by_v, double by_a, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+                                        NodeTangent<D>* lower) {
+  using Matrix = Eigen::Matrix<double, D, D>;
+  const BeamSection section = known<K>(of);
+  ChordTangent<double, D> viscous;
+  for (auto& row : viscous) row.fill(Matrix::Zero());
+  for (const auto& pack : packs) {
+    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
+    const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section.stiffness);
+    for (int i = 0; i < pack.count; ++i) {
+      const int k = pack.first + i;
+      if (section.damped()) {
+        viscous =
+            viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section, by_v);
+      }
+      auto stiffness = [&](std::size_t row, std::size_t column) {
+        Matrix result;
+        for (int c = 0; c < D; ++c) {
+          for (int d = 0; d < D; ++d) result(c, d) = elastic[row][column](c, d)[i];
+        }
+        if (section.damped()) result += viscous[row][column];
+        return result;
+      };
+      const auto& m = pack.tables->mass[static_cast<std::size_t>(i)];
+      auto add_mass = [&](NodeTangent<D>& block, std::size_t row, std::size_t column) {
+        for (std::size_t r = 0; r < 2; ++r) {
+          for (std::size_t c = 0; c < 2; ++c) {
+            block.template block<D, D>(static_cast<int>(r) * D, static_cast<int>(c) * D).diagonal().array() +=
+                by_a * m[row + r][column + c];
+          }
+        }
+      };
+      add_mass(diagonal[k], 0, 0), add_mass(upper[k], 0, 2), add_mass(lower[k + 1], 2, 0);
+      add_mass(diagonal[k + 1], 2, 2);
+      add_chord_tangent<D>(stiffness, diagonal + k, upper + k, lower + k);
+    }
+  }
+}
+
+}  // namespace
+
+template <int D>
+double Span<D>::forces(const double* q, const double* rate, double* force) const {
+  return with_kernel(section_, [&]<Kernel K>() { return add_pack_forces<D, K>(packs_, section_, q, rate, force); });
 }
 
 template <int D>
@@ -110,44 +182,6 @@ void Span<D>::add_inertia(const double* a, double* out) const {
 }
 
 template <int D>
-[[gnu::flatten]] void Span<D>::tangents(const double* q, const double* rate, double by_v, double by_a,
-                                        NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  using Matrix = Eigen::Matrix<double, D, D>;
-  for (const auto& pack : packs_) {
-    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section_.stiffness);
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      ChordTangent<double, D> viscous;
-      if (section_.damped()) {
-        viscous = viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section_,
-                                     by_v);
-      }
-      auto stiffness = [&](std::size_t row, std::size_t column) {
-        Matrix result;
-        for (int c = 0; c < D; ++c) {
-          for (int d = 0; d < D; ++d) result(c, d) = elastic[row][column](c, d)[i];
-        }
-        if (section_.damped()) result += viscous[row][column];
-        return result;
-      };
-      const auto& m = pack.tables->mass[static_cast<std::size_t>(i)];
-      auto add_mass = [&](NodeTangent<D>& block, std::size_t row, std::size_t column) {
-        for (std::size_t r = 0; r < 2; ++r) {
-          for (std::size_t c = 0; c < 2; ++c) {
-            block.template block<D, D>(static_cast<int>(r) * D, static_cast<int>(c) * D).diagonal().array() +=
-                by_a * m[row + r][column + c];
-          }
-        }
-      };
-      add_mass(diagonal[k], 0, 0), add_mass(upper[k], 0, 2), add_mass(lower[k + 1], 2, 0);
-      add_mass(diagonal[k + 1], 2, 2);
-      add_chord_tangent<D>(stiffness, diagonal + k, upper + k, lower + k);
-    }
-  }
-}
-
-template <int D>
 void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                             NodeTangent<D>* lower) const {
   for (const auto& pack : packs_) {
@@ -163,7 +197,9 @@ void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTange
 template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  tangents(q, rate, by_v, by_a, diagonal, upper, lower);
+  with_kernel(section_, [&]<Kernel K>() {
+    add_pack_tangents<D, K>(packs_, section_, q, rate, by_v, by_a, diagonal, upper, lower);
+  });
   if (curved_at_rest_) rest_tangents(q, diagonal, upper, lower);
 }
 
@@ -171,10 +207,6 @@ template double Span<2>::forces(const double*, const double*, double*) const;
 template double Span<3>::forces(const double*, const double*, double*) const;
 template void Span<2>::rest_forces(const double*, double*) const;
 template void Span<3>::rest_forces(const double*, double*) const;
-template void Span<2>::tangents(const double*, const double*, double, double, NodeTangent<2>*, NodeTangent<2>*,
-                                NodeTangent<2>*) const;
-template void Span<3>::tangents(const double*, const double*, double, double, NodeTangent<3>*, NodeTangent<3>*,
-                                NodeTangent<3>*) const;
 template void Span<2>::rest_tangents(const double*, NodeTangent<2>*, NodeTangent<2>*, NodeTangent<2>*) const;
 template void Span<3>::rest_tangents(const double*, NodeTangent<3>*, NodeTangent<3>*, NodeTangent<3>*) const;
 template void Span<2>::add_inertia(const double*, double*) const;

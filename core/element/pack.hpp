@@ -10,42 +10,57 @@ namespace vlbeam {
 class Pack {
  public:
   static constexpr int width = 4;
-  // aligned as Eigen aligns its fixed-size arrays in the portable build
-  using Lanes __attribute__((vector_size(width * sizeof(double)), aligned(16))) = double;
 
   Pack() = default;
-  Pack(double x) : lanes_{x, x, x, x} {}  // NOLINT(google-explicit-constructor): a number is a pack of equal lanes
-  explicit Pack(const Lanes& lanes) : lanes_(lanes) {}
-  Pack(double a, double b, double c, double d) : lanes_{a, b, c, d} {}
+  Pack(double x) : Pack(x, x, x, x) {}  // NOLINT(google-explicit-constructor): a number is a pack of equal lanes
+  Pack(double a, double b, double c, double d) {
+    set(0, a);
+    set(1, b);
+    set(2, c);
+    set(3, d);
+  }
 
-  double operator[](int i) const { return lanes_[i]; }
-  void set(int i, double x) { lanes_[i] = x; }
+  double operator[](int i) const { return parts_[i / in_part][i % in_part]; }
+  void set(int i, double x) { parts_[i / in_part][i % in_part] = x; }
 
   Pack& operator+=(const Pack& b) {
-    lanes_ += b.lanes_;
+    for (int i = 0; i < parts; ++i) parts_[i] += b.parts_[i];
     return *this;
   }
   Pack& operator-=(const Pack& b) {
-    lanes_ -= b.lanes_;
+    for (int i = 0; i < parts; ++i) parts_[i] -= b.parts_[i];
     return *this;
   }
   Pack& operator*=(const Pack& b) {
-    lanes_ *= b.lanes_;
+    for (int i = 0; i < parts; ++i) parts_[i] *= b.parts_[i];
     return *this;
   }
   Pack& operator/=(const Pack& b) {
-    lanes_ /= b.lanes_;
+    for (int i = 0; i < parts; ++i) parts_[i] /= b.parts_[i];
     return *this;
   }
   friend Pack operator+(Pack a, const Pack& b) { return a += b; }
   friend Pack operator-(Pack a, const Pack& b) { return a -= b; }
   friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
   friend Pack operator/(Pack a, const Pack& b) { return a /= b; }
-  friend Pack operator-(const Pack& a) { return Pack(Lanes(-a.lanes_)); }
+  friend Pack operator-(Pack a) {
+    for (int i = 0; i < parts; ++i) a.parts_[i] = -a.parts_[i];
+    return a;
+  }
   friend Pack sqrt(const Pack& a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 
  private:
-  Lanes lanes_;
+  // A vector wider than the machine's registers lives in memory.
+#ifdef __AVX__
+  static constexpr int parts = 1;
+#else
+  static constexpr int parts = 2;
+#endif
+  static constexpr int in_part = width / parts;
+  // aligned as Eigen aligns its fixed-size arrays in the portable build
+  using Lanes __attribute__((vector_size(in_part * sizeof(double)), aligned(16))) = double;
+
+  Lanes parts_[parts];
 };
 
 }  // namespace vlbeam
