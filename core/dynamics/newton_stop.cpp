@@ -25,6 +25,15 @@ FieldNorms sizes_of(const std::vector<FieldRun>& fields, const Eigen::VectorXd& 
   return sizes;
 }
 
+/// A mark that is wrong moves points of the beam by as much, and no more matters: one that hardly moves itself has
+/// corrections that are rounding from the first one on.
+FieldNorms increments(const std::vector<FieldRun>& fields, const Eigen::VectorXd& d) {
+  FieldNorms norms = field_norms(fields, d);
+  double& mark = norms[static_cast<std::size_t>(Field::mark)];
+  mark = std::max(mark, norms[static_cast<std::size_t>(Field::position)]);
+  return norms;
+}
+
 }  // namespace
 
 double relative_to_coordinates(const std::vector<FieldRun>& fields, const Eigen::VectorXd& x,
@@ -51,7 +60,7 @@ NewtonStop::Verdict NewtonStop::judge(const Eigen::VectorXd& r, const Eigen::Vec
   const double previous = error_;
   before_ = correction_;
   correction_ = field_norms(fields_, r);
-  if (++corrections_ <= 3) increment_ = field_norms(fields_, d);  // later ones change it by next to nothing
+  if (++corrections_ <= 3) increment_ = increments(fields_, d);  // later ones change it by next to nothing
   error_ = relative_error(1);
   contraction_ = previous > 0 ? error_ / previous : 0;
   if (std::isnan(contraction_)) contraction_ = 1;  // corrections of a field that does not move at all

@@ -37,6 +37,18 @@ TEST(NewtonStop, GivesEachFieldItsOwnNorm) {
   EXPECT_DOUBLE_EQ(stop.contraction(), 0.1);
 }
 
+TEST(NewtonStop, AMarkIsJudgedByWhatItDoesToPositions) {
+  NewtonStop stop;
+  stop.set_fields({{Field::position, 0}, {Field::mark, 1}});
+  for (const double mark : {1e-17, 1e-2}) {  // it hardly moves, and it moves farther than the beam
+    stop.begin_step();
+    stop.judge(entries(1e-6, mark), entries(1e-6, mark), 1e-7, slow);
+    const bool done = stop.judge(entries(1e-10, 2e-17), entries(1e-6, mark), 1e-7, slow) == NewtonStop::Verdict::done;
+    EXPECT_TRUE(done) << mark;
+    EXPECT_DOUBLE_EQ(stop.error(), 1e-4);
+  }
+}
+
 TEST(NewtonStop, EndsAtMeasuredRounding) {
   NewtonStop stop = two_fields();
   stop.judge(entries(1e-3, 0), entries(1e-3, 0), 1e-14, slow);
@@ -168,6 +180,21 @@ TEST(ModifiedNewton, StopsAtRoundingWhateverIsAskedFor) {
   ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
   EXPECT_EQ(result.solver.rejected, 0u);
   EXPECT_LT(result.solver.newton.iterations, 12 * result.solver.steps);
+}
+
+TEST(ModifiedNewton, AJointThatHardlyMovesAsksForNoTangent) {
+  for (const auto constraints : {Constraints::eliminated, Constraints::multipliers}) {
+    Scene scene = falling_beam(ElementKind::ale_ancf, 1000);
+    scene.sliding_mass->position = 0.5 - 0.3e-3;
+    scene.constraints = constraints;
+    scene.duration = scene.output.interval = 5e-3;
+    scene.integrator.type = IntegratorType::generalized_alpha;
+    scene.integrator.step = 1e-3;
+    const RunResult result = simulate(scene);
+    ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+    EXPECT_LE(result.solver.newton.tangents, 3u);
+    EXPECT_LE(result.solver.newton.iterations, 4 * result.solver.steps);
+  }
 }
 
 TEST(ModifiedNewton, RestsWithFewIterations) {
