@@ -195,8 +195,8 @@ int study_command(const StudyArguments& arguments) {
 }
 
 int kept_run_command(const std::string& folder) {
-  end_with_parent();
   install_interrupt_handler();
+  end_with_parent();
   write_text("-", answer_of_kept_run(folder, read_text("-"), StudyContext::until_interrupted()));
   return interrupted() ? interrupted_exit_code() : done;
 }

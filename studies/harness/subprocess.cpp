@@ -143,6 +143,10 @@ std::string how_it_ended(const ProcessResult& process) {
   return "ended with exit code " + std::to_string(process.exit_code) + ": " + process.error.substr(0, longest);
 }
 
-void end_with_parent() { ::prctl(PR_SET_PDEATHSIG, SIGTERM); }
+void end_with_parent() {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  pollfd answer{STDOUT_FILENO, 0, 0};
+  if (::poll(&answer, 1, 0) > 0 && (answer.revents & POLLERR) != 0) ::raise(SIGTERM);  // it was gone before
+}
 
 }  // namespace vlbeam

@@ -26,7 +26,7 @@ std::string how_it_ended(const ProcessResult& process);
 /// The program that asks, to run it once more: the same file, even where another one has been built in its place since.
 inline constexpr const char* this_program = "/proc/self/exe";
 
-/// Has the system ask this process to stop (SIGTERM) once the thread that started it is gone.
+/// Has the system ask this process to stop (SIGTERM) once the thread that started it, and reads what it says, is gone.
 void end_with_parent();
 
 }  // namespace vlbeam

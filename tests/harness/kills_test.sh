@@ -42,9 +42,10 @@ for ((round = 1; round <= count; ++round)); do
     what=study
     command=("$vlbeam" study quadrature --profile ci --out studies)
   fi
+  locked=(flock --no-fork lock "${command[@]}")  # until the program and all that it has started have ended
   case $how in
-    size) (ulimit -f $((RANDOM % 400)); "${command[@]}" > /dev/null 2>&1) ;;
-    memory) (ulimit -v $((60000 + RANDOM)); "${command[@]}" > /dev/null 2>&1) ;;
+    size) (ulimit -f $((RANDOM % 400)); "${locked[@]}" > /dev/null 2>&1) ;;
+    memory) (ulimit -v $((60000 + RANDOM)); "${locked[@]}" > /dev/null 2>&1) ;;
     disk)
       "$vlbeam" run scene.json --report disk/r.json --csv disk/r.csv > /dev/null 2>&1
       [[ -z $(find disk -name '*.part*') ]] || failed "a part stays on the full disk"
@@ -52,12 +53,14 @@ for ((round = 1; round <= count; ++round)); do
       rm -rf disk/*
       ;;
     *)
-      "${command[@]}" > /dev/null 2>&1 &
+      "${locked[@]}" > /dev/null 2>&1 &
+      while kill -0 $! 2> /dev/null && [[ ! /proc/$!/exe -ef $vlbeam ]]; do sleep 0.001; done  # a shell until then
       sleep "0.$(printf '%03d' $((RANDOM % 400)))"
       kill -"$how" $! 2> /dev/null
       wait $! 2> /dev/null
       ;;
   esac
+  flock lock true  # the runs of a study that is killed keep what they have, and end after it
   while IFS= read -r file; do whole "$file"; done < <(find results studies -type f ! -path '*.part*')
   completed results/r.json
   completed studies/quadrature.json

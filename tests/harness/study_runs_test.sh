@@ -4,7 +4,8 @@
 #   study_runs_test.sh PROGRAM
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-study() { "$vlbeam" study energy_drift --profile ci --out "$1" -j 2 > out.txt 2> err.txt; }
+# It and its runs hold a lock.
+study() { flock --no-fork lock "$vlbeam" study energy_drift --profile ci --out "$1" -j 2 > out.txt 2> err.txt; }
 bits() { (cd "$1" && find . -type f ! -name '*.timing.*' -exec sha256sum {} + | sort); }
 runs_of() { pgrep -P "$1" -f kept-run; }
 wait_for() {  # wait_for COMMAND...: until it succeeds
@@ -12,6 +13,16 @@ wait_for() {  # wait_for COMMAND...: until it succeeds
   failed "waiting for $*"
 }
 ended() { ! kill -0 "$@" 2> /dev/null; }
+kept() { ls "$1"/.energy_drift.ci.kept/*.checkpoint 2> /dev/null; }
+# end_run PROCESS SIGNAL: ends a run of the process, which is stopped before so that it does not end by itself.
+end_run() {
+  local run
+  stopped() { run=$(runs_of "$1" | head -1) && kill -STOP "$run" && grep -q '^State:.[Tt]' "/proc/$run/status"; }
+  wait_for stopped "$1" 2> /dev/null
+  kill -"$2" "$run"
+  kill -CONT "$run" 2> /dev/null
+  wait_for ended "$run"
+}
 
 check "a study" 0 "$(study whole; echo $?)"
 
@@ -19,16 +30,15 @@ for how in INT TERM KILL; do
   study stopped & shell=$!
   wait_for pgrep -P $shell -f energy_drift
   process=$(pgrep -P $shell -f energy_drift)
+  wait_for kept stopped
   wait_for runs_of "$process"
-  sleep 0.3
-  runs=$(runs_of "$process" | tr '\n' ' ')
   kill -$how "$process"
   wait $shell
   code=$?
   check "a study that is stopped, $how" "$(kill -l $how | awk '{print 128 + $1}')" $code
-  for run in $runs; do wait_for ended "$run"; done
+  check "no run outlives it, $how" 0 "$(timeout 60 flock lock true; echo $?)"
   check "nothing changes, $how" no "$(there stopped/energy_drift.json)"
-  check "something is kept, $how" yes "$(ls stopped/.energy_drift.ci.kept/*.checkpoint > /dev/null 2>&1 && echo yes)"
+  check "something is kept, $how" yes "$(kept stopped > /dev/null && echo yes)"
 done
 check "it goes on" 0 "$(study stopped; echo $?)"
 check "with the same bits" "$(bits whole)" "$(bits stopped)"
@@ -38,12 +48,8 @@ check "and keeps nothing" no "$(there stopped/.energy_drift.ci.kept)"
 study crash & shell=$!
 wait_for pgrep -P $shell -f energy_drift
 process=$(pgrep -P $shell -f energy_drift)
-wait_for runs_of "$process"
-first=$(runs_of "$process" | head -1)
-kill -SEGV "$first"
-wait_for ended "$first"
-next=$(wait_for runs_of "$process"; runs_of "$process" | head -1)
-kill -KILL "$next"
+end_run "$process" SEGV
+end_run "$process" KILL
 wait $shell
 check "a study with a crash" 3 $?
 check "crashed" 1 "$(grep -c 'ended by signal 11 (Segmentation fault)' crash/energy_drift.json)"
