@@ -41,19 +41,34 @@ void for_each_coordinate(const std::vector<FieldRun>& runs, const Function& f) {
   }
 }
 
+/// Largest magnitude of `count` groups of `width`, of finite entries.
+template <int width>
+double largest_magnitude(const double* at, Eigen::Index stride, Eigen::Index count) {
+  std::array<double, width> largest{};
+  for (; count > 0; --count, at += stride) {
+    for (std::size_t i = 0; i < width; ++i) {
+      const double size = std::abs(at[i]);
+      largest[i] = size > largest[i] ? size : largest[i];
+    }
+  }
+  return *std::max_element(largest.begin(), largest.end());
+}
+
 /// Largest magnitude of each kind, of finite entries.
 inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::VectorXd& x) {
   FieldNorms norms{};
   for (const FieldRun& run : runs) {
-    double largest = norms[static_cast<std::size_t>(run.field)];
+    double& largest = norms[static_cast<std::size_t>(run.field)];
     const double* at = x.data() + run.first;
-    for (Eigen::Index k = 0; k < run.count; ++k, at += run.stride) {
+    if (run.width == 2) {  // positions and slopes, most of all there is
+      largest = std::max(largest, largest_magnitude<2>(at, run.stride, run.count));
+    } else if (run.width == 3) {
+      largest = std::max(largest, largest_magnitude<3>(at, run.stride, run.count));
+    } else {
       for (Eigen::Index i = 0; i < run.width; ++i) {
-        const double size = std::abs(at[i]);
-        largest = size > largest ? size : largest;
+        largest = std::max(largest, largest_magnitude<1>(at + i, run.stride, run.count));
       }
     }
-    norms[static_cast<std::size_t>(run.field)] = largest;
   }
   return norms;
 }

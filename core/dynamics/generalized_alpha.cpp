@@ -204,7 +204,6 @@ class GeneralizedAlpha final : public Stepper {
     stop_.begin_step();
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(q_, v_, acceleration_, t, r_);
-      if (!r_.allFinite()) return false;
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
         tangent_.set(q_, v_, acceleration_, t, by_v(h), by_a(h));
         if (!linearize()) return false;

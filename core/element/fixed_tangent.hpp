@@ -14,7 +14,8 @@ namespace vlbeam {
 template <class Real, int D>
 using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
 
-/// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack.
+/// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack. Entry by
+/// entry and unrolled: matrices of packs would go through memory.
 template <class Real, int D>
 ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
                                       const Stiffness& stiffness) {
@@ -27,15 +28,24 @@ ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const Nodal
     const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
     const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
     const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
+#pragma GCC unroll 3
     for (std::size_t j = 0; j < 3; ++j) {
       const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
-      Matrix by_p = k.pp * w_x;
-      if (stiffness.bends()) {
-        by_p += k.pm * w_xx;
-        const Matrix by_m = k.pm.transpose() * w_x + k.mm * w_xx;
-        for (std::size_t i = 0; i <= j; ++i) tangent[i][j] += by_m * point.s_xx[i];
+      for (int c = 0; c < D; ++c) {
+        for (int d = 0; d < D; ++d) {
+          Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
+          if (stiffness.bends()) {
+            by_p += k.pm(c, d) * w_xx;
+            by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
+          }
+#pragma GCC unroll 3
+          for (std::size_t i = 0; i <= j; ++i) {
+            Real& sum = tangent[i][j](c, d);
+            if (stiffness.bends()) sum += by_m * point.s_xx[i];
+            sum += by_p * point.s_x[i];
+          }
+        }
       }
-      for (std::size_t i = 0; i <= j; ++i) tangent[i][j] += by_p * point.s_x[i];
     }
   }
   for (std::size_t i = 1; i < 3; ++i) {
