@@ -42,7 +42,7 @@ for ((round = 1; round <= count; ++round)); do
     what=study
     command=("$vlbeam" study quadrature --profile ci --out studies)
   fi
-  locked=(flock --no-fork lock "${command[@]}")  # until the program and all that it has started have ended
+  locked=(flock --no-fork "$folder/lock" "${command[@]}")  # until the program and all that it has started have ended
   case $how in
     size) (ulimit -f $((RANDOM % 400)); "${locked[@]}" > /dev/null 2>&1) ;;
     memory) (ulimit -v $((60000 + RANDOM)); "${locked[@]}" > /dev/null 2>&1) ;;
@@ -60,7 +60,7 @@ for ((round = 1; round <= count; ++round)); do
       wait $! 2> /dev/null
       ;;
   esac
-  flock lock true  # the runs of a study that is killed keep what they have, and end after it
+  flock "$folder/lock" true  # the runs of a study that is killed keep what they have, and end after it
   while IFS= read -r file; do whole "$file"; done < <(find results studies -type f ! -path '*.part*')
   completed results/r.json
   completed studies/quadrature.json

@@ -58,5 +58,10 @@ check "only these" 1 "$(grep -c '"failure": "2 of [0-9]* cases failed"' crash/en
 check "again: these are run, the others are kept" 0 "$(study crash; echo $?)"
 check "with the same bits" "$(bits whole)" "$(bits crash)"
 
+# A run whose study is gone before it begins ends at once.
+echo '{"scene": {"schema": "vlbeam.scene/1", "beam": {"elements": 6}, "duration": 1e3}, "automatic": false}' > asked.json
+(sleep 0.2; timeout 20 "$vlbeam" kept-run alone < asked.json; echo $? > code.txt) | true
+check "a run that nobody waits for goes on" no "$([[ $(< code.txt) -eq 124 ]] && echo yes || echo no)"
+
 check "a command that is not shown" 0 "$("$vlbeam" --help | grep -c kept-run)"
 verdict
