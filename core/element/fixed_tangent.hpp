@@ -14,8 +14,8 @@ namespace vlbeam {
 template <class Real, int D>
 using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
 
-/// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack. Entry by
-/// entry and unrolled: matrices of packs would go through memory.
+/// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack. Entry
+/// by entry and unrolled: matrices of packs would go through memory.
 template <class Real, int D>
 ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
                                       const Stiffness& stiffness) {

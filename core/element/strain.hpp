@@ -31,8 +31,8 @@ struct CrossProduct {
 };
 
 /// Stiffness of the section, EA [N] and EI [N m^2], and the strains that it resists. Element laws branch on `law` and
-/// on whether there is bending at every point: always the same way, so that it costs nothing beside the arithmetic, and
-/// each law is compiled once.
+/// on whether there is bending at every point: always the same way, which costs little, and each law is compiled once.
+/// Kernels for packs of elements tell the compiler which way (`beam/span_kernels.cpp`).
 struct Stiffness {
   double EA;
   double EI;
