@@ -7,7 +7,7 @@ namespace vlbeam {
 
 /// Where an end of an element is when nothing stresses the beam: the rest curve C and its first three derivatives by
 /// arc length, at the material coordinate `x` of that end. Of an end that does not move the first two alone count,
-/// its rest position and slope, which need not be those of C: cuts carry them.
+/// its rest position and slope; that slope is C' but for elements that are an exact chain of conics.
 template <int D>
 struct RestEnd {
   double x = 0;

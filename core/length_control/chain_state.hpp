@@ -6,6 +6,7 @@
 
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_map.hpp"
+#include "core/geometry/axis.hpp"
 
 namespace vlbeam {
 
@@ -17,6 +18,7 @@ struct ChainState {
   Mesh mesh;
   std::vector<double> q, rate;  ///< nodal arrays
   std::vector<double> rest;     ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
+  const Axis<D>* rest_curve = nullptr;  ///< what new nodes follow then
   /// The beam's slope behind a joint.
   struct Kink {
     Vec<double, D> slope, rate;

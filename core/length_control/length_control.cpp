@@ -5,10 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/geometry/arc.hpp"
-#include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/least_change.hpp"
+#include "core/length_control/rest_arc.hpp"
 #include "core/length_control/segmentation.hpp"
 
 namespace vlbeam {
@@ -26,36 +25,20 @@ void place_node(ChainState<D>& chain, int k, const Segmentation<D>& node) {
   slope<D>(chain.rest.data(), k) = node.rest_r_x;
 }
 
-/// Gives element k the weights of the arc that turns as much as its rest shape.
+/// Gives element k the weights of rest_arc().
 template <int D>
-Weights<double> take_rest_arc(ChainState<D>& chain, int k) {
+const Weights<double>& take_rest_arc(ChainState<D>& chain, int k, const LengthControl& control) {
   const auto i = static_cast<std::size_t>(k);
-  Weights<double> weights = unit_weights;
-  if (chain.curved_at_rest()) {
-    const auto rest = chain.rest_nodes(k);
-    weights = even_arc_weights<D>(rest.s_a, rest.s_b);
-  }
-  chain.mesh.weights[i] = {weights, chain.mesh.x[i], chain.mesh.x[i + 1]};
-  return weights;
+  const auto& x = chain.mesh.x;
+  chain.mesh.weights[i] = chain.curved_at_rest() ? rest_arc(*chain.rest_curve, chain, k, control.trigger_length())
+                                                 : WeightFunction{unit_weights, x[i], x[i + 1]};
+  return chain.mesh.weights[i].w;
 }
 
 /// The same for an element that a cut has left, where the merge policy says so.
 template <int D>
 void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
-  if (control.merge == MergePolicy::rest_arc && control.rational) take_rest_arc(chain, k);
-}
-
-/// The rotation that takes the rest shape of element k to where it is, as well as one rotation can.
-template <int D>
-Eigen::Matrix<double, D, D> rotation_from_rest(const ChainState<D>& chain, int k) {
-  auto points = [&](const NodalCubic<double, D>& e) {
-    const double third =
-        (chain.mesh.x[static_cast<std::size_t>(k) + 1] - chain.mesh.x[static_cast<std::size_t>(k)]) / 3;
-    Eigen::MatrixXd of(D, 4);
-    of << e.r_a, e.r_a + third * e.s_a, e.r_b - third * e.s_b, e.r_b;
-    return of;
-  };
-  return best_rotation<D>(points(chain.rest_nodes(k)), points(chain.coordinates(k).e));
+  if (control.merge == MergePolicy::rest_arc && control.rational) take_rest_arc(chain, k, control);
 }
 
 /// What a rule of one's own makes of element k with the nodal coordinates `q`, which has lost node `deleted` of the
@@ -90,7 +73,7 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
     return least_change(chain, before, k, control.rational, law);
   }
   if (control.merge == MergePolicy::rest_arc && control.rational) {
-    const auto weights = take_rest_arc(chain, k);
+    const auto& weights = take_rest_arc(chain, k, control);
     return {{weights[0], weights[1], weights[2]}};
   }
   const auto q = chain.coordinates(k);
@@ -151,15 +134,14 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
   const auto node = segment(before, cut, forward ? x[i + 1] - reach : x[i - 1] + reach, law.transport);
   place_node(chain, j, node);
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
-  renew_cut(chain, cut, control);
   chain.joints.clear();
   chain.rider = {merged, x[i], before.joints.front().rate, false};
+  renew_cut(chain, cut, control);
   return merge_into(chain, merged, before, j, control, law);
 }
 
 template <int D>
-MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law,
-                         const std::array<Vec<double, D>, 4>* rest) {
+MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law) {
   const ChainState<D> before = chain;
   const auto& rider = *before.rider;
   const bool forward = rider.element > 0;
@@ -167,19 +149,12 @@ MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, con
   const auto node = segment(before, cut, rider.x, law.transport);
   const auto at = motion_at(before, cut, rider.x, law.transport);
   place_node(chain, j, node);
-  if (rest != nullptr) {
-    const auto rotation = rotation_from_rest(before, cut);
-    position<D>(chain.q.data(), j) += rotation * ((*rest)[0] - node.rest_r);
-    slope<D>(chain.q.data(), j) += rotation * ((*rest)[1] - node.rest_r_x);
-    position<D>(chain.rest.data(), j) = (*rest)[0];
-    slope<D>(chain.rest.data(), j) = (*rest)[1];
-  }
   position<D>(chain.rate.data(), j) += rider.rate * at.r_x;
   slope<D>(chain.rate.data(), j) += rider.rate * at.r_xx;
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.right : node.left;
-  renew_cut(chain, cut, control);
   chain.joints = {{.node = j, .rate = rider.rate}};
   chain.rider.reset();
+  renew_cut(chain, cut, control);
   return merge_into(chain, merged, before, j, control, law);
 }
 
@@ -194,44 +169,25 @@ void separate(ChainState<D>& chain, Direction direction, const LengthControl& co
   const double x_new = forward ? x_end - control.standard_length : x_end + control.standard_length;
 
   // the element behind the joint, continued to the end: the vanishing one ahead is dropped with its whip
-  const auto q = before.coordinates(kept), rate = before.rates(kept);
-  const WeightFunction& weights = before.mesh.weights[static_cast<std::size_t>(kept)];
-  const MovingKinematics<double, D> kinematics(q, rate, transport, weights);
-  const auto& w = kinematics.weights();
-  auto parameter = [&](double at) { return (at - q.x_a) / (q.x_b - q.x_a); };
-  auto at_material_point = [&](double at) -> Segmentation<D> {
-    const auto point = kinematics.at(parameter(at), rational_shape(w, parameter(at)));
-    if (!before.curved_at_rest()) return {at, point.r, point.r_x, point.v, point.v_x, {}, {}, {}, {}};
-    const auto rest = before.rest_nodes(kept);
-    return {at,
-            point.r,
-            point.r_x,
-            point.v,
-            point.v_x,
-            {},
-            {},
-            combine_nodes(point.s, rest),
-            combine_nodes(point.s_x, rest)};
-  };
-  auto weights_between = [&](double a, double b) -> WeightFunction {
-    if (weights.w == unit_weights) return {unit_weights, a, b};
-    return {restrict_cubic(w, parameter(a), parameter(b)), a, b};
-  };
+  const auto to_end = segment(before, kept, x_end, transport);
   if (forward) {
     chain.joints.pop_back();
   } else {
     chain.joints.erase(chain.joints.begin());
   }
-  place_node(chain, end, at_material_point(x_end));
-  const double x_low = forward ? q.x_a : x_end, x_high = forward ? x_end : q.x_b;
-  if (x_high - x_low < 1.5 * control.standard_length) {
+  place_node(chain, end, to_end);
+  const WeightFunction whole = forward ? to_end.left : to_end.right;
+  if (whole.x_b - whole.x_a < 1.5 * control.standard_length) {
     chain.erase_node(j);
-    chain.mesh.weights[static_cast<std::size_t>(forward ? j - 1 : 0)] = weights_between(x_low, x_high);
+    chain.mesh.weights[static_cast<std::size_t>(forward ? j - 1 : 0)] = whole;
     return;
   }
-  place_node(chain, j, at_material_point(x_new));
-  chain.mesh.weights[static_cast<std::size_t>(j) - 1] = weights_between(x_low, x_new);
-  chain.mesh.weights[static_cast<std::size_t>(j)] = weights_between(x_new, x_high);
+  auto part = [&whole](double a, double b) -> WeightFunction {
+    return {whole.w == unit_weights ? unit_weights : whole.on(a, b), a, b};
+  };
+  place_node(chain, j, segment(before, kept, x_new, transport));
+  chain.mesh.weights[static_cast<std::size_t>(j) - 1] = part(whole.x_a, x_new);
+  chain.mesh.weights[static_cast<std::size_t>(j)] = part(x_new, whole.x_b);
 }
 
 template MergedWeights segment_and_merge(ChainState<2>&, std::size_t, Direction, const Remeshing&, const LengthControl&,
@@ -240,10 +196,8 @@ template MergedWeights segment_and_merge(ChainState<3>&, std::size_t, Direction,
                                          const MovingLaw<3>&);
 template MergedWeights merge_at_end(ChainState<2>&, Direction, const LengthControl&, const MovingLaw<2>&);
 template MergedWeights merge_at_end(ChainState<3>&, Direction, const LengthControl&, const MovingLaw<3>&);
-template MergedWeights cut_at_end(ChainState<2>&, const LengthControl&, const MovingLaw<2>&,
-                                  const std::array<Vec<double, 2>, 4>*);
-template MergedWeights cut_at_end(ChainState<3>&, const LengthControl&, const MovingLaw<3>&,
-                                  const std::array<Vec<double, 3>, 4>*);
+template MergedWeights cut_at_end(ChainState<2>&, const LengthControl&, const MovingLaw<2>&);
+template MergedWeights cut_at_end(ChainState<3>&, const LengthControl&, const MovingLaw<3>&);
 template void separate(ChainState<2>&, Direction, const LengthControl&, WeightTransport);
 template void separate(ChainState<3>&, Direction, const LengthControl&, WeightTransport);
 

@@ -55,13 +55,9 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
                            const MovingLaw<D>& law);
 
 /// What rides inside the last or the first element gets a moving node, the only joint: the element is cut there, and
-/// the next fixed node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes. The new node
-/// follows the rest curve, given by `rest`, position and slope first (null without a rest shape). What the element's
-/// own rest shape differs by from it, which earlier cuts have left, the beam's node is moved by too, so that nothing is
-/// stressed.
+/// the next fixed node deleted, so that nodes keep their number. Undoes merge_at_end() but for shapes.
 template <int D>
-MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law,
-                         const std::array<Vec<double, D>, 4>* rest);
+MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law);
 
 /// The last joint leaves the beam at its last node (forward), or the first one at its first node (backward). The last
 /// element, about to vanish, goes with it: curve and velocity of the element behind the node are continued to the end,

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_state.hpp"
 
 namespace vlbeam {
 
 /// An element cut in two at the material coordinate `x`: curve and parametrization stay what they were
-/// (Ding & Ouyang 2022, Eq. 21-28); the new node is fixed and moves with the material point it sits on. The rest shape
-/// is cut as the curve is, so that strains stay what they were, too.
+/// (Ding & Ouyang 2022, Eq. 21-28); the new node is fixed and moves with the material point it sits on. Of a beam that
+/// is curved at rest, it follows the rest curve: what the element's rest shape is off that curve the beam's node is
+/// moved by too, turned as the beam is there, so that strains stay what they were.
 template <int D>
 struct Segmentation {
   double x;
@@ -16,7 +18,20 @@ struct Segmentation {
   Vec<double, D> rest_r, rest_r_x;  ///< the new node in the rest shape, where there is one
 };
 
-/// Cuts element k of `chain` at `x`, strictly between its ends.
+/// The rotation that takes the rest shape of element k to where it is, as well as one rotation can.
+template <int D>
+Eigen::Matrix<double, D, D> rotation_from_rest(const ChainState<D>& chain, int k) {
+  const auto q = chain.coordinates(k);
+  const double third = (q.x_b - q.x_a) / 3;
+  auto points = [third](const NodalCubic<double, D>& e) {
+    Eigen::MatrixXd of(D, 4);
+    of << e.r_a, e.r_a + third * e.s_a, e.r_b - third * e.s_b, e.r_b;
+    return of;
+  };
+  return best_rotation<D>(points(chain.rest_nodes(k)), points(q.e));
+}
+
+/// Cuts element k of `chain` at `x`; beyond its ends, where its curve and its motion go on to.
 template <int D>
 Segmentation<D> segment(const ChainState<D>& chain, int k, double x, WeightTransport transport) {
   const auto q = chain.coordinates(k), rate = chain.rates(k);
@@ -31,9 +46,13 @@ Segmentation<D> segment(const ChainState<D>& chain, int k, double x, WeightTrans
     result.right.w = restrict_cubic(w, u, 1.0);
   }
   if (chain.curved_at_rest()) {
-    const auto rest = chain.rest_nodes(k);
-    result.rest_r = combine_nodes(at.s, rest);
-    result.rest_r_x = combine_nodes(at.s_x, rest);
+    const auto off = chain.rest_nodes(k);
+    const auto on = chain.rest_curve->derivatives(x);
+    const auto rotation = rotation_from_rest(chain, k);
+    result.rest_r = on[0];
+    result.rest_r_x = on[1];
+    result.r += rotation * (on[0] - combine_nodes(at.s, off));
+    result.r_x += rotation * (on[1] - combine_nodes(at.s_x, off));
   }
   return result;
 }

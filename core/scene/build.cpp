@@ -7,6 +7,7 @@
 #include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "core/length_control/rest_arc.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/build_loads.hpp"
 #include "core/scene/options.hpp"
@@ -26,6 +27,20 @@ bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && sce
 template <int D>
 Vec<double, D> vector_of(const Point& point) {
   return Eigen::Map<const Vec<double, D>>(point.data());
+}
+
+LengthControl build_length_control(const Scene& scene) {
+  const auto& control = scene.length_control;
+  return {control.enabled,
+          standard_length(scene),
+          control.upper,
+          control.hysteresis,
+          merge_policy(scene),
+          control.merge_rule,
+          !is_polynomial(scene.beam.element),
+          scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
+          end_merge(scene),
+          merge_below(scene)};
 }
 
 /// The axis, exactly, with one joint at most. The two elements at it are one curve cut in two, so that it is smooth
@@ -351,17 +366,7 @@ BeamModel<D> build_model(const Scene& scene) {
                 model.quadrature_points};
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
-  const auto& control = scene.length_control;
-  model.length_control = {control.enabled,
-                          standard_length(scene),
-                          control.upper,
-                          control.hysteresis,
-                          merge_policy(scene),
-                          control.merge_rule,
-                          !is_polynomial(scene.beam.element),
-                          scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
-                          end_merge(scene),
-                          merge_below(scene)};
+  model.length_control = build_length_control(scene);
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
   auto [loads, torques] = build_loads<D>(scene);
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
@@ -415,6 +420,15 @@ ChainState<D> build_shape(const Scene& scene) {
     joint = {.node = j, .index = static_cast<int>(i)};
     if (joint_slopes(scene, joints[i]) == JointSlopes::continuous) continue;
     joint.kink = {slope<D>(chain.q.data(), j), Vec<double, D>::Zero()};
+  }
+  const LengthControl control = build_length_control(scene);
+  const bool even = has_rest_shape(scene) && axis_form(scene) == AxisForm::even;
+  if (even && control.enabled && control.merge == MergePolicy::rest_arc && control.rational &&
+      weight_transport(scene) == WeightTransport::transported) {
+    for (int k = 0; k < chain.mesh.elements(); ++k) {
+      if (!chain.moves(k)) continue;
+      chain.mesh.weights[static_cast<std::size_t>(k)] = rest_arc(axis, chain, k, control.trigger_length());
+    }
   }
   return chain;
 }

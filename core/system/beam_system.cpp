@@ -199,6 +199,7 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
   result.q.assign(y.data(), y.data() + nodal_);
   result.rate.assign(y.data() + coordinates_, y.data() + coordinates_ + nodal_);
   result.rest = rest_;
+  result.rest_curve = model_.rest.get();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
     result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];

@@ -61,8 +61,8 @@ struct BeamModel {
   std::vector<ModelJoint<D>> joints;
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
-  /// What a moving node follows in the rest shape, by arc length, where the chain's `rest` has the nodes; null for a
-  /// straight, unstrained rest shape.
+  /// What nodes that move or that are new follow in the rest shape, by arc length, where the chain's `rest` has the
+  /// others; null for a straight, unstrained rest shape.
   std::shared_ptr<const Axis<D>> rest;
 
   /// Whether energy is lost.

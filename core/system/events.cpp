@@ -346,8 +346,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
     case EventType::end_merge:
       return merge_at_end(chain, due.direction, control, moving_law(t));
     case EventType::end_cut: {
-      const auto rest = model_.rest ? model_.rest->derivatives(chain.rider->x) : std::array<Vector, 4>{};
-      const MergedWeights merged = cut_at_end(chain, control, moving_law(t), model_.rest ? &rest : nullptr);
+      const MergedWeights merged = cut_at_end(chain, control, moving_law(t));
       if (rider_law().kinked()) {
         auto& node = chain.joints.front();
         node.kink = {slope<D>(chain.q.data(), node.node), slope<D>(chain.rate.data(), node.node)};

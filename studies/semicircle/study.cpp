@@ -8,6 +8,8 @@
 #include <iterator>
 #include <map>
 
+#include "core/beam/mesh_motion.hpp"
+#include "core/length_control/chain_motion.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/histories.hpp"
@@ -44,12 +46,14 @@ RunResult run_case(const SceneCase& item) {
   return run;
 }
 
-/// Arc length along a rigid semicircular wire, at the time t, of a bead let go at rest: R angle'' = g cos(angle).
+/// Arc length along a rigid semicircular wire, at the time t, of a bead let go at rest: R angle'' = g(t) cos(angle).
 double on_rigid_wire(const Scene& scene, double t) {
   using State = std::array<double, 2>;
   const double R = scene.beam.curve.radius, g = -scene.gravity[1];
   State angle{scene.sliding_mass->position / R, 0};
-  const auto rate = [&](const State& at, State& out, double) { out = {at[1], g / R * std::cos(at[0])}; };
+  const auto rate = [&](const State& at, State& out, double now) {
+    out = {at[1], g / R * smooth_ramp(now, scene.gravity_ramp).value * std::cos(at[0])};
+  };
   using namespace boost::numeric::odeint;
   integrate_adaptive(make_controlled<runge_kutta_fehlberg78<State>>(1e-13, 1e-13), rate, angle, 0.0, t, 1e-3);
   return R * angle[0];
@@ -68,7 +72,7 @@ double radius_error(const Scene& scene) {
   for (int k = 0; k < chain.mesh.elements(); ++k) {
     const auto q = chain.coordinates(k);
     const auto curve =
-        RationalCubic<double, 2>::from_nodal(q.e, q.x_b - q.x_a, chain.mesh.weights[static_cast<std::size_t>(k)].w);
+        RationalCubic<double, 2>::from_nodal(q.e, q.x_b - q.x_a, current_weights(chain, k, weight_transport(scene)));
     for (int i = 0; i <= 50; ++i) {
       largest =
           std::max(largest, std::abs(std::hypot(curve.evaluate(i / 50.0)[0][0], curve.evaluate(i / 50.0)[0][1]) - R));
@@ -109,8 +113,8 @@ class Report {
     add_cases();
     add_audit();
     add_convergence();
-    add_bead();
-    add_elastic_bead();
+    add_beads("bead", "bead", "EA = EI = 1e8");
+    add_beads("elastic bead", "elastic_bead", "EA = EI = 1e6, gravity that grows over 0.25 s");
     add_printed();
     add_figures();
     return std::move(report_);
@@ -203,69 +207,56 @@ class Report {
     add_limits();
   }
 
-  /// A bead on a wire so stiff that it should stay where it is.
-  void add_bead() {
-    Table table{.name = "bead",
-                .caption =
-                    "Bead on a stiff semicircular wire, EA = EI = 1e8: error of its arc length over L at 1 s against "
-                    "a rigid wire; events and the sum of their jumps of strain energy [J]",
-                .columns = {"element", "elements", "error", "events", "strain_jumps"}};
-    std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> errors;
+  /// Beads on wires: where they are off a rigid wire's, and off the finest mesh of the other element.
+  void add_beads(const std::string& sweep, const std::string& name, const std::string& wire) {
+    struct Run {
+      double place;  // over L, off the rigid wire's
+      std::size_t events;
+      double strain_jumps;
+    };
+    std::map<std::string, std::map<int, Run>> runs;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (cases_[i].sweep != "bead" || !outcomes_[i]) continue;
+      if (cases_[i].sweep != sweep || !outcomes_[i]) continue;
       const Scene& scene = cases_[i].scene;
       const RunResult& run = *outcomes_[i];
       const Sample& last = run.samples.back();
-      const double error =
-          last.joint_position ? std::abs(*last.joint_position - on_rigid_wire(scene, last.t)) / beam_length(scene) : 1;
       double jumps = 0;
       for (const Event& event : run.events) jumps += std::abs(event.energy_jump.axial + event.energy_jump.bending);
-      const std::string element = scene.beam.element == ElementKind::ale_rancf ? "rancf" : "ancf";
-      table.rows.push_back({to_string(scene.beam.element), scene.beam.elements, error, run.events.size(), jumps});
-      report_.measured["bead_error_" + element + "_n" + std::to_string(scene.beam.elements)] = error;
-      errors[element].first.push_back(scene.beam.elements);
-      errors[element].second.push_back(error);
-    }
-    for (const auto& [element, of] : errors) {
-      report_.measured["bead_order_" + element] = std::log2(of.second[0] / of.second[1]);
-    }
-    report_.tables.push_back(std::move(table));
-  }
-
-  /// The same on a wire that deflects, against the finest mesh of the other element.
-  void add_elastic_bead() {
-    std::map<std::string, std::map<int, double>> places;  // over L, off the rigid wire's
-    std::map<std::string, std::map<int, std::size_t>> events;
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (cases_[i].sweep != "elastic bead" || !outcomes_[i]) continue;
-      const Scene& scene = cases_[i].scene;
-      const Sample& last = outcomes_[i]->samples.back();
-      const std::string element = scene.beam.element == ElementKind::ale_rancf ? "rancf" : "ancf";
-      places[element][scene.beam.elements] =
+      const double place =
           last.joint_position ? (*last.joint_position - on_rigid_wire(scene, last.t)) / beam_length(scene) : 1;
-      events[element][scene.beam.elements] = outcomes_[i]->events.size();
+      const std::string element = scene.beam.element == ElementKind::ale_rancf ? "rancf" : "ancf";
+      runs[element][scene.beam.elements] = {place, run.events.size(), jumps};
     }
-    if (places.size() < 2) return;
-    Table table{
-        .name = "elastic_bead",
-        .caption =
-            "Bead on an elastic semicircular wire, EA = EI = 1e6: where it is at 1 s off a rigid wire's, and off "
-            "the other element's finest mesh, over L; events",
-        .columns = {"element", "elements", "off_rigid", "error", "events"}};
-    double answer = 0, uncertainty = 0;
-    for (const auto& [element, of] : places) {
-      const double finest = places.at(element == "ancf" ? "rancf" : "ancf").rbegin()->second;
-      answer += of.rbegin()->second / 2;
-      uncertainty = std::max({uncertainty, std::abs(of.rbegin()->second - std::next(of.rbegin())->second),
-                              std::abs(of.rbegin()->second - finest)});
-      for (const auto& [n, place] : of) {
-        const double error = std::abs(place - finest);
-        table.rows.push_back({element == "ancf" ? "ALE-ANCF" : "ALE-RANCF", n, place, error, events[element][n]});
-        report_.measured["elastic_bead_error_" + element + "_n" + std::to_string(n)] = error;
+    if (runs.size() < 2) return;
+    Table table{.name = name,
+                .caption = "Bead on a semicircular wire, " + wire +
+                           ": where it is at 1 s off a rigid wire's, and off the other element's finest mesh, over L; "
+                           "events and the sum of their jumps of strain energy [J]",
+                .columns = {"element", "elements", "off_rigid", "error", "events", "strain_jumps"}};
+    const auto finest = [&](const std::string& element) { return runs.at(element).rbegin()->second.place; };
+    const double apart = std::abs(finest("ancf") - finest("rancf"));
+    double uncertainty = apart;
+    for (const auto& [element, of] : runs) {
+      uncertainty = std::max(uncertainty, std::abs(finest(element) - std::next(of.rbegin())->second.place));
+      std::vector<double> levels, errors;
+      for (const auto& [n, run] : of) {
+        levels.push_back(n);
+        errors.push_back(std::abs(run.place - finest(element == "ancf" ? "rancf" : "ancf")));
+        const std::string key = element + "_n" + std::to_string(n);
+        table.rows.push_back(
+            {element == "ancf" ? "ALE-ANCF" : "ALE-RANCF", n, run.place, errors.back(), run.events, run.strain_jumps});
+        report_.measured[name + "_off_rigid_" + key] = std::abs(run.place);
+        report_.measured[name + "_error_" + key] = errors.back();
       }
+      const OrderFit& fit =
+          report_.fits.emplace_back(fit_order(name + "_" + element, levels, errors, {.floor = apart}));
+      if (!std::isfinite(fit.slope)) continue;
+      report_.measured[name + "_order_" + element] = fit.slope;
+      report_.measured[name + "_order_uncertainty_" + element] = fit.slope_uncertainty;
     }
-    report_.measured["elastic_bead_off_rigid"] = answer;
-    report_.measured["elastic_bead_uncertainty"] = uncertainty;
+    report_.measured[name + "_off_rigid"] = (finest("ancf") + finest("rancf")) / 2;
+    report_.measured[name + "_apart"] = apart;
+    report_.measured[name + "_uncertainty"] = uncertainty;
     report_.tables.push_back(std::move(table));
   }
 

@@ -218,7 +218,7 @@ TYPED_TEST(LengthControlOf, AnEndCutKeepsTheMotionAheadAndThatOfTheMass) {
       chain.rider->x = 4.49 * standard;
       auto mirror = reversed(chain);
       const auto before = chain;
-      cut_at_end<D>(chain, this->control(policy), this->law(transport), nullptr);
+      cut_at_end<D>(chain, this->control(policy), this->law(transport));
       EXPECT_FALSE(chain.rider.has_value());
       EXPECT_EQ(chain.joints.front().node, 4);
       EXPECT_EQ(chain.mesh.x[4], before.rider->x);
@@ -233,7 +233,7 @@ TYPED_TEST(LengthControlOf, AnEndCutKeepsTheMotionAheadAndThatOfTheMass) {
           EXPECT_LE((is.v - was.v).norm(), 1e-12);
         }
       }
-      cut_at_end<D>(mirror, this->control(policy), this->law(transport), nullptr);
+      cut_at_end<D>(mirror, this->control(policy), this->law(transport));
       auto image = reversed(mirror);
       if (policy == MergePolicy::point_fit) image.mesh.weights[3] = chain.mesh.weights[3];
       expect_same(image, chain, 1e-12);
