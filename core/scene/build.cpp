@@ -348,9 +348,12 @@ BeamModel<D> build_model(const Scene& scene) {
     joint.motion = motion_of(spec.motion);
     joint.separation_distance = separation_distance(scene, spec);
     joint.at_support = {spec.at_support, spec.restitution};
-    if (spec.x) joint.x = travelling(spec.position, time_function(*spec.x));
+    if (spec.x) joint.x = travelling(spec.position, acting(*spec.x, scene.analysis));
     joint.pitch = spec.pitch.value_or(0);
   }
+  const ContactSpec contact = scene.contact.value_or(ContactSpec{});
+  model.at_meeting = {contact.joints, contact.restitution};
+  model.contact_distance = contact.distance;
   if (scene.start.feed) {
     model.joints.emplace_back().x = travelling(0, [in = time_function(*scene.start.feed)](double t) -> Prescribed {
       const Prescribed length = in(t);

@@ -28,10 +28,11 @@ BeamModel<D> at_start(BeamModel<D> model) {
   model.start_motion = model.end_motion = {};
   for (ModelJoint<D>& joint : model.joints) {
     joint.motion = {};
-    joint.x = {};
+    if (joint.x) joint.x = [x = joint.x(0).value](double) -> Prescribed { return {x, 0, 0}; };
   }
   model.length_control.velocities = VelocityTransfer::nodal;  // there are none
-  model.length_control.end_merge = model.length_control.lower = 0;
+  model.length_control.end_merge = 0;
+  if (model.joints.size() < 2) model.length_control.lower = 0;
   return model;
 }
 

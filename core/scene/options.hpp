@@ -588,6 +588,30 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
     joint_options(at, guided || joint.support != SupportType::free, joint);
   }
 
+  if (visitor.present(Option{.pointer = "/contact",
+                             .unit = "",
+                             .description = "how several joints touch: each other, and the supports that they strike"},
+                      scene.contact)) {
+    auto& contact = *scene.contact;
+    visitor(Option{.pointer = "/contact/joints",
+                   .unit = "",
+                   .description = "what becomes of two joints that meet: the run stops there, or they rebound",
+                   .without = "rest"},
+            contact.joints);
+    visitor(Option{.pointer = "/contact/restitution",
+                   .unit = "-",
+                   .description = "of their rebound: relative speed after it over that before",
+                   .range = Range{.low = 0, .high = 1, .low_open = true},
+                   .when = only_if("/contact/joints", contact.joints, AtSupport::rebound)},
+            contact.restitution);
+    visitor(Option{.pointer = "/contact/distance",
+                   .unit = "-",
+                   .description = "between the nodes of what touches, over the uniform element length: results "
+                                  "converge as it falls, and steps get shorter",
+                   .range = Range::closed(1e-3, 0.1)},
+            contact.distance);
+  }
+
   if (visitor.present(Option{.pointer = "/spin", .unit = "", .description = "the section's rotation about the axis"},
                       scene.spin)) {
     auto& spin = *scene.spin;

@@ -157,6 +157,13 @@ struct SlidingJointSpec : SlidingMassSpec {
   std::optional<double> pitch;  ///< of a nut on a beam that spins [m a turn], right-handed where > 0
 };
 
+/// How several joints touch: each other, and the supports from which they rebound.
+struct ContactSpec {
+  AtSupport joints = AtSupport::stop;  ///< where two meet; they do not rest
+  double restitution = 1;              ///< of their rebound
+  double distance = 0.1;               ///< between the nodes of what touches, over L_std
+};
+
 /// The section's rotation about the axis of the beam.
 struct SpinSpec {
   /// A node whose angle is prescribed [rad].
@@ -322,6 +329,7 @@ struct Scene {
   SupportSpec end;
   std::optional<SlidingMassSpec> sliding_mass;        ///< short for one sliding joint that is free
   std::vector<SlidingJointSpec> sliding_joints = {};  ///< in order along the beam; none beside a sliding mass
+  std::optional<ContactSpec> contact = {};            ///< of several joints
   std::optional<SpinSpec> spin;
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};

@@ -23,15 +23,20 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   sample.strains = strain_sample(*seen.extremes);
   const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
   for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
-  if (system.has_joint()) {
-    const auto& joint = chain.joints.front();
-    sample.joint_position = chain.mesh.x[static_cast<std::size_t>(joint.node)];
-    const Vec<double, D> place = position<D>(chain.q.data(), joint.node), &force = forces.on_masses.front();
-    sample.mass_position = point_of<D>(place);
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const auto& joint = chain.joints[i];
+    const Vec<double, D> place = position<D>(chain.q.data(), joint.node), &force = forces.on_masses[i];
     Vec<double, D> tangent = slope<D>(chain.q.data(), joint.node).normalized();
     if (joint.kink) tangent = (tangent + joint.kink->slope.normalized()).normalized();
-    const double along = force.dot(tangent);
-    sample.joint = {0, point_of<D>(force), along, (force - along * tangent).norm(), 0};
+    const double along = force.dot(tangent), held = chain.joints.size() > 1 ? at.holding[i] : 0;
+    const SlidingSample seen_there{chain.mesh.x[static_cast<std::size_t>(joint.node)], point_of<D>(place),
+                                   JointSample{0, point_of<D>(force), along, (force - along * tangent).norm(), held}};
+    if (i == 0) {
+      sample.joint_position = seen_there.position;
+      sample.mass_position = seen_there.mass_position;
+      sample.joint = seen_there.on_beam;
+    }
+    if (chain.joints.size() > 1) sample.joints.push_back(seen_there);
   }
   if (!system.model().loads.present()) return sample;
   FlowSample flow;

@@ -235,12 +235,51 @@ bool is_zero(const TimeSpec& f) { return f.value == 0 && f.rate == 0 && f.accele
 /// rounding.
 double largest_rate(const TimeSpec& f) { return std::abs(f.rate) + std::abs(f.amplitude * f.frequency); }
 
+/// One of several joints that rebounds from supports.
+void check_strike(const Scene& scene, std::size_t which) {
+  const SlidingJointSpec& joint = scene.sliding_joints[which];
+  if (joint.at_support == AtSupport::stop) return;
+  const std::string key = joint_key(scene, which);
+  if (joint.at_support == AtSupport::rest) {
+    refuse(
+        key + "/at_support", "\"rest\"",
+        "one of several joints keeps its node, and what is between it and the support, a spring, would throw it back "
+        "again and again: take \"rebound\" or \"stop\"");
+  }
+  if (joint.restitution == 0) {
+    refuse(key + "/restitution", "0", "several joints do not rest at supports: it must be > 0");
+  }
+  const double least = contact_distance(scene) * standard_length(scene), length = beam_length(scene);
+  const bool near_start = scene.start.type != SupportType::free && joint.position <= least;
+  const bool near_end = scene.end.type != SupportType::free && joint.position >= length - least;
+  if (near_start || near_end) {
+    refuse(key + "/position", number_text(joint.position),
+           "it strikes a support at a distance of /contact/distance elements, " + number_text(least) +
+               " [m], and must start farther from it");
+  }
+}
+
+void check_contact(const Scene& scene) {
+  const auto& joints = scene.sliding_joints;
+  if (joints.size() < 2) refuse("/contact", "this key", "it is of several /sliding_joints: leave it out");
+  if (scene.contact->joints == AtSupport::stop) return;
+  if (scene.contact->joints == AtSupport::rest) {
+    refuse("/contact/joints", "\"rest\"", "two joints that move on as one are not modelled: take \"rebound\"");
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (!joints[i].pitch) continue;
+    refuse("/contact/joints", quoted(scene.contact->joints),
+           "with a nut, " + joint_key(scene, i) + ", whose shaft takes part in the impact, it must be \"stop\"");
+  }
+}
+
 /// What several joints do not go together with.
 void check_several_joints(const Scene& scene) {
   if (scene.sliding_mass && !scene.sliding_joints.empty()) {
     refuse("/sliding_joints", "this key", "it does not go together with /sliding_mass, which is one of them");
   }
   const auto& joints = scene.sliding_joints;
+  if (scene.contact) check_contact(scene);
   if (joints.size() < 2) return;
   const double apart = 0.2 * standard_length(scene);
   for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -250,9 +289,7 @@ void check_several_joints(const Scene& scene) {
              "joints stand in order along the beam and a fifth of an element apart: at least " +
                  number_text(joints[i - 1].position + apart) + " [m], by that of " + joint_key(scene, i - 1));
     }
-    if (joints[i].at_support != AtSupport::stop) {
-      refuse(key + "/at_support", quoted(joints[i].at_support), "of one of several joints it must be \"stop\"");
-    }
+    check_strike(scene, i);
   }
   if (scene.length_control.end_merge.value_or(0) > 0) {
     refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
@@ -295,9 +332,6 @@ void check_held_joint(const Scene& scene, std::size_t which) {
     refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge),
            "a joint that is held keeps its node to the last: it must be 0");
   }
-  if (scene.length_control.velocities == VelocityTransfer::conservative) {
-    refuse("/length_control/velocities", "\"conservative\"", "with a joint that is held take \"projected\"");
-  }
   if (scene.integrator.type == IntegratorType::energy_momentum) {
     refuse("/integrator/type", quoted(scene.integrator.type), "it knows no joint that is held: take any other");
   }
@@ -314,10 +348,11 @@ void check_held_joint(const Scene& scene, std::size_t which) {
 
 /// A guide may lead off a free end, but not into a support.
 void check_way(const Scene& scene, const SlidingJointSpec& joint, const std::string& at) {
-  const TimeFunction way = time_function(*joint.x);
+  const TimeFunction way = acting(*joint.x, scene.analysis);
   const auto ends = beam_ends(scene);
+  const double until = scene.analysis == Analysis::statics ? 1 : scene.duration;  // the load factor
   for (int i = 0; i <= samples_of_a_way; ++i) {
-    const double t = scene.duration * i / samples_of_a_way, x = joint.position + way(t).value;
+    const double t = until * i / samples_of_a_way, x = joint.position + way(t).value;
     const auto [first, last] = ends(t);
     const bool beyond_start = x <= first, beyond_end = x >= last;
     if (!beyond_start && !beyond_end) continue;
@@ -361,9 +396,6 @@ void check_guided_joint(const Scene& scene, std::size_t which) {
   const IntegratorType type = scene.integrator.type;
   if (type == IntegratorType::energy_momentum || type == IntegratorType::ida) {
     refuse("/integrator/type", quoted(type), "it knows no joint that is guided: take any other");
-  }
-  if (scene.analysis == Analysis::statics) {
-    refuse(at, "this key", "statics knows none: hold the joint with \"statics\": {\"joints\": \"held\"}");
   }
 }
 
@@ -430,7 +462,9 @@ void check_length_control(const Scene& scene) {
     refuse("/length_control/merge", control.merge ? quoted(*control.merge) : "left out",
            "with a merge rule it must be \"own\"");
   }
-  if (sliding_joint(scene) && sliding_joint(scene)->at_support != AtSupport::stop && end_merge(scene) == 0) {
+  const bool several = scene.sliding_joints.size() > 1;  // they keep their nodes and strike at a distance
+  if (!several && sliding_joint(scene) && sliding_joint(scene)->at_support != AtSupport::stop &&
+      end_merge(scene) == 0) {
     refuse(control.enabled ? "/length_control/end_merge" : "/length_control/enabled", control.enabled ? "0" : "false",
            "\"at_support\": " + quoted(sliding_joint(scene)->at_support) +
                " needs a mass that reaches the support: take " + (control.enabled ? "a number in (0, 0.9]" : "true") +
@@ -576,7 +610,6 @@ void check_support_motion(const Scene& scene) {
     const SlidingJointSpec& joint = scene.sliding_joints[i];
     if (!joint.motion) continue;
     const std::string at = joint_key(scene, i) + "/motion";
-    if (scene.analysis == Analysis::statics) refuse(at, "this key", "in statics rings and sleeves stay where they are");
     if (scene.integrator.type == IntegratorType::ida) {
       refuse("/integrator/type", "\"ida\"", "it knows no joint that is moved: take any other");
     }
@@ -701,9 +734,6 @@ void check_equilibrium(const Scene& scene) {
   const auto none = [&](bool there, const std::string& key, const std::string& why) {
     if (there) refuse(key, "this key", who + " knows none: " + why);
   };
-  if (scene.sliding_joints.size() > 1) {
-    refuse("/sliding_joints", std::to_string(scene.sliding_joints.size()) + " of them", who + " knows one, so far");
-  }
   if (sliding_joint(scene) && scene.formulation != Formulation::variational) {
     refuse("/formulation", quoted(scene.formulation),
            "in " + std::string(starts ? "the equilibrium to start from" : "statics") +
@@ -716,14 +746,19 @@ void check_equilibrium(const Scene& scene) {
     refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), "with " + who + " it must be \"none\"");
   }
   const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
-  const bool in_sleeve = joint_support(scene) == SupportType::clamp;
+  // two rings hold a beam as a sleeve does
+  const auto held = [&](SupportType by) {
+    return std::ranges::count(scene.sliding_joints, by, &SlidingJointSpec::support);
+  };
+  const bool in_sleeve = 2 * held(SupportType::clamp) + held(SupportType::pin) > 1;
   if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_sleeve) {
     refuse("/supports", "nothing that holds the beam", "under loads or gravity it has no equilibrium: hold an end");
   }
   if (scene.statics.control == LoadControl::arc_length) {
     if (!loaded) refuse("/statics/control", "\"arc-length\"", "it needs gravity or /loads to scale: take \"load\"");
-    if (!starts && (scene.start.motion || scene.end.motion)) {
-      refuse("/statics/control", "\"arc-length\"", "supports are moved with \"load\"");
+    const auto moves = [](const SlidingJointSpec& joint) { return joint.motion || joint.x; };
+    if (!starts && (scene.start.motion || scene.end.motion || std::ranges::any_of(scene.sliding_joints, moves))) {
+      refuse("/statics/control", "\"arc-length\"", "supports and joints are moved with \"load\"");
     }
   }
 }
@@ -735,15 +770,17 @@ void check_start(const Scene& scene) {
     refuse("/gravity_ramp", number_text(scene.gravity_ramp),
            "with \"initial_shape\": \"equilibrium\", which is under all of gravity, it must be 0");
   }
-  const SlidingMassSpec* joint = sliding_joint(scene);
-  if (joint == nullptr) return;
-  if (guided(scene) && static_joints(scene) == StaticJoints::released) {
+  const auto joints = sliding_joints(scene);
+  const bool all_guided =
+      std::ranges::all_of(joints, [](const SlidingJointSpec& joint) { return joint.x.has_value(); });
+  if (guided(scene) && all_guided && static_joints(scene) == StaticJoints::released) {
     refuse("/statics/joints", "\"released\"",
            joint_key(scene) + "/x says where the joint is: it must be \"held\", or left out");
   }
-  const double rate = guided(scene) ? time_function(*scene.sliding_joints.front().x)(0).rate : joint->velocity;
-  if (rate != 0 && joint->slopes != JointSlopes::continuous) {
-    refuse(joint_key(scene) + "/slopes", quoted(joint->slopes),
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const double rate = joints[i].x ? time_function(*joints[i].x)(0).rate : joints[i].velocity;
+    if (rate == 0 || joints[i].slopes == JointSlopes::continuous) continue;
+    refuse(joint_key(scene, i) + "/slopes", quoted(joints[i].slopes),
            "what starts from an equilibrium with a velocity along the beam, here " + number_text(rate) +
                " m/s, needs \"continuous\" ones: the beam is not at rest where a kink moves along it");
   }
@@ -754,17 +791,21 @@ void check_statics(const Scene& scene) {
   const auto none = [&](bool there, const std::string& key, const char* why) {
     if (there) refuse(key, "this key", std::string("statics knows none: ") + why);
   };
-  if (const SlidingMassSpec* joint = sliding_joint(scene)) {
-    const std::string key = joint_key(scene);
-    none(joint->friction.has_value(), key + "/friction", "in equilibrium nothing slides; leave it out");
-    if (joint->velocity != 0) refuse(key + "/velocity", number_text(joint->velocity), "in statics it must be 0");
-    if (joint->at_support != AtSupport::stop) {
-      refuse(key + "/at_support", quoted(joint->at_support), "in statics it must be \"stop\"");
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const std::string key = joint_key(scene, i);
+    none(joints[i].friction.has_value(), key + "/friction", "in equilibrium nothing slides; leave it out");
+    if (joints[i].velocity != 0) refuse(key + "/velocity", number_text(joints[i].velocity), "in statics it must be 0");
+    if (joints[i].at_support != AtSupport::stop) {
+      refuse(key + "/at_support", quoted(joints[i].at_support), "in statics it must be \"stop\"");
     }
+  }
+  none(scene.contact.has_value(), "/contact", "nothing strikes; leave it out");
+  if (!joints.empty()) {
     if (scene.length_control.end_merge.value_or(0) > 0) {
       refuse("/length_control/end_merge", number_text(*scene.length_control.end_merge), "in statics it must be 0");
     }
-    if (scene.length_control.lower.value_or(0) > 0) {
+    if (joints.size() < 2 && scene.length_control.lower.value_or(0) > 0) {
       refuse("/length_control/lower", number_text(*scene.length_control.lower), "in statics it must be 0");
     }
   }
@@ -786,6 +827,11 @@ void check_statics(const Scene& scene) {
     constant(at + "/magnitude", scene.loads[i].magnitude);
     constant(at + "/x", scene.loads[i].x);
     constant(at + "/turn", scene.loads[i].turn);
+  }
+  for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+    const auto& joint = scene.sliding_joints[i];
+    if (joint.x) constant(joint_key(scene, i) + "/x", *joint.x);
+    if (joint.motion) constant(joint_key(scene, i) + "/motion", joint.motion->displacement);
   }
   if (scene.start.motion) constant("/supports/at=start/motion", scene.start.motion->displacement);
   if (scene.end.motion) constant("/supports/at=end/motion", scene.end.motion->displacement);

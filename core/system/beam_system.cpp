@@ -531,18 +531,45 @@ std::optional<typename BeamSystem<D>::Pull> BeamSystem<D>::solve_apart(const dou
 }
 
 template <int D>
+Tally BeamSystem<D>::add_forces(const double* q, const double* rate, double t, double* force,
+                                JointElements& elements) const {
+  const Vector g = gravity(t), on_beam = beam_gravity(t);
+  Tally power;
+  power.dissipated = left_->add_forces(q, rate, on_beam, force) + right_->add_forces(q, rate, on_beam, force);
+  for (const SpanBetween<D>& span : between_) power.dissipated += span.span().add_forces(q, rate, on_beam, force);
+  if (model_.loads.present()) {
+    const ChainView<D> beam = view(q, rate);
+    power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
+    power.supports += fed_line_power(beam, t);
+  }
+  if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
+  if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
+  if (!has_joint()) return power;
+  fill_elements(q, rate, t, elements);
+  double lost = 0;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const MovingPart& part = parts_[p];
+    const auto& eq = elements[p];
+    const auto at = vectors_of(force, part.element);
+    for (std::size_t i = 0; i < 4; ++i) Eigen::Map<Vector>(at[i]) += eq.force[i];
+    if (part.a >= 0) force[places_[static_cast<std::size_t>(part.a)].mark] += eq.force_a;
+    if (part.b >= 0) force[places_[static_cast<std::size_t>(part.b)].mark] += eq.force_b;
+    lost += eq.dissipation;
+  }
+  power.dissipated += lost;
+  for (std::size_t i = 0; i < places_.size(); ++i) position<D>(force, places_[i].node) += joint(i).law.mass * g;
+  return power;
+}
+
+template <int D>
 double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
   Eigen::VectorXd exact = y;
   impose(exact, t);
   orient(t);
   const double *q = exact.data(), *rate = q + coordinates_;
-  const Vector on_beam = beam_gravity(t);
   Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
-  left_->add_forces(q, rate, on_beam, a.data());
-  right_->add_forces(q, rate, on_beam, a.data());
-  model_.loads.add_forces(view(q, rate), t, a.data());
-  if (model_.drag.present()) model_.drag.add_forces(view(q, rate), a.data());
-  model_.masses.add_weight(view(q, rate), gravity(t), a.data());
+  JointElements none;
+  add_forces(q, rate, t, a.data(), none);
   solve_apart(q, rate, t, a.data());
   const auto solved = solve_rider(rider_motion(q, rate), gravity(t), a.data());
   return solved ? solved->contact : 0;
@@ -562,17 +589,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   dydt.head(coordinates_) = Eigen::Map<const Eigen::VectorXd>(rate, coordinates_);
   dydt.tail(dydt.size() - coordinates_).setZero();
   double* force = dydt.data() + coordinates_;
-  const Vector g = gravity(t), on_beam = beam_gravity(t);
-  Tally power;
-  power.dissipated = left_->add_forces(q, rate, on_beam, force) + right_->add_forces(q, rate, on_beam, force);
-  for (const SpanBetween<D>& span : between_) power.dissipated += span.span().add_forces(q, rate, on_beam, force);
-  if (model_.loads.present()) {
-    const ChainView<D> beam = view(q, rate);
-    power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
-    power.supports += fed_line_power(beam, t);
-  }
-  if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
-  if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
+  Tally power = add_forces(q, rate, t, force, elements_);
   std::optional<Pull> pull;       // of moving supports
   const auto invalid = [&dydt] {  // outside the domain: the step is repeated, shorter
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -582,23 +599,8 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
 
   const auto nut = nut_place();
   if (has_joint()) {
-    fill_elements(q, rate, t, elements_);
-    double lost = 0;
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      const MovingPart& part = parts_[p];
-      const auto& eq = elements_[p];
-      const auto at = vectors_of(force, part.element);
-      for (std::size_t i = 0; i < 4; ++i) Eigen::Map<Vector>(at[i]) += eq.force[i];
-      if (part.a >= 0) force[places_[static_cast<std::size_t>(part.a)].mark] += eq.force_a;
-      if (part.b >= 0) force[places_[static_cast<std::size_t>(part.b)].mark] += eq.force_b;
-      lost += eq.dissipation;
-    }
-    power.dissipated += lost;
     motions_.clear();
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      position<D>(force, places_[i].node) += joint(i).law.mass * g;
-      motions_.push_back(joint_motion(i, q, rate, t));
-    }
+    for (std::size_t i = 0; i < places_.size(); ++i) motions_.push_back(joint_motion(i, q, rate, t));
     if (nut) {
       const Eigen::Index mark = places_[*nut].mark;
       if (!nut_->couple(*spin_, q + angles, rate + angles, force + angles, q[mark], rate[mark])) return invalid();
@@ -615,14 +617,14 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     pull = solve_apart(q, rate, t, force);
     if (rider_) {
       const auto at = rider_motion(q, rate);
-      const auto solved = solve_rider(at, g, force);
+      const auto solved = solve_rider(at, gravity(t), force);
       if (!solved) return invalid();
       force[nodal_] = solved->x;
       power.dissipated += solved->dissipation;
       if (driven) pull->add_rider(solved->force, at.s);
     }
   }
-  for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates_ + departed_at(i)) = g;
+  for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates_ + departed_at(i)) = gravity(t);
   const Eigen::VectorXd* by_nut = nullptr;
   if (nut) by_nut = &nut_->torque(nut_->turn(force[places_[*nut].mark], force + angles));
   if (spin_ && model_.spin->supplied()) {

@@ -57,6 +57,8 @@ struct BeamModel {
   Drag<D> drag;
   std::optional<SpinModel> spin;  ///< without it there is no angle at all
   PointMasses<D> masses;
+  Impact at_meeting = {};         ///< of two joints; those that rebound do not rest
+  double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
   /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
   std::vector<ModelJoint<D>> joints;
   LengthControl length_control;
@@ -308,7 +310,9 @@ class BeamSystem final : public EventedOde {
   std::array<Support<D>, 2> supports(const std::array<DrivenPoint<D>, 2>& at) const {
     return {model_.start.turned(at[0].angle.value), model_.end.turned(at[1].angle.value)};
   }
-  /// What a guide prescribes of a joint's material coordinate; nothing where there is none.
+  /// Whether a guide prescribes a joint's material coordinate.
+  bool guides(std::size_t which) const { return static_cast<bool>(joint(which).x); }
+  /// What it prescribes; nothing where there is none.
   std::optional<Prescribed> guided(std::size_t which, double t) const {
     const TimeFunction& x = joint(which).x;
     return x ? std::optional(x(t)) : std::nullopt;
@@ -336,7 +340,7 @@ class BeamSystem final : public EventedOde {
 
   void adopt(const ChainState<D>& chain);
   /// The joints are solved for as a chain.
-  bool chained() const { return places_.size() > 1 || (has_joint() && (joint(0).x || joint(0).pitch != 0)); }
+  bool chained() const { return places_.size() > 1 || (has_joint() && (guides(0) || joint(0).pitch != 0)); }
   /// The state is read from what prescribes parts of it.
   bool imposes() const { return model_.driven() || nut_; }
   /// Lengths of the last and the first element below which an end-merge is due [m]; 0 where none will be.
@@ -379,6 +383,27 @@ class BeamSystem final : public EventedOde {
   Guards rider_guards(const Eigen::VectorXd& y, double t) const;
   /// Generalized force of the support on the x of a held rider [N].
   double contact_force(const Eigen::VectorXd& y, double t) const;
+  /// What acts on the coordinates but for spin, and its power but for what accelerations tell.
+  Tally add_forces(const double* q, const double* rate, double t, double* force, JointElements& elements) const;
+  /// Two nodes that strike each other once they are near enough: of joints, or of a joint and an end of the beam.
+  struct Contact {
+    int behind, ahead;  ///< nodes
+    std::size_t which;  ///< of the joints on the beam: the first of the two
+    int support;        ///< -1: that at the start, 1: at the end, 0: another joint
+    Impact impact;
+  };
+  std::vector<Contact> contacts() const;
+  /// Of a contact: how far its nodes are apart, the direction from one to the other, and the rate of the distance.
+  struct Gap {
+    double distance, rate;
+    Vector direction;
+  };
+  Gap gap(const Contact& contact, const Eigen::VectorXd& y) const;
+  /// Where they touch [m].
+  double touching() const { return model_.contact_distance * model_.length_control.standard_length; }
+  /// All that touch and come nearer strike each other at once: new velocities. Throws ComputationFailed where they come
+  /// to rest against each other.
+  void strike(Eigen::VectorXd& y, double t);
   /// The mass hits a support: new velocities, and whether it is then held. Throws ComputationFailed where the run is to
   /// stop.
   void hit(ChainState<D>& chain, Eigen::VectorXd& y, double t);

@@ -115,6 +115,7 @@ class Path {
     Eigen::VectorXd q = zero_;
     q.head(system_.coordinates()) = system_.initial_state().head(system_.coordinates());
     equations_.choose_conditions(q);
+    if (const auto free = free_joints(); !free.empty()) which_ = free.front();
     residual(q, 0);
     const auto& section = system_.model().section;
     // without what is softer than that, the tangent still has no negative pivot
@@ -123,7 +124,10 @@ class Path {
     const bool at_rest = r_.norm() <= no_force * section.stiffness.EA;
     if (at_rest && !on_point(point(q, 0))) return;
     const bool grown = options_.arc_length ? follow_arc(q, on_point) : follow_load(q, on_point);
-    if (grown && options_.release && system_.has_joint()) release(q, on_point);
+    if (!grown || !options_.release) return;
+    const std::vector<std::size_t> free = free_joints();
+    if (free.size() == 1) release(q, on_point);
+    if (free.size() > 1) release_together(q, on_point);
   }
 
  private:
@@ -133,21 +137,40 @@ class Path {
     return y;
   }
 
+  /// Joints that nothing guides.
+  std::vector<std::size_t> free_joints() const {
+    std::vector<std::size_t> free;
+    for (std::size_t i = 0; i < system_.places().size(); ++i) {
+      if (!system_.guides(i)) free.push_back(i);
+    }
+    return free;
+  }
+
+  /// While joints are released together, what else is called the load factor is the share of their forces that is gone.
+  double load(double factor) const { return releasing_ ? 1 : factor; }
+
   Equilibrium point(const Eigen::VectorXd& q, double factor) {
-    Equilibrium at{factor, state_of(q), 0};
+    Equilibrium at{load(factor), state_of(q), 0};
     if (linearize(q, factor)) at.negative_pivots = equations_.negative_pivots(zero_pivot);
     at.multipliers = q.tail(q.size() - system_.coordinates());
-    at.joint_held = equations_.holds_joint();
-    if (at.joint_held) at.holding_force = holding_force(q, factor);
+    at.joint_held = releasing_ ? factor < 1 : equations_.holds_joints();
+    at.holding = holding_forces(q, factor);
+    for (std::size_t i = 0; i < at.holding.size() && !at.joint_held; ++i) {
+      if (!equations_.holds(i)) at.holding[i] = 0;
+    }
+    if (at.joint_held) at.holding_force = at.holding[which_];
     return at;
   }
 
-  /// On the joint's material coordinate [N].
-  double holding_force(const Eigen::VectorXd& q, double factor) {
+  /// On the joints' material coordinates [N].
+  std::vector<double> holding_forces(const Eigen::VectorXd& q, double factor) const {
     Eigen::VectorXd r;
-    equations_.reactions(q, factor, r);
-    return r[equations_.mark()];
+    equations_.reactions(q, load(factor), r);
+    std::vector<double> forces;
+    for (std::size_t i = 0; i < system_.places().size(); ++i) forces.push_back(r[equations_.mark(i)]);
+    return forces;
   }
+  double holding_force(const Eigen::VectorXd& q, double factor) const { return holding_forces(q, factor)[which_]; }
 
   /// Of positions over the beam's length, and of slopes: the largest.
   double size(const Eigen::VectorXd& change) const {
@@ -155,25 +178,29 @@ class Path {
     for (int k = 0; k <= system_.mesh().last(); ++k) {
       largest = std::max({largest, position<D>(change.data(), k).norm() / length_, slope<D>(change.data(), k).norm()});
     }
-    if (system_.has_joint()) largest = std::max(largest, std::abs(change[equations_.mark()]) / length_);
-    if (system_.kinked()) largest = std::max(largest, change.template segment<D>(equations_.mark() + 1).norm());
+    for (const JointPlace& place : system_.places()) {
+      largest = std::max(largest, std::abs(change[place.mark]) / length_);
+      if (place.behind >= 0) largest = std::max(largest, change.template segment<D>(place.behind).norm());
+    }
     return std::isfinite(change.sum()) ? largest : std::numeric_limits<double>::infinity();
   }
 
   void impose(Eigen::VectorXd& q, double factor) const {
     Eigen::VectorXd y = state_of(q);
-    system_.impose(y, factor);
+    system_.impose(y, load(factor));
     q.head(system_.coordinates()) = y.head(system_.coordinates());
   }
 
   void residual(const Eigen::VectorXd& q, double factor) {
     ++counters_.rhs_evaluations;
-    equations_.residual(q, factor, r_);
+    equations_.residual(q, load(factor), r_);
+    if (!releasing_) return;
+    for (const std::size_t i : free_joints()) r_[equations_.mark(i)] -= (1 - factor) * held_by_[i];
   }
 
   bool linearize(const Eigen::VectorXd& q, double factor, double by_a = 0) {
     ++counters_.newton.tangents;
-    return equations_.linearize(q, factor, by_a);
+    return equations_.linearize(q, load(factor), by_a);
   }
 
   /// Ends once a correction is as small as wanted, or as rounding lets it be.
@@ -192,8 +219,22 @@ class Path {
       const double correction = size(r_);
       if (!(correction <= largest_correction)) return false;
       q -= r_;
-      if (is_last(correction, previous)) return true;
+      if (is_last(correction, previous)) return !tangled(q);
       previous = correction;
+    }
+    return false;
+  }
+
+  /// Whether a joint has run through another node, or left the beam.
+  bool tangled(const Eigen::VectorXd& q) const {
+    const ChainView<D> beam = system_.view(q.data(), q.data());
+    for (std::size_t i = 0; i < system_.places().size(); ++i) {
+      const JointPlace& place = system_.places()[i];
+      if (beam.mark_of(place.node - 1) >= q[place.mark] || q[place.mark] >= beam.mark_of(place.node + 1)) return true;
+      if (equations_.holds(i)) continue;
+      for (const int way : {-1, 1}) {
+        if (next_is_end(i, way) && until_node(i, q, way) <= 0) return true;
+      }
     }
     return false;
   }
@@ -221,6 +262,9 @@ class Path {
     if (first && !(found && holds_at_start_) && relax(q, to)) return true;
     if (found) {
       q = tried;
+      if (system_.model().guides() && !control_length(q, to)) {
+        throw ComputationFailed("length control leaves no equilibrium at load factor " + brief(to), from);
+      }
       return true;
     }
     ++counters_.rejected;
@@ -286,6 +330,10 @@ class Path {
       sum += position<D>(a.data(), k).dot(position<D>(b.data(), k)) / (length_ * length_) +
              slope<D>(a.data(), k).dot(slope<D>(b.data(), k));
     }
+    const double unit = system_.model().length_control.standard_length;
+    for (const JointPlace& place : system_.places()) {
+      if (releasing_) sum += a[place.mark] * b[place.mark] / (unit * unit);
+    }
     return sum / nodes;
   }
 
@@ -329,20 +377,19 @@ class Path {
     double step = 0, most = 0;
     const int points = most_points * options_.steps;
     for (int n = 0; n < points; ++n) {
-      if (!linearize(q, factor))
-        throw ComputationFailed("the tangent is singular at load factor " + brief(factor), factor);
+      if (!linearize(q, factor)) path_ends(q, "the tangent is singular", factor);
       const Eigen::VectorXd by_factor = response(q, factor);
       const double norm = std::sqrt(inner(by_factor, by_factor) + 1);
       const double turn = inner(by_factor, along.q) + along.factor < 0 ? -1 : 1;
       along = {turn / norm * by_factor, turn / norm};
-      if (n == 0) step = most = norm / options_.steps;
+      if (n == 0) step = most = first_arc(along, norm);
       Eigen::VectorXd next = q;
       double next_factor = factor;
       int halvings = 0, iterations = 0;
       while (!correct(q, factor, along, step, next, next_factor, iterations)) {
         ++counters_.rejected;
         step /= 2;
-        if (++halvings > 20) throw ComputationFailed("the path ends at load factor " + brief(factor), factor);
+        if (++halvings > 20) path_ends(q, "the path ends", factor);
       }
       ++counters_.steps;
       if (next_factor >= 1) {  // the last point is at 1
@@ -350,11 +397,17 @@ class Path {
         Eigen::VectorXd last = q + share * (next - q);
         if (newton(last, 1)) {
           q = last;
-          return on_point(point(last, 1));
+          if (releasing_ && !control_length(q, 1)) path_ends(q, "length control leaves no equilibrium", 1);
+          return on_point(point(q, 1));
         }
       }
       q = next;
       factor = next_factor;
+      if (releasing_) {
+        const std::size_t events = counters_.newton.iterations;
+        if (!control_length(q, factor)) path_ends(q, "length control leaves no equilibrium", factor);
+        if (counters_.newton.iterations != events) along.q = zero_;  // of another mesh
+      }
       if (!on_point(point(q, factor))) return false;
       if (iterations <= 4) step = std::min(1.5 * step, most);
       if (iterations > 7) step /= 1.5;
@@ -362,6 +415,38 @@ class Path {
     throw ComputationFailed("the load factor is " + brief(factor) + " after " + std::to_string(points) +
                                 " points of the path: it may never be 1",
                             factor);
+  }
+
+  [[noreturn]] void path_ends(const Eigen::VectorXd& q, const std::string& why, double factor) {
+    if (!releasing_) throw ComputationFailed(why + " at load factor " + brief(factor), factor);
+    std::string places;
+    for (const std::size_t i : free_joints()) {
+      places += (places.empty() ? "x = " : ", ") + brief(q[equations_.mark(i)]);
+    }
+    throw ComputationFailed("the joints that slide are not released together: " + why + " where they are at " + places +
+                                " m and " + brief(1 - factor) + " of the forces that held them are left",
+                            1);
+  }
+
+  /// Length of the first step along a path whose direction has this size by the load factor.
+  double first_arc(const Tangent& along, double size) const {
+    double step = size / options_.steps;
+    const double longest = longest_slide * system_.model().length_control.standard_length;
+    for (const std::size_t i : free_joints()) {
+      const double slides = std::abs(along.q[equations_.mark(i)]);
+      if (releasing_ && slides > 0) step = std::min(step, longest / slides);
+    }
+    return step;
+  }
+
+  /// All joints that nothing guides, along the path that fading forces on them make.
+  void release_together(Eigen::VectorXd& q, const std::function<bool(const Equilibrium&)>& on_point) {
+    equations_.keep_conditions(true);  // of the slopes, as they are once joints are free
+    if (!newton(q, 1)) path_ends(q, "there is no equilibrium with equal stretches at the joints", 0);
+    held_by_ = holding_forces(q, 1);
+    releasing_ = true;
+    equations_.hold_joints(false);
+    follow_arc(q, on_point);
   }
 
   /// Newton's iteration in the plane across the path, from `step` along it.
@@ -381,7 +466,7 @@ class Path {
       next_factor += change;
       const double length = std::max(size(correction), std::abs(change));
       if (!(length <= std::max(4 * step, 1e-3))) return false;
-      if (is_last(length, previous)) return true;
+      if (is_last(length, previous)) return !tangled(next);
       previous = length;
     }
     return false;
@@ -395,12 +480,12 @@ class Path {
 
   /// A unit force on a joint that is free moves it by one over its stiffness.
   std::optional<Slide> slide_at(const Eigen::VectorXd& q) {
-    equations_.hold_joint(false);
+    equations_.hold_joints(false);
     const bool factored = linearize(q, 1);
-    Eigen::VectorXd moved = Eigen::VectorXd::Unit(q.size(), equations_.mark());
+    Eigen::VectorXd moved = Eigen::VectorXd::Unit(q.size(), equations_.mark(which_));
     if (factored) equations_.solve(moved);
-    equations_.hold_joint(true);
-    const double x = moved[equations_.mark()];
+    equations_.hold_joints(true);
+    const double x = moved[equations_.mark(which_)];
     if (!factored || !std::isfinite(moved.sum()) || x == 0) return std::nullopt;
     return Slide{moved / x, 1 / x};
   }
@@ -408,58 +493,66 @@ class Path {
   /// Newton's iteration for all unknowns, x included: whether it leads to a place within `reach` [m].
   bool settle(Eigen::VectorXd& q, double reach) {
     Eigen::VectorXd tried = q;
-    equations_.hold_joint(false);
-    const Eigen::Index x = equations_.mark();
-    if (newton(tried, 1) && std::abs(tried[x] - q[x]) <= reach && until_node(tried[x], 1) > 0 &&
-        until_node(tried[x], -1) > 0) {
+    equations_.hold_joints(false);
+    const Eigen::Index x = equations_.mark(which_);
+    if (newton(tried, 1) && std::abs(tried[x] - q[x]) <= reach && until_node(which_, tried, 1) > 0 &&
+        until_node(which_, tried, -1) > 0) {
       q = tried;
       return true;
     }
-    equations_.hold_joint(true);
+    equations_.hold_joints(true);
     return false;
   }
 
-  bool next_is_end(int way) const {
-    return way > 0 ? system_.places().front().node + 1 == system_.mesh().last() : system_.places().front().node == 1;
+  bool next_is_end(std::size_t which, int way) const {
+    const int node = system_.places()[which].node;
+    return way > 0 ? node + 1 == system_.mesh().last() : node == 1;
   }
 
-  /// How far the joint at x may slide that way until it runs into a node, or out of the beam.
-  double until_node(double x, int way) const {
+  /// How far a joint is from the next node that way [m].
+  double reach(std::size_t which, const Eigen::VectorXd& q, int way) const {
+    const JointPlace& place = system_.places()[which];
+    return way * (system_.view(q.data(), q.data()).mark_of(place.node + way) - q[place.mark]);
+  }
+
+  /// How far a joint may slide that way until it runs into a node, or out of the beam.
+  double until_node(std::size_t which, const Eigen::VectorXd& q, int way) const {
     const auto& model = system_.model();
-    const auto j = static_cast<std::size_t>(system_.places().front().node);
-    const double ahead = way > 0 ? system_.mesh().x[j + 1] - x : x - system_.mesh().x[j - 1];
     double distance = end_distance * model.length_control.standard_length;
-    const bool leaves = next_is_end(way) && (way > 0 ? model.end_releases : model.start_releases);
-    if (leaves) distance = std::max(distance, (1 + 1e-9) * model.joints.front().separation_distance);
-    return ahead - distance;
+    const bool leaves = next_is_end(which, way) && (way > 0 ? model.end_releases : model.start_releases);
+    if (leaves) distance = std::max(distance, (1 + 1e-9) * system_.joint(which).separation_distance);
+    return reach(which, q, way) - distance;
   }
 
   /// The same, or until length control is due.
-  double room(double x, int way) const {
+  double room(const Eigen::VectorXd& q, int way) const {
     const auto& control = system_.model().length_control;
-    if (!control.enabled || next_is_end(way)) return until_node(x, way);
-    const auto j = static_cast<std::size_t>(system_.places().front().node);
-    const double behind = way > 0 ? x - system_.mesh().x[j - 1] : system_.mesh().x[j + 1] - x;
-    return control.trigger_length() * (1 + 1e-12) - behind;
+    if (!control.enabled || next_is_end(which_, way)) return until_node(which_, q, way);
+    return control.trigger_length() * (1 + 1e-12) - reach(which_, q, -way);
   }
 
   /// Length control that is due, and the equilibrium on its mesh; false where there is none.
-  bool control_length(Eigen::VectorXd& q) {
+  bool control_length(Eigen::VectorXd& q, double factor = 1) {
     for (int events = 0; events < most_events; ++events) {
       Eigen::VectorXd y = state_of(q);
-      const Guards guards = system_.guards(y, 1);
+      const Guards guards = system_.guards(y, load(factor));
       const auto due = std::find_if(guards.begin(), guards.end(), [](const Guard& guard) { return guard.value > 0; });
       if (due == guards.end()) return true;
-      system_.handle_event(static_cast<int>(due - guards.begin()), y, 1);
+      system_.handle_event(static_cast<int>(due - guards.begin()), y, load(factor));
+      const Eigen::VectorXd multipliers = q.tail(equations_.conditions());
+      zero_ = Eigen::VectorXd::Zero(equations_.size());  // there may be another number of nodes
+      q = zero_;
       q.head(system_.coordinates()) = y.head(system_.coordinates());
-      if (!newton(q, 1)) return false;
+      q.tail(multipliers.size()) = multipliers;
+      if (!newton(q, factor)) return false;
     }
     return true;
   }
 
   [[noreturn]] void not_released(const Eigen::VectorXd& q, const std::string& why) {
-    throw ComputationFailed("the joint that slides is not released: " + why + " at x = " + brief(q[equations_.mark()]) +
-                                " m, where holding it takes " + brief(holding_force(q, 1)) + " N",
+    throw ComputationFailed("the joint that slides is not released: " + why +
+                                " at x = " + brief(q[equations_.mark(which_)]) + " m, where holding it takes " +
+                                brief(holding_force(q, 1)) + " N",
                             1);
   }
 
@@ -469,7 +562,6 @@ class Path {
     double step = longest;
     int way = 0;
     for (int n = 0; n < most_slides; ++n) {
-      const Eigen::Index x = equations_.mark();
       const double force = holding_force(q, 1);
       const auto slide = slide_at(q);
       if (!slide) not_released(q, "the tangent is singular");
@@ -482,13 +574,13 @@ class Path {
           on_point(point(q, 1));
           return;
         }
-        equations_.hold_joint(true);
+        equations_.hold_joints(true);
         not_released(q, "length control leaves no equilibrium");
       }
-      const double room = this->room(q[x], way);
+      const double room = this->room(q, way);
       if (room <= shortest_slide * unit) {
-        not_released(
-            q, next_is_end(way) ? "it comes to the end of the beam" : "without length control it runs into a node");
+        not_released(q, next_is_end(which_, way) ? "it comes to the end of the beam"
+                                                 : "without length control it runs into a node");
       }
       step = std::min(1.5 * step, longest);
       Eigen::VectorXd next;
@@ -520,6 +612,9 @@ class Path {
   Eigen::VectorXd zero_, r_;
   double length_;
   bool holds_at_start_ = true;
+  std::size_t which_ = 0;        ///< of the joints: the first that nothing guides
+  bool releasing_ = false;       ///< several at once
+  std::vector<double> held_by_;  ///< what then held the joints at first [N]
 };
 
 }  // namespace
@@ -533,7 +628,7 @@ void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
 template <int D>
 std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium& at, int count) {
   StaticEquations<D> equations(system);
-  equations.hold_joint(at.joint_held);
+  equations.hold_joints(at.joint_held);
   Eigen::VectorXd u(system.coordinates() + at.multipliers.size());
   u << at.y.head(system.coordinates()), at.multipliers;
   const Modes modes = modes_at<D>(equations, u, at.factor);

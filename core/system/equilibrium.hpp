@@ -10,7 +10,7 @@ namespace vlbeam {
 
 // Equilibria of a beam whose loads and displacements of supports grow evenly with a load factor, which is the model's
 // time: r(q, f) = -Q(q, f) = 0, with r linear in f at given q. What slides on it keeps its material coordinate while
-// the load factor grows, and may then be released.
+// the load factor grows, or has the one that a guide gives it, and may then be released.
 
 struct EquilibriumOptions {
   int steps = 10;           ///< of the load factor, from 0 to 1
@@ -27,8 +27,9 @@ struct Equilibrium {
   Eigen::VectorXd y;                 ///< a state at rest
   int negative_pivots = 0;           ///< of the tangent: directions in which the potential energy falls
   Eigen::VectorXd multipliers = {};  ///< of the conditions on the slopes of a kinked joint
-  bool joint_held = true;            ///< the joint's material coordinate stays what it is
-  double holding_force = 0;          ///< what it takes for that, along the beam [N]
+  bool joint_held = true;            ///< joints that nothing guides keep their material coordinates
+  std::vector<double> holding = {};  ///< what it takes for that, or for the guide, along the beam: of each joint [N]
+  double holding_force = 0;          ///< of the first joint that nothing guides
 
   bool stable() const { return negative_pivots == 0; }
 };
@@ -38,9 +39,11 @@ struct Equilibrium {
 /// solve are halved. A start that holds no load (a slack cable) is first relaxed: steps (K + mu M) dq = -r, mu falling,
 /// go down the potential energy to a stable equilibrium. Throws ComputationFailed, at the factor reached, where there
 /// is none, naming the direction in which the beam moves freely.
-/// At load factor 1 a joint is released by moving its material coordinate x: the force that holds it there is a
-/// function of x, followed in steps from where the joint is, downhill, to where it vanishes, through the system's
-/// length control. Each step is a point of the path; the last one solves for x, too.
+/// At load factor 1 a joint that is alone in having no guide is released by moving its material coordinate x: the force
+/// that holds it there is a function of x, followed in steps from where the joint is, downhill, to where it vanishes,
+/// through the system's length control. Each step is a point of the path; the last one solves for x, too. Several are
+/// released together: the forces that hold them fall in proportion to 1 - s, and s goes from 0 to 1 along the path that
+/// this makes.
 template <int D>
 void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
                       const std::function<bool(const Equilibrium&)>& on_point, SolverCounters& counters);

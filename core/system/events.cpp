@@ -1,6 +1,8 @@
 // What can happen to a beam with a sliding mass, when it is due, and what it does to the state.
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/length_control/least_change.hpp"
@@ -13,7 +15,6 @@ constexpr double restored_energy = 1e-9;   // of the energies there are
 constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
 constexpr double clearance = 1e-11;        // of L_std: by which a mass leaves a support, so that the guard is negative
 constexpr double least_bounce = 1e-9;      // of L_std: a lower one is the last
-constexpr double meeting_distance = 0.1;   // of L_std: joints this near each other have met; joints_met() says so
 constexpr double least_left = 0.1;         // of L_std: an element of a feed that cannot be merged; all_due() says so
 constexpr double same_instant = 1e-9;      // of L_std: what is this near is due at once
 constexpr double merge_slack = 1e-6;       // of the length below which is merged: a cut comes first
@@ -32,6 +33,7 @@ enum class Kind {
   merge_ahead,
   merge_behind,
   meeting,
+  contact,
   used_up,
   pass_forward,
   pass_backward
@@ -80,7 +82,9 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
     };
     if (!joint_ahead) add(Kind::end, reach(model_.end_releases, to_end) - ahead / unit);
     if (!joint_behind) add(Kind::start, reach(model_.start_releases, to_start) - behind / unit);
-    if (joint_ahead) add(Kind::meeting, meeting_distance - ahead / unit);
+    if (joint_ahead && (model_.at_meeting.law == AtSupport::stop || feeds(i + 1))) {
+      add(Kind::meeting, model_.contact_distance - ahead / unit);
+    }
     if (model_.transport == WeightTransport::transported) {
       const auto j = static_cast<std::size_t>(node);
       add(Kind::weights,
@@ -98,7 +102,40 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
       if (!to_start && !joint_behind) add(Kind::merge_behind, (least - behind) / unit);
     }
   }
+  const std::vector<Contact> contacts = this->contacts();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Gap gap = this->gap(contacts[i], y);
+    const double value = (touching() - gap.distance) / unit;  // what parts is clear of each other
+    guards.push_back({number(Kind::contact), static_cast<int>(i), gap.rate > 0 ? value - clearance : value});
+  }
   return guards;
+}
+
+template <int D>
+std::vector<typename BeamSystem<D>::Contact> BeamSystem<D>::contacts() const {
+  std::vector<Contact> found;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (feeds(i)) continue;
+    const int node = places_[i].node;
+    const Impact& at_support = joint(i).at_support;
+    const bool strikes = at_support.law != AtSupport::stop && model_.length_control.end_merge == 0;
+    if (strikes && node == 1 && !model_.start_releases) found.push_back({0, 1, i, -1, at_support});
+    if (model_.at_meeting.law != AtSupport::stop && at_joint(node + 1) && !feeds(i + 1)) {
+      found.push_back({node, node + 1, i, 0, model_.at_meeting});
+    }
+    if (strikes && node + 1 == mesh_.last() && !model_.end_releases) {
+      found.push_back({node, node + 1, i, 1, at_support});
+    }
+  }
+  return found;
+}
+
+template <int D>
+typename BeamSystem<D>::Gap BeamSystem<D>::gap(const Contact& contact, const Eigen::VectorXd& y) const {
+  const Vector apart = position<D>(y.data(), contact.ahead) - position<D>(y.data(), contact.behind);
+  const double* rate = y.data() + coordinates_;
+  const Vector direction = apart.normalized();
+  return {apart.norm(), direction.dot(position<D>(rate, contact.ahead) - position<D>(rate, contact.behind)), direction};
 }
 
 /// The element there is cut and merged as those at a joint are, but for the other side.
@@ -118,7 +155,7 @@ void BeamSystem<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y,
     add(Kind::weights, lost_weight(at_start ? weights.on(x, x_next) : weights.on(x_next, x)));
   }
   if (joint_next) {
-    if (at_start) add(Kind::meeting, meeting_distance - length / unit);
+    if (at_start) add(Kind::meeting, model_.contact_distance - length / unit);
   } else if (next != 0 && next != mesh_.last() && control.enabled) {
     add(at_start ? Kind::merge_ahead : Kind::merge_behind,
         (control.merge_length() * (1 - merge_slack) - length) / unit);
@@ -137,7 +174,9 @@ void BeamSystem<D>::joints_met(std::size_t which, double t) const {
   const std::string met =
       feed ? name(which) + " and " + name(which + 1)
            : "the sliding joints " + std::to_string(index_[which]) + " and " + std::to_string(index_[which + 1]);
-  throw ComputationFailed(met + " met: they are as near each other as a tenth of a standard element", t);
+  std::ostringstream share;
+  share << model_.contact_distance;
+  throw ComputationFailed(met + " met: they are as near each other as " + share.str() + " standard elements", t);
 }
 
 template <int D>
@@ -192,6 +231,8 @@ typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::
       return {EventType::end_cut, direction, which, {}};
     case Kind::lift_off:
       return {EventType::lift_off, direction, which, {}};
+    case Kind::contact:
+      return {EventType::contact, direction, contacts()[which].which, {}};
     case Kind::pass_forward:
     case Kind::pass_backward:
       return {EventType::passage, direction, which, {}};
@@ -310,6 +351,56 @@ void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
+void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
+  const double unit = model_.length_control.standard_length;
+  std::vector<Contact> touching;
+  for (const Contact& contact : contacts()) {
+    const Gap gap = this->gap(contact, y);
+    if (gap.distance <= this->touching() + same_instant * unit && gap.rate < 0) touching.push_back(contact);
+  }
+  // momenta J along the lines W between the nodes change velocities by M^-1 W J
+  const auto count = static_cast<Eigen::Index>(touching.size());
+  const JointElements elements = elements_at(y, t);
+  auto rate = y.segment(coordinates_, coordinates_);
+  Eigen::MatrixXd lines = Eigen::MatrixXd::Zero(coordinates_, count), answers(coordinates_, count);
+  Eigen::VectorXd changes(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Contact& contact = touching[static_cast<std::size_t>(i)];
+    const Gap gap = this->gap(contact, y);
+    position<D>(lines.col(i).data(), contact.behind) = -gap.direction;
+    position<D>(lines.col(i).data(), contact.ahead) = gap.direction;
+    answers.col(i) = lines.col(i);
+    if (!solve_mass(elements, y.data(), answers.col(i).data())) {
+      throw ComputationFailed("joints strike each other that have no inertia", t);
+    }
+    changes[i] = -(1 + contact.impact.restitution) * gap.rate;
+  }
+  const Eigen::VectorXd momenta = (lines.transpose() * answers).fullPivLu().solve(changes);
+  const Eigen::VectorXd change = answers * momenta;
+  Eigen::VectorXd all(coordinates_);  // what supports and guides do included
+  multiply_mass(elements, y.data(), change.data(), all.data());
+  model_.tallies().add({.supports = (all - lines * momenta).dot(rate)}, y);
+  rate += change;
+
+  Eigen::VectorXd rates(y.size());
+  rhs(y, rates, t);
+  for (const Contact& contact : touching) {
+    const Gap gap = this->gap(contact, y);
+    const auto difference = [&](const double* of) -> Vector {
+      return position<D>(of, contact.ahead) - position<D>(of, contact.behind);
+    };
+    const double across = difference(rate.data()).squaredNorm() - gap.rate * gap.rate;
+    const double falls = -gap.direction.dot(difference(rates.data() + coordinates_)) - across / gap.distance;
+    if (!(falls > 0 && gap.rate * gap.rate < 2 * falls * least_bounce * unit)) continue;
+    const std::string first = "the sliding joint " + std::to_string(index_[contact.which]) + " comes to rest against ";
+    throw ComputationFailed(first + (contact.support == 0 ? "the joint " + std::to_string(index_[contact.which + 1])
+                                                          : std::string("the support at the beam's ") +
+                                                                (contact.support < 0 ? "start" : "end")),
+                            t);
+  }
+}
+
+template <int D>
 void BeamSystem<D>::check_leaving(const Due& due, double t) const {
   const bool forward = due.direction == Direction::forward;
   const int node = places_[due.which].node;
@@ -354,7 +445,12 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
       return merged;
     }
     case EventType::contact:
-      hit(chain, y, t);
+      if (rider_) {
+        hit(chain, y, t);
+      } else {
+        strike(y, t);
+        chain = this->chain(y);
+      }
       return {};
     case EventType::lift_off:
       chain.rider->held = false;
@@ -489,6 +585,9 @@ template double BeamSystem<2>::clear_of_end() const;
 template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
 template void BeamSystem<2>::check_leaving(const Due&, double) const;
 template MergedWeights BeamSystem<2>::change(const Due&, ChainState<2>&, Eigen::VectorXd&, double);
+template std::vector<BeamSystem<2>::Contact> BeamSystem<2>::contacts() const;
+template BeamSystem<2>::Gap BeamSystem<2>::gap(const Contact&, const Eigen::VectorXd&) const;
+template void BeamSystem<2>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template Guards BeamSystem<3>::guards(const Eigen::VectorXd&, double) const;
@@ -503,6 +602,9 @@ template double BeamSystem<3>::clear_of_end() const;
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
 template void BeamSystem<3>::check_leaving(const Due&, double) const;
 template MergedWeights BeamSystem<3>::change(const Due&, ChainState<3>&, Eigen::VectorXd&, double);
+template std::vector<BeamSystem<3>::Contact> BeamSystem<3>::contacts() const;
+template BeamSystem<3>::Gap BeamSystem<3>::gap(const Contact&, const Eigen::VectorXd&) const;
+template void BeamSystem<3>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<3>::hit(ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

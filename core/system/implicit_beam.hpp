@@ -138,7 +138,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   template <class Function>
   void at_guides(const Function& function) const {
     for (std::size_t i = 0; i < places().size(); ++i) {
-      if (system_.joint(i).x) function(i);
+      if (system_.guides(i)) function(i);
     }
   }
   /// How many joints have their node twice.

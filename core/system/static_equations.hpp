@@ -6,27 +6,29 @@
 
 namespace vlbeam {
 
-/// The equilibrium of a beam system with one joint at most, r(u, f) = 0 at the load factor f, and its exact tangent.
+/// The equilibrium of a beam system, r(u, f) = 0 at the load factor f, and its exact tangent.
 /// The unknowns u are the coordinates of the system's state and, behind them, one multiplier [N m] for each condition
 /// on the slopes of a kinked joint. In them r is the derivative of a potential energy, where forces have one, and the
-/// tangent symmetric: block tridiagonal in the nodes, with the joint's material coordinate, the slope behind it and the
-/// multipliers as its border. What supports, a ring or a sleeve hold is eliminated.
+/// tangent symmetric: block tridiagonal in the nodes, with the joints' material coordinates, the slopes behind them and
+/// the multipliers as its border. What supports, rings, sleeves or guides hold is eliminated.
 template <int D>
 class StaticEquations {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit StaticEquations(BeamSystem<D>& system) : system_(system) {}
+  explicit StaticEquations(BeamSystem<D>& system) : system_(system), omitted_axis_(system.model().joints.size(), 0) {}
 
-  /// Whether the joint's material coordinate stays what it is.
-  bool holds_joint() const { return system_.has_joint() && held_; }
-  void hold_joint(bool held) { held_ = held; }
-  /// Where a joint is held on the beam the tension may jump, and with it the stretch: the condition that it does not is
+  /// Whether a joint's material coordinate stays what it is; that of one which is guided always does.
+  bool holds(std::size_t which) const { return held_ || system_.guides(which); }
+  /// Whether joints that may be free are held.
+  bool holds_joints() const { return system_.has_joint() && held_; }
+  void hold_joints(bool held) { held_ = held; }
+  /// Where joints are held on the beam the tension may jump, and with it the stretch: the condition that it does not is
   /// then suspended, unless it is to be kept.
   void keep_conditions(bool keep) { keep_conditions_ = keep; }
 
   Eigen::Index size() const { return system_.coordinates() + conditions(); }
-  /// Where the joint's material coordinate stands among the unknowns.
-  Eigen::Index mark() const { return Eigen::Index{B} * (system_.mesh().last() + 1); }
+  /// Where a joint's material coordinate stands among the unknowns.
+  Eigen::Index mark(std::size_t which = 0) const { return system_.places()[which].mark; }
   int conditions() const;
   /// What turns where the multipliers of parallel slopes in space change their meaning: starts them again.
   void choose_conditions(Eigen::VectorXd& u);
@@ -40,7 +42,7 @@ class StaticEquations {
   void solve(Eigen::VectorXd& r) const { tangent_.solve(r.data()); }
   /// Of what linearize() factored: the number of directions, within the conditions on the slopes, in which the energy
   /// falls. `zero` is what counts as no fall, over what a coordinate alone does.
-  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero) - (suspended() ? 0 : conditions()); }
+  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero) - active_conditions(); }
 
   /// The tangent of the coordinates alone, nothing eliminated, plus `by_a` times the mass matrix.
   Eigen::MatrixXd dense(const Eigen::VectorXd& u, double factor, double by_a);
@@ -53,21 +55,24 @@ class StaticEquations {
   using Keep = Eigen::Matrix<double, D, D>;
   using Conditions = SlopeConditions<D>;
 
-  /// Conditions that are not met by what holds the joint's slopes.
-  Conditions slope_conditions() const;
-  /// Multipliers are 0 then.
-  bool suspended() const {
-    return held_ && !keep_conditions_ && system_.kinked() && law().slopes == JointSlopes::equal_stretch;
+  /// Of a joint: those that are not met by what holds its slopes.
+  Conditions slope_conditions(std::size_t which) const;
+  /// Its multipliers are 0 then.
+  bool suspended(std::size_t which) const {
+    return holds(which) && !keep_conditions_ && system_.joint(which).law.slopes == JointSlopes::equal_stretch;
   }
+  int active_conditions() const;
+  /// Calls function(which, conditions, where their multipliers stand) for the joints that have any.
+  template <class Function>
+  void at_conditions(const Function& function) const;
   ChainView<D> view(const Eigen::VectorXd& u) const { return system_.view(u.data(), zero_.data()); }
   /// Projections on what a support leaves free.
   static Keep keep(const Support<D>& support, const typename Support<D>::Components& free) {
     return support.frame * free.matrix().asDiagonal() * support.frame.transpose();
   }
-  /// Of the joint: where its coordinates stand, its law, what holds it in space or null.
-  const JointPlace& place() const { return system_.places().front(); }
-  const SlidingJoint& law() const { return system_.joint(0).law; }
-  const Support<D>* held() const { return system_.has_joint() ? system_.held(0) : nullptr; }
+  /// Calls function(part) with the kind of the part for the elements at joints.
+  template <class Function>
+  void at_parts(const Function& function) const;
   template <class Function>
   void at_held_nodes(const Function& function) const;
   void assemble(const Eigen::VectorXd& u, double factor, double by_a);
@@ -78,7 +83,7 @@ class StaticEquations {
 
   BeamSystem<D>& system_;
   bool held_ = true, keep_conditions_ = false;
-  int omitted_axis_ = 0;  ///< of tangent slopes in space
+  std::vector<int> omitted_axis_;  ///< of the model's joints: of tangent slopes in space
   BorderedBlockTridiagonal<B> tangent_;
   mutable Eigen::VectorXd zero_;  ///< nothing moves
 };

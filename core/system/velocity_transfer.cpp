@@ -28,7 +28,7 @@ bool BeamSystem<D>::solve_mass(const JointElements& elements, const double* q, d
   }
   std::vector<JointMotion<D>> at_rest;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto kept = joint(i).x || joint(i).pitch != 0 ? std::optional(0.0) : std::nullopt;
+    const auto kept = guides(i) || joint(i).pitch != 0 ? std::optional(0.0) : std::nullopt;
     at_rest.push_back({joint_slopes(i, q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero(), kept});
   }
   return solve_joints(elements, at_rest, p).has_value();

@@ -450,11 +450,6 @@ TEST(InitialEquilibrium, RefusesWhatHasNone) {
               s.flow.emplace();
             }),
             "/flow");
-  EXPECT_EQ(with([](Scene& s) {
-              s.sliding_joints.push_back(s.sliding_joints.front());
-              s.sliding_joints.back().position = 1.2;
-            }),
-            "/sliding_joints");
   EXPECT_EQ(with([](Scene& s) { s.formulation = Formulation::virtual_work; }), "/formulation");
   EXPECT_EQ(with([](Scene& s) { s.start.type = s.end.type = SupportType::free; }), "/supports");
   EXPECT_EQ(with([](Scene& s) {

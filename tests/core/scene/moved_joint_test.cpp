@@ -178,9 +178,6 @@ TEST(MovedJoint, IsRefusedWhereItCannotBe) {
   scene.sliding_joints.front().support = SupportType::free;
   scene.sliding_joints.front().mass = 1;
   EXPECT_EQ(test::refused(scene), motion);
-  scene = swung(SupportType::pin);
-  scene.analysis = Analysis::statics;
-  EXPECT_EQ(test::refused(scene), motion);
 }
 
 }  // namespace

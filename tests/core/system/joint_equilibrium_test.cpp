@@ -21,9 +21,11 @@ namespace {
 /// The tangent is the derivative of what is free of the residual. Under dead forces it is symmetric, and the inertia
 /// that block LU counts is that of the dense matrix on the directions in which the coordinates may move.
 template <int D>
-void expect_tangent(JointSlopes slopes, std::optional<Support<D>> in_space, bool held, bool loaded, unsigned seed) {
+void expect_tangent(JointSlopes slopes, std::optional<Support<D>> in_space, bool held, bool loaded, unsigned seed,
+                    const std::vector<ChainShape::Joint>& more = {}) {
   Random random(seed);
-  const ChainShape shape{.elements = 5, .joint = 2, .rational = true, .slopes = slopes};
+  const ChainShape shape{
+      .elements = more.empty() ? 5 : 8, .joint = 2, .rational = true, .slopes = slopes, .more = more};
   BeamModel<D> model = model_of<D>(shape, random);
   model.start = Support<D>::direction_clamp(random.vector<D>());
   model.end = Support<D>::pin();
@@ -34,7 +36,7 @@ void expect_tangent(JointSlopes slopes, std::optional<Support<D>> in_space, bool
   }
   BeamSystem<D> system(model, random_chain<D>(shape, random));
   StaticEquations<D> equations(system);
-  equations.hold_joint(held);
+  equations.hold_joints(held);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(equations.size());
   const Eigen::Index own = system.coordinates();
   u.head(own) = system.initial_state().head(own);
@@ -89,6 +91,9 @@ void expect_tangents() {
                      (held ? ", held" : "") + (loaded ? ", loaded" : ""));
         expect_tangent<D>(slopes, std::nullopt, held, loaded, seed++);
         expect_tangent<D>(slopes, Support<D>::pin(), held, loaded, seed++);
+        // next to it, and apart
+        expect_tangent<D>(slopes, Support<D>::pin(), held, loaded, seed++,
+                          {{3, JointSlopes::equal_stretch}, {6, slopes}});
         if (slopes == JointSlopes::equal_stretch || slopes == JointSlopes::free) continue;
         expect_tangent<D>(slopes, Support<D>::direction_clamp(Vec<double, D>::Ones()), held, loaded, seed++);
       }
