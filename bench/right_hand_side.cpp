@@ -1,5 +1,5 @@
-// One right-hand side with its mass solve, as time an element, 5 points: of the falling beam, and of a beam all of
-// whose nodes travel.
+// One right-hand side with its mass solve, as time an element, 5 points: of the falling beam, of one with
+// several sliding masses, and of a beam all of whose nodes travel.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -62,6 +62,29 @@ void resting(benchmark::State& state, bool spins, AngleField angles) {
   if (spins) scene.spin.emplace().angles = angles;
   right_hand_side<3>(state, std::move(scene));
 }
+
+/// Sliding masses next to each other, four elements apart.
+template <int D>
+void several(benchmark::State& state, JointSlopes slopes) {
+  constexpr int elements = 100;
+  Scene scene = falling_beam(elements, ElementKind::ale_ancf);
+  scene.sliding_mass.reset();
+  const int joints = static_cast<int>(state.range(0));
+  for (int i = 0; i < joints; ++i) {
+    SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
+    joint.position = (50 - 2 * (joints - 1) + 4 * i - 0.3) / elements;
+    joint.mass = 0.5;
+    joint.slopes = slopes;
+  }
+  right_hand_side<D>(state, std::move(scene));
+}
+
+void several_planar(benchmark::State& state, JointSlopes slopes) { several<2>(state, slopes); }
+void several_spatial(benchmark::State& state, JointSlopes slopes) { several<3>(state, slopes); }
+
+BENCHMARK_CAPTURE(several_planar, continuous, JointSlopes::continuous)->DenseRange(1, 4);
+BENCHMARK_CAPTURE(several_planar, equal_stretch, JointSlopes::equal_stretch)->DenseRange(1, 4);
+BENCHMARK_CAPTURE(several_spatial, continuous, JointSlopes::continuous)->DenseRange(1, 4);
 
 BENCHMARK_CAPTURE(planar, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::frozen)
     ->Arg(10)

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/beam/chain_view.hpp"
-#include "core/beam/span_between.hpp"
+#include "core/joint/joint_side.hpp"
+#include "core/joint/open_nodes.hpp"
 #include "core/joint/sliding_joint.hpp"
 
 namespace vlbeam {
@@ -25,10 +25,11 @@ struct JointPower {
   double guided = 0;      ///< by what prescribes material coordinates [W]
 };
 
-/// M a = f of a chain with sliding joints. Runs of resting elements are eliminated with factors of their own;
-/// what is left are the joints with the open nodes beside them, a block tridiagonal system of one block a node:
-/// position and slope, at a joint its material coordinate, the slope behind it if it has one, and what ties the two.
-/// Cost: one sweep over the resting elements, and two or three dense blocks a joint.
+/// M a = f of a chain with sliding joints. Runs of resting elements are eliminated with factors of their own, then the
+/// open nodes beside the joints: to them, a component is like another. What is left are the joints, a block tridiagonal
+/// system of one block each: position and slope, the slope behind it if it has one, the material coordinate, and what
+/// ties the slopes. The mass is positive definite and what ties the slopes comes last, so that L D L^T needs no pivots.
+/// Cost: one sweep over the resting elements, and one small dense block a joint.
 template <int D>
 class JointChain {
  public:
@@ -46,42 +47,55 @@ class JointChain {
 
   /// Accelerations in place of the forces, of an array like q; friction included. `motion` holds an entry a joint; with
   /// nothing moving in it, the same solves M v = p. Material coordinates whose acceleration is given there take it,
-  /// whatever acts on them. Nothing is returned where the mass matrix is singular or friction jams.
+  /// whatever acts on them. Nothing is returned where the mass matrix is not positive definite or friction jams.
   std::optional<JointPower> solve(const std::vector<MovingEquations<double, D>>& equations,
                                   const std::vector<JointMotion<D>>& motion, double* force);
 
  private:
+  /// Of one side of a joint: r, the slope there, x.
+  static constexpr int side = 2 * D + 1;
   static constexpr int most = 3 * D + 1 + SlopeConditions<D>::most;
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
+  using Block = Eigen::Matrix<double, most, most, Eigen::RowMajor>;
+  using Columns = Eigen::Matrix<double, most, side, Eigen::RowMajor>;
+  using Column = Eigen::Matrix<double, most, 1>;
+  using OfSide = Eigen::Matrix<double, side, 1>;
+  using Side = JointSide<D, side, D>;
 
-  /// A node of the reduced system: unknowns r, r_x; at a joint then the slope behind it, x and the multipliers of the
-  /// conditions on the slopes.
+  /// The equations of a joint once the open nodes are eliminated. Unknowns: r, the slope before it, that behind it if
+  /// it has one, x, and what ties the slopes. Entries from `size` on are zero.
   struct Station {
-    int node = 0;
-    int joint = -1;
-    Eigen::Index size = 2 * D;
-    Eigen::Index behind = D;  ///< where the slope behind the node stands
-    Eigen::Index mark = -1;   ///< where x stands
+    int size = side;
+    int behind = D;    ///< where the slope behind it stands
+    int mark = 2 * D;  ///< where x stands
     const Support<D>* held = nullptr;
-    Block diagonal, upper;  ///< `upper` couples it to the next station
-    Eigen::PartialPivLU<Block> factor;
-    Column rhs, answer;
+    Block mass;    ///< its upper triangle; once factored L^T, with 1/d on the diagonal
+    Columns next;  ///< couples it to (r, slope, x) of the next one; L^-1 of that then
+    Column rhs, answer = Column::Zero();
     /// Of a guided joint: the row of M of its material coordinate, by itself and its neighbours, and the force on it.
     struct Guided {
-      Column own, previous, next;
+      Column own, previous;
+      OfSide next;
       double force = 0;
     };
     std::optional<Guided> guided = {};
     /// Of a joint that rubs and is held: the rows of M of its place, by itself and its neighbours, and the force there.
     struct HeldRows {
-      Eigen::Matrix<double, D, Eigen::Dynamic, 0, D, most> own, previous, next;
+      Eigen::Matrix<double, D, most> own, previous;
+      Eigen::Matrix<double, D, side> next;
       Vec<double, D> force;
     };
     std::optional<HeldRows> held_rows = {};
+
+    /// Where the unknown i of the side before the joint or behind it stands.
+    int before_at(int i) const { return i < 2 * D ? i : mark; }
+    int behind_at(int i) const { return i < D ? i : i < 2 * D ? behind + i - D : mark; }
   };
 
-  void assemble(const std::vector<MovingEquations<double, D>>& equations, const std::vector<JointMotion<D>>& motion);
+  /// Condenses M a = f to the joints.
+  void assemble(const std::vector<MovingEquations<double, D>>& equations, const std::vector<JointMotion<D>>& motion,
+                const double* force);
+  void add_tie(const JointTie<D>& tie, Station& one, Station& other);
+  void add_conditions(const JointMotion<D>& motion, JointSlopes slopes, Station& station);
   /// Gives a joint's material coordinate its acceleration.
   void guide(std::size_t station, double acceleration);
   /// Remembers what the node of a held joint that rubs has for equations.
@@ -94,14 +108,19 @@ class JointChain {
   std::optional<double> add_friction(const std::vector<JointMotion<D>>& motion);
   /// What acts on the node of a held joint that rubs, less what the accelerations in `rhs` take of it [N]; 0 elsewhere.
   Vec<double, D> lacking(std::size_t station, bool with_forces) const;
-  static void hold(const Support<D>& held, Station& station, Station* previous);
+  /// What holds the joint holds it: there, a = 0.
+  void hold(std::size_t station);
+  /// What of `rhs` couples to the previous and to the next joint.
+  static OfSide before(const Station& station);
 
   const Span<D>*first_ = nullptr, *last_ = nullptr;
   const std::vector<SpanBetween<D>>* between_ = nullptr;
   const std::vector<MovingPart>* parts_ = nullptr;
   std::vector<Joint> joints_;
-  std::vector<Station> stations_;
-  std::vector<std::size_t> of_joint_, of_part_;  ///< which station is a joint's, and that of a part's end A
+  std::vector<Station> stations_;  ///< one a joint
+  std::vector<std::optional<OpenNodes<D>>>
+      open_;                                    ///< between a joint and the next; nothing where they share an element
+  std::optional<Side> first_side_, last_side_;  ///< the open nodes at the ends, where there are any
   std::vector<double> normal_, share_, stretch_;
   std::vector<Vec<double, D>> pull_;  ///< by the beam on a joint without friction [N]
   Eigen::MatrixXd influence_;         ///< by friction at one joint, the accelerations there and at others
