@@ -155,10 +155,10 @@ class AtRest {
     equations->residual(q, Eigen::VectorXd::Zero(q.size()), Eigen::VectorXd::Zero(q.size()), 0, r);
     force_ = std::max(force_, r.cwiseAbs().maxCoeff() / k.EA);
     const ChainState<D> chain = system_.chain(y_);
-    for (int k = 0; k <= chain.mesh.last(); ++k) {
-      const auto at = axis_.derivatives(chain.mesh.x[static_cast<std::size_t>(k)]);
-      off_curve_ = std::max({off_curve_, (position<D>(chain.rest.data(), k) - at[0]).norm(),
-                             (slope<D>(chain.rest.data(), k) - at[1]).norm() * unit_});
+    for (int node = 0; node <= chain.mesh.last(); ++node) {
+      const auto at = axis_.derivatives(chain.mesh.x[static_cast<std::size_t>(node)]);
+      off_curve_ = std::max({off_curve_, (position<D>(chain.rest.data(), node) - at[0]).norm(),
+                             (slope<D>(chain.rest.data(), node) - at[1]).norm() * unit_});
     }
   }
 
