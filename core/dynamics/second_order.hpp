@@ -45,7 +45,7 @@ class SecondOrderSystem {
   /// Writes dC/dt = C_q v + C_t where the multipliers stand, at the end of `rates`.
   virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, double /*t*/,
                                 Eigen::VectorXd& /*rates*/) const {}
-  /// Whether supports move as given functions of time.
+  /// Whether some coordinates have no equation of motion: they follow from time or from others.
   virtual bool driven() const { return false; }
   /// Writes how far eliminated coordinates that are driven are from where they are at time t; false where none are.
   virtual bool driven_offset(const Eigen::VectorXd& /*q*/, double /*t*/, Eigen::VectorXd& /*offset*/) const {

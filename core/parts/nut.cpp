@@ -17,10 +17,9 @@ Nut::Nut(double pitch, double x, double angle)
 Nut::Place Nut::place(const Spin& spin, const double* q, const double* rate, double x) const {
   const double small = 4 * std::numeric_limits<double>::epsilon();
   for (int step = 0; step < most_steps; ++step) {
-    const SpinChain::Point at = spin.section(q, rate, x).at;
-    const double off = (at.angle + per_length_ * x - sum_) / (per_length_ + at.twist);
-    x -= off;
-    if (std::abs(off) <= small * (std::abs(x) + std::abs(sum_ / per_length_))) {
+    const double beyond = off(spin, q, rate, x);
+    x -= beyond;
+    if (std::abs(beyond) <= small * (std::abs(x) + std::abs(sum_ / per_length_))) {
       const SpinChain::Point there = spin.section(q, rate, x).at;
       return {x, -there.spin / (per_length_ + there.twist)};
     }
@@ -28,12 +27,30 @@ Nut::Place Nut::place(const Spin& spin, const double* q, const double* rate, dou
   return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 }
 
+double Nut::off(const Spin& spin, const double* q, const double* rate, double x) const {
+  const SpinChain::Point at = spin.section(q, rate, x).at;
+  return (at.angle + per_length_ * x - sum_) / (per_length_ + at.twist);
+}
+
+Nut::Thread Nut::thread(const Spin& spin, const double* q, const double* rate, double x) const {
+  const Spin::Section section = spin.section(q, rate, x);
+  const double per_turn = 1 / (per_length_ + section.at.twist);
+  const auto scattered = [&](double torque, double couple) {
+    Eigen::VectorXd angles = Eigen::VectorXd::Zero(spin.coordinates());
+    spin.scatter(section, torque, couple, angles.data());
+    return angles;
+  };
+  return {off(spin, q, rate, x), scattered(-per_turn, 0),
+          scattered(section.at.twist_gradient * per_turn * per_turn, -per_turn), scattered(per_turn * per_turn, 0),
+          scattered(0, 1)};
+}
+
 bool Nut::couple(Spin& spin, const double* q, const double* rate, const double* a, double x, double x_rate) {
   const Spin::Section section = spin.section(q, rate, x);
   const SpinChain::Point& at = section.at;
   const double turned = per_length_ + at.twist;
   by_angles_.setZero(spin.coordinates());
-  spin.scatter(section, -1 / turned, by_angles_.data());
+  spin.scatter(section, -1 / turned, 0, by_angles_.data());
   answer_ = by_angles_;
   spin.solve_again(answer_.data());
   const double gives = by_angles_.dot(answer_);
@@ -53,7 +70,7 @@ double Nut::turn(double x_acceleration, double* a) const {
 Eigen::VectorXd Nut::torque(const Spin& spin, const double* q, const double* rate, double x, double push) const {
   Eigen::VectorXd on_angles = Eigen::VectorXd::Zero(spin.coordinates());
   const Spin::Section section = spin.section(q, rate, x);
-  spin.scatter(section, push / (per_length_ + section.at.twist), on_angles.data());
+  spin.scatter(section, push / (per_length_ + section.at.twist), 0, on_angles.data());
   return on_angles;
 }
 

@@ -35,6 +35,14 @@ class Nut {
   double turn(double x_acceleration, double* a) const;
   /// What the thread does to the angles as it pushes the nut by `push`, after couple().
   const Eigen::VectorXd& torque(double push) { return torque_ = -push * by_angles_; }
+  /// For Newton's method: how far the nut is beyond its place by the angles [m], g and what changes it,
+  /// dg = slope dx + share (twist . dq); the twist there is twist . q.
+  struct Thread {
+    double off;
+    Eigen::VectorXd by_angles, slope, share, twist;
+  };
+  Thread thread(const Spin& spin, const double* q, const double* rate, double x) const;
+  double off(const Spin& spin, const double* q, const double* rate, double x) const;
   /// The same of a state.
   Eigen::VectorXd torque(const Spin& spin, const double* q, const double* rate, double x, double push) const;
 

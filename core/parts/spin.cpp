@@ -159,9 +159,10 @@ Spin::Section Spin::section(const double* q, const double* rate, double x) const
   return {k, chain_.at(at, chain_.local(rate, marks_, &Prescribed::rate, k), (x - at.x_a) / (at.x_b - at.x_a))};
 }
 
-void Spin::scatter(const Section& at, double torque, double* f) const {
-  const auto& s = at.at.s;
-  chain_.scatter(at.element, {s[0] * torque, s[1] * torque, s[2] * torque, s[3] * torque}, f);
+void Spin::scatter(const Section& at, double torque, double couple, double* f) const {
+  std::array<double, 4> entries;
+  for (std::size_t i = 0; i < 4; ++i) entries[i] = at.at.s[i] * torque + at.at.s_x[i] * couple;
+  chain_.scatter(at.element, entries, f);
 }
 
 Tally Spin::power(const double* q, const double* rate, const double* a, double t, const Eigen::VectorXd* more) {

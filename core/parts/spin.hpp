@@ -91,8 +91,8 @@ class Spin {
     SpinChain::Point at;
   };
   Section section(const double* q, const double* rate, double x) const;
-  /// Adds a torque times the shape functions there.
-  void scatter(const Section& at, double torque, double* f) const;
+  /// Adds a torque times the shape functions there, and `couple` [N m^2] times their gradients.
+  void scatter(const Section& at, double torque, double couple, double* f) const;
   /// M a = f in place by the factor of the last accelerate().
   void solve_again(double* f) { chain_.solve_again(f); }
 

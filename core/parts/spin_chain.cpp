@@ -106,6 +106,7 @@ Eigen::Matrix4d SpinChain::tangent(const Nodes& nodes, const TangentWeights& by,
 SpinChain::Point SpinChain::at(const Coordinates& q, const Coordinates& rate, double u) const {
   if (field_ == AngleField::linear) {
     const SpinMotion<double> motion(angles_of(q), angles_of(rate));
+    const double per_length = 1 / (q.x_b - q.x_a);
     return {{1 - u, 0, u, 0},
             -motion.tau * (1 - u),
             -motion.tau * u,
@@ -113,11 +114,13 @@ SpinChain::Point SpinChain::at(const Coordinates& q, const Coordinates& rate, do
             motion.omega_a * (1 - u) + motion.omega_b * u,
             q.e.r_a[0] * (1 - u) + q.e.r_b[0] * u,
             motion.tau_rate,
-            0};
+            0,
+            {-per_length, 0, per_length, 0}};
   }
   const MovingKinematics<double, 1> kinematics(q, rate, WeightTransport::frozen, {});
   const PointMotion<double, 1> point = kinematics.at(u, hermite_shape(u));
-  return {point.s, point.y_a[0], point.y_b[0], point.r_x[0], point.v[0], point.r[0], point.v_x[0], point.r_xx[0]};
+  return {point.s,    point.y_a[0], point.y_b[0],  point.r_x[0], point.v[0],
+          point.r[0], point.v_x[0], point.r_xx[0], point.s_x};
 }
 
 void SpinTangent::assemble(const SpinChain& chain, const SpinChain::Nodes& nodes, const TangentWeights& by) {

@@ -54,10 +54,12 @@ class SpinChain {
 
   /// What is at a point of element k: its shape functions, how its angle changes with x_A and x_B at a fixed material
   /// point, its twist [rad/m] and the spin of the matter there [rad/s]; then the angle [rad], the rate of the twist at
-  /// a fixed material point and the twist's gradient along the beam [rad/m^2].
+  /// a fixed material point and the twist's gradient along the beam [rad/m^2], and the gradients of the shape
+  /// functions.
   struct Point {
     std::array<double, 4> s;
     double by_a, by_b, twist, spin, angle, twist_rate, twist_gradient;
+    std::array<double, 4> s_x;
   };
   Point at(const Coordinates& q, const Coordinates& rate, double u) const;
 

@@ -17,9 +17,6 @@ void check_parts_of_nut(const Scene& scene, const std::string& at) {
         "/spin/angles", quoted(scene.spin->angles),
         "with a nut it must be " + quoted(AngleField::hermite) + ": the nut's speed would jump where the twist does");
   }
-  if (scene.integrator.type == IntegratorType::generalized_alpha) {
-    refuse("/integrator/type", quoted(scene.integrator.type), "with a nut take an explicit method of Odeint");
-  }
   if (scene.length_control.velocities == VelocityTransfer::conservative) {
     refuse("/length_control/velocities", quoted(scene.length_control.velocities), "with a nut take \"projected\"");
   }

@@ -244,12 +244,7 @@ class BeamSystem final : public EventedOde {
     }
     return std::nullopt;
   }
-  /// What the thread does to the angles as it pushes the nut by `push` [N]; arrays like those of the state.
-  Eigen::VectorXd nut_torque(const double* q, const double* rate, double push) const {
-    const auto which = nut_place();
-    if (!which) return Eigen::VectorXd::Zero(spin_->coordinates());
-    return nut_->torque(*spin_, q + angles(), rate + angles(), q[places_[*which].mark], push);
-  }
+  const Nut& nut() const { return *nut_; }
   /// Where the concentrated loads are.
   std::vector<Vector> load_places(const Eigen::VectorXd& y, double t) const {
     return model_.loads.places(view(y.data(), y.data() + coordinates_), t);

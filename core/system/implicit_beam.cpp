@@ -1,5 +1,7 @@
 #include "core/system/implicit_beam.hpp"
 
+#include <utility>
+
 #include "core/element/moving_tangent.hpp"
 #include "core/error.hpp"
 
@@ -343,6 +345,11 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
+  if (const auto nut = system_.nut_place()) {
+    const Eigen::Index mark = places()[*nut].mark, at = angles();
+    r.segment(at, system_.spin()->coordinates()) -= nut_torque(*nut, q, v, r[mark]);
+    r[mark] = system_.nut().off(*system_.spin(), q.data() + at, v.data() + at, q[mark]);
+  }
   if (const Spin* spin = system_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
   const DrivenPoints& driven = driven_points(t);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
@@ -405,7 +412,7 @@ void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::Ve
 template <int D>
 bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const {
   const bool guides = system_.model().guides();
-  if (!driven() || (with_multipliers() && !guides)) return false;
+  if (!system_.model().driven() || (with_multipliers() && !guides)) return false;
   offset.setZero(q.size());
   at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - system_.guided(i, t)->value; });
   if (with_multipliers()) return true;
@@ -442,9 +449,15 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   }
   if (Spin* spin = system_.spin(); spin != nullptr && spin->model().supplied()) {
     const Eigen::Index at = angles();
-    power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t);
+    Eigen::VectorXd by_nut;
+    if (const auto nut = system_.nut_place()) {
+      free_.resize(q.size());
+      free_residual(q, v, a, t, free_);
+      by_nut = nut_torque(*nut, q, v, free_[places()[*nut].mark]);
+    }
+    power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t, by_nut.size() > 0 ? &by_nut : nullptr);
   }
-  if (!driven()) return power;
+  if (!system_.model().driven()) return power;
   system_.count_evaluation();
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
@@ -595,11 +608,64 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
     constrain_tangent();
   }
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by_a); });
+  const auto nut = system_.nut_place();
+  if (nut) take_nut(*nut, reference_mass_ * by_a);
   if (const Spin* spin = system_.spin()) {
     spin->assemble({1, by_v, by_a}, spin_tangent_);
     if (!spin->factor(by_a, spin_tangent_)) return false;
   }
-  return tangent_.factor();
+  if (!tangent_.factor()) return false;
+  if (nut) factor_nut(*nut, q, v, a, t);
+  return true;
+}
+
+template <int D>
+Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                            double push) const {
+  return system_.nut().torque(*system_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
+}
+
+template <int D>
+void ImplicitBeam<D>::take_nut(std::size_t which, double size) {
+  const auto& border = tangent_.border[which];
+  nut_.row.setZero(angles());
+  nut_.column.setZero(angles());
+  for (int i = 0; i < BorderedBlockTridiagonal<B>::reach && border.first + i < nodes(); ++i) {
+    nut_.row.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.row[static_cast<std::size_t>(i)];
+    nut_.column.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.column[static_cast<std::size_t>(i)];
+  }
+  const auto x = static_cast<Eigen::Index>(which), others = Eigen::Index{tangent_.borders()};
+  nut_.row.segment(after_nodes(), others) = tangent_.corner.row(x).head(others);
+  nut_.column.segment(after_nodes(), others) = tangent_.corner.col(x).head(others);
+  nut_.own = tangent_.corner(x, x);
+  nut_.row[after_nodes() + x] = nut_.column[after_nodes() + x] = 0;
+  tangent_.fix(static_cast<int>(which), size);
+}
+
+template <int D>
+void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                 const Eigen::VectorXd& a, double t) {
+  const Spin& spin = *system_.spin();
+  const Eigen::Index mark = places()[which].mark;
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  const double push = free_[mark];
+  tangent_.solve(nut_.column.data());
+  nut_.thread = system_.nut().thread(spin, q.data() + angles(), v.data() + angles(), q[mark]);
+  const auto where_free = [&](Eigen::VectorXd torque) {
+    for (const DrivenAngle& drive : spin.model().drives) torque[spin.angle(drive.node)] = 0;
+    return torque;
+  };
+  nut_.torque = where_free(nut_.thread.by_angles);
+  nut_.by_x = where_free((nut_.own - nut_.row.dot(nut_.column)) * nut_.thread.by_angles + push * nut_.thread.slope);
+  nut_.answer.resize(spin.coordinates(), 2);
+  nut_.answer.col(0) = nut_.by_x;
+  nut_.answer.col(1) = where_free(push * nut_.thread.share);
+  for (int i = 0; i < 2; ++i) spin_tangent_.solve(nut_.answer.col(i).data());
+  Eigen::Matrix2d small = Eigen::Matrix2d::Identity();
+  small.row(0) += nut_.thread.by_angles.transpose() * nut_.answer;
+  small.row(1) += nut_.thread.twist.transpose() * nut_.answer;
+  nut_.inverse = small.inverse();
 }
 
 /// Friction acts on the joint's material coordinate alone. Where its node is held, the beam pulls at it by what the
@@ -760,11 +826,25 @@ template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
+  const auto nut = system_.nut_place();
+  const Eigen::Index x = nut ? places()[*nut].mark : 0;
+  const double off = nut ? std::exchange(r[x], 0) : 0;
   tangent_.solve(r.data());
+  if (const Spin* spin = system_.spin()) {
+    auto turn = r.segment(angles(), spin->coordinates());
+    if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;
+    spin_tangent_.solve(turn.data());
+    if (nut) {
+      const Eigen::Vector2d seen(nut_.thread.by_angles.dot(turn), nut_.thread.twist.dot(turn));
+      turn -= nut_.answer * (nut_.inverse * seen);
+      const double moves = off + nut_.thread.by_angles.dot(turn);
+      r.head(angles()) -= moves * nut_.column;
+      r[x] = moves;
+    }
+  }
   if (system_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
     project(r.data());
   }
-  if (system_.spin() != nullptr) spin_tangent_.solve(r.data() + angles());
 }
 
 template <int D>
@@ -795,8 +875,7 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   if (const Spin* spin = system_.spin()) {
     Eigen::VectorXd torques = free_.segment(angles(), spin->coordinates());
     if (const auto nut = system_.nut_place()) {
-      const double* rate = y.data() + system_.coordinates();
-      torques -= system_.nut_torque(y.data(), rate, free_[places()[*nut].mark]);
+      torques -= nut_torque(*nut, q, v, free_[places()[*nut].mark]);
     }
     forces.drives = spin->drive_torques(torques.data());
   }

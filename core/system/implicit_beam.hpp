@@ -37,7 +37,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
   void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                         Eigen::VectorXd& rates) const override;
-  bool driven() const override { return system_.model().driven(); }
+  bool driven() const override { return system_.model().driven() || system_.nut_place(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   Tallies tallies() const override { return system_.model().tallies(); }
   Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
@@ -202,6 +202,13 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// Of a joint at which the beam pulls by `pull` [N]; all that acts on the nodes is in the tangent.
   void add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, double by_v, double by_a);
+  /// What the thread does to the angles as it pushes the nut of these coordinates [N].
+  Eigen::VectorXd nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double push) const;
+  /// Takes the nut's x out of the tangent, with `size` in its place.
+  void take_nut(std::size_t which, double size);
+  /// Completes it, once all else is factored.
+  void factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                  double t);
   void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   void rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size, Eigen::VectorXd& result);
   /// What moving supports change of the Jacobian.
@@ -227,6 +234,17 @@ class ImplicitBeam final : public SecondOrderSystem {
   double constraint_scale_ = 1;                       ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
   SpinTangent spin_tangent_;
+  /// A nut moves by what the angles do, dx = g . dq + off, and what acts on it turns them by g: with all else solved
+  /// for, they have a tangent of their own and two dyads.
+  struct NutTangent {
+    double own = 0;               ///< of the force on x, by x
+    Eigen::VectorXd row, column;  ///< of it by all else but the angles; what of that moves against x
+    Nut::Thread thread;
+    Eigen::VectorXd torque, by_x;  ///< on the angles that are free: g, and what dx makes of it
+    Eigen::Matrix<double, Eigen::Dynamic, 2> answer;
+    Eigen::Matrix2d inverse;
+  };
+  NutTangent nut_;
   Eigen::VectorXd y_, dydt_, free_;
   Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian
   Eigen::MatrixXd stiffness_, damping_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/core/support/chain_models.hpp"
 
 namespace vlbeam::test {
@@ -16,7 +18,7 @@ TYPED_TEST_SUITE(ImplicitBeamTest, Dimensions);
 template <int D>
 struct Case {
   Case(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated, bool friction = false,
-       bool held = false)
+       bool held = false, bool nut = false)
       : random(seed) {
     auto model = model_of<D>(shape, random);
     model.section.damping = 0.01;
@@ -28,12 +30,37 @@ struct Case {
       if (friction) joint.law.friction = AxialFriction{0.3, 0.4};
       if (held) joint.support = &joint == &model.joints.back() ? Support<D>::pin() : sleeve;
     }
+    if (nut) {
+      model.joints.front().pitch = pitch;
+      model.spin = SpinModel{.section = {0.2, 0.3, 0.05},
+                             .field = AngleField::hermite,
+                             .rate = 0.8,
+                             .drives = {{shape.elements, steadily(0, 1.5)}}};
+    }
     system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
     system->second_order()->expand(system->initial_state(), q, v);
     const Eigen::Index n = q.size();
     a = Eigen::VectorXd::NullaryExpr(n, [this] { return random.uniform(-3, 3); });
+    if (nut) put_on_thread(shape.elements + 1, 0.1 * shape.element_length);
   }
 
+  /// The nut a bit on, off the node of the angles where it starts and the twist's gradient jumps, and some angles that
+  /// have it there.
+  void put_on_thread(int nodes, double way) {
+    const Spin& spin = *system->spin();
+    const Eigen::Index at = q.size() - spin.coordinates(), mark = node_size<D> * nodes;
+    q[mark] += way;
+    for (Eigen::Index i = at; i < q.size(); ++i) {
+      q[i] = random.uniform(-1, 1);
+      v[i] = random.uniform(-1, 1);
+    }
+    const double angle = spin.section(q.data() + at, v.data() + at, q[mark]).at.angle +
+                         2 * std::numbers::pi / pitch * way;  // the sum was 0
+    for (int node = 0; node < nodes; ++node) q[at + spin.angle(node)] -= angle;
+    v[mark] = system->nut().place(spin, q.data() + at, v.data() + at, q[mark]).rate;
+  }
+
+  static constexpr double pitch = 0.7;
   Random random;
   std::unique_ptr<BeamSystem<D>> system;
   Eigen::VectorXd q, v, a;
@@ -58,6 +85,7 @@ struct Kind {
   Constraints constraints;
   bool friction;
   bool held = false;  ///< the last joint by a ring, the others by sleeves
+  bool nut = false;   ///< the first joint
 };
 
 std::vector<Kind> cases() {
@@ -69,6 +97,11 @@ std::vector<Kind> cases() {
     result.push_back({shapes[10], constraints, true});
     for (const bool friction : {false, true}) {
       for (const std::size_t i : {1U, 3U, 5U, 10U, 11U}) result.push_back({shapes[i], constraints, friction, true});
+    }
+  }
+  for (const bool held : {false, true}) {
+    for (const bool friction : {false, true}) {
+      for (const std::size_t i : {2U, 5U, 10U}) result.push_back({shapes[i], {}, friction, held, true});
     }
   }
   for (const auto slopes : {JointSlopes::tangent, JointSlopes::equal_stretch, JointSlopes::free}) {
@@ -90,8 +123,8 @@ std::vector<Kind> cases() {
 TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
   constexpr int D = TypeParam::value;
   unsigned seed = 1;
-  for (const auto& [shape, constraints, friction, held] : cases()) {
-    Case<D> c(shape, seed++, constraints, friction, held);
+  for (const auto& [shape, constraints, friction, held, nut] : cases()) {
+    Case<D> c(shape, seed++, constraints, friction, held, nut);
     auto& implicit = *c.system->second_order();
     Eigen::VectorXd a(c.q.size()), r(c.q.size());
     implicit.acceleration(c.q, c.v, 0, a);
@@ -104,8 +137,8 @@ TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
 TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   unsigned seed = 11;
-  for (const auto& [shape, constraints, friction, held] : cases()) {
-    Case<D> c(shape, seed++, constraints, friction, held);
+  for (const auto& [shape, constraints, friction, held, nut] : cases()) {
+    Case<D> c(shape, seed++, constraints, friction, held, nut);
     auto& implicit = *c.system->second_order();
     const Eigen::Index n = c.q.size();
     const double by_v = 7, by_a = 300;
@@ -134,9 +167,9 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
 TYPED_TEST(ImplicitBeamTest, DenseTangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   unsigned seed = 51;
-  for (const auto& [shape, constraints, friction, held] : cases()) {
+  for (const auto& [shape, constraints, friction, held, nut] : cases()) {
     if (constraints != Constraints::multipliers) continue;
-    Case<D> c(shape, seed++, constraints, friction, held);
+    Case<D> c(shape, seed++, constraints, friction, held, nut);
     auto& implicit = *c.system->second_order();
     const Eigen::Index n = c.q.size(), m = implicit.multipliers();
     const double by_v = 7, by_a = 300;
