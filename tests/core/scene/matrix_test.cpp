@@ -78,6 +78,15 @@ const std::vector<Feature>& features() {
          guided.mass = 0.3;
          guided.x = TimeSpec{.rate = 0.5, .amplitude = 0.01, .frequency = 20};
        }},
+      {"joints that rebound",
+       [](Scene& s) {
+         s.beam.elements = 8;  // each joint needs a node
+         if (s.sliding_joints.empty()) mass(s);
+         mass(s);
+         s.sliding_joints.back().position = 0.54;
+         s.sliding_joints.back().velocity = -8;
+         s.contact = ContactSpec{.joints = AtSupport::rebound, .distance = 0.1};
+       }},
       {"feed",
        [](Scene& s) {
          if (s.start.type == SupportType::free) s.start.type = SupportType::pin;
@@ -275,7 +284,8 @@ TEST(WhatGoesTogether, IsWhatTheDocsSay) {
   const std::string file = VLBEAM_DOCS_DIR "/what_goes_together.md";
   const std::string text =
       "# What goes together\n\n"
-      "Each cell is a scene of four elements that the tests run: **yes**, it runs and the work of all that acts on it "
+      "Each cell is a scene of four elements, eight where joints rebound, that the tests run: **yes**, it runs and the "
+      "work of all that acts on it "
       "accounts for its energy, to 1e-9\n"
       "by explicit methods (`fehlberg78` here) and `energy-momentum` (1e-6 where gravity grows within 40 steps), to "
       "their "
