@@ -11,7 +11,7 @@ namespace vlbeam {
 namespace {
 
 constexpr double place = 0.55;
-const TimeSpec swings{.value = 0.03, .amplitude = 0.03, .frequency = 5, .phase_degrees = -90};
+const TimeSpec sways{.value = 0.03, .amplitude = 0.03, .frequency = 5, .phase_degrees = -90};
 
 /// A soft cantilever whose ring or sleeve swings across it.
 Scene swung(SupportType support, ElementKind element = ElementKind::ale_ancf) {
@@ -23,7 +23,7 @@ Scene swung(SupportType support, ElementKind element = ElementKind::ale_ancf) {
   SlidingJointSpec joint;
   joint.support = support;
   joint.position = place;
-  joint.motion = {.direction = {0.6, 0.8, 0}, .displacement = swings};
+  joint.motion = {.direction = {0.6, 0.8, 0}, .displacement = sways};
   scene.sliding_joints = {joint};
   test::set_tolerance(scene, IntegratorType::fehlberg78, 1e-12);
   scene.duration = 0.3;
@@ -152,7 +152,7 @@ TEST(MovedJoint, GoesWithOtherJointsAndKinks) {
   ring.support = SupportType::pin;
   ring.position = 0.7;
   ring.slopes = JointSlopes::equal_stretch;
-  ring.motion = {.direction = {0, 1, 0}, .displacement = swings};
+  ring.motion = {.direction = {0, 1, 0}, .displacement = sways};
   mass.mass = 0.5;
   mass.position = 1.3;
   const RunResult run = test::completed(test::rope({ring, mass}));

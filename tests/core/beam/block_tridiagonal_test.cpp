@@ -1,0 +1,120 @@
+#include "core/beam/block_tridiagonal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <random>
+
+namespace vlbeam {
+namespace {
+
+template <class Size>
+class BlockTridiagonal : public ::testing::Test {
+ protected:
+  static constexpr int B = Size::value;
+  using Matrix = BorderedBlockTridiagonal<B>;
+
+  /// Random entries, the diagonal blocks with `shift` more on their diagonal; `symmetric` where wanted.
+  Matrix random_matrix(int nodes, int borders, double shift, bool symmetric) {
+    Matrix m;
+    m.reset(nodes);
+    for (int k = 0; k < nodes; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      typename Matrix::Block own = random_block();
+      if (symmetric) own = (own + own.transpose()).eval() / 2;
+      m.diagonal[i] = own + shift * Matrix::Block::Identity();
+      if (k + 1 == nodes) continue;
+      m.upper[i] = random_block();
+      m.lower[i + 1] = symmetric ? typename Matrix::Block(m.upper[i].transpose()) : random_block();
+    }
+    for (int j = 0; j < borders; ++j) {
+      auto& border = m.add_border(std::min(2 * j, nodes - 1));
+      for (int i = 0; i < std::min(Matrix::reach, nodes - border.first); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        for (double& x : border.column[at]) x = number();
+        for (double& x : border.row[at]) x = number();
+        if (symmetric) border.row[at] = border.column[at];
+      }
+    }
+    for (int j = 0; j < borders; ++j) {
+      for (int i = 0; i <= j; ++i) {
+        m.corner(j, i) = number();
+        m.corner(i, j) = symmetric ? m.corner(j, i) : number();
+      }
+    }
+    return m;
+  }
+
+  Eigen::MatrixXd dense(const Matrix& m) const {
+    const Eigen::Index n = Eigen::Index{B} * m.nodes() + m.borders();
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+    m.expand(result);
+    return result;
+  }
+
+  double number() { return uniform_(engine_); }
+
+ private:
+  typename Matrix::Block random_block() {
+    typename Matrix::Block block;
+    for (Eigen::Index i = 0; i < block.size(); ++i) block.data()[i] = number();
+    return block;
+  }
+
+  std::mt19937 engine_{7};
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+using Sizes =
+    ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 4>, std::integral_constant<int, 6>>;
+TYPED_TEST_SUITE(BlockTridiagonal, Sizes);
+
+TYPED_TEST(BlockTridiagonal, SolvesWhatItHolds) {
+  constexpr double dominant = 3 * TypeParam::value;
+  for (const int nodes : {1, 2, 3, 9}) {
+    for (const int borders : {0, 1, 3}) {
+      auto m = this->random_matrix(nodes, borders, dominant, false);
+      const Eigen::MatrixXd a = this->dense(m);
+      Eigen::VectorXd b(a.rows());
+      for (double& x : b) x = this->number();
+      ASSERT_TRUE(m.factor());
+      Eigen::VectorXd x = b;
+      m.solve(x.data());
+      EXPECT_LE((a * x - b).cwiseAbs().maxCoeff(), 1e-12 * a.cwiseAbs().maxCoeff() * x.cwiseAbs().maxCoeff())
+          << nodes << " nodes, " << borders << " in the border";
+    }
+  }
+}
+
+TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvalues) {
+  for (const double shift : {-2.0, 0.0, 1.0, 2.0, 3.0 * TypeParam::value}) {
+    for (const int borders : {0, 2}) {
+      auto m = this->random_matrix(7, borders, shift, true);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all(this->dense(m), Eigen::EigenvaluesOnly);
+      ASSERT_TRUE(m.factor());
+      EXPECT_EQ(m.negative_pivots(1e-13), (all.eigenvalues().array() < 0).count()) << shift << ", " << borders;
+    }
+  }
+}
+
+TYPED_TEST(BlockTridiagonal, AFixedUnknownOfTheBorderKeepsToItself) {
+  auto m = this->random_matrix(5, 2, 3.0 * TypeParam::value, false);
+  m.fix(0, 4);
+  const Eigen::MatrixXd a = this->dense(m);
+  const Eigen::Index at = a.rows() - 2;
+  EXPECT_EQ(a.row(at).cwiseAbs().sum(), 4);
+  EXPECT_EQ(a.col(at).cwiseAbs().sum(), 4);
+  ASSERT_TRUE(m.factor());
+  Eigen::VectorXd x = Eigen::VectorXd::Unit(a.rows(), at);
+  m.solve(x.data());
+  EXPECT_EQ((x - Eigen::VectorXd::Unit(a.rows(), at) / 4).cwiseAbs().maxCoeff(), 0);
+}
+
+TYPED_TEST(BlockTridiagonal, RefusesASingularPivot) {
+  auto m = this->random_matrix(4, 0, 1, false);
+  m.diagonal[0].setZero();
+  EXPECT_FALSE(m.factor());
+}
+
+}  // namespace
+}  // namespace vlbeam
