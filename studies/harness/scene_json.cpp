@@ -361,6 +361,7 @@ Scene scene_with_every_part() {
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();
+  scene.contact.emplace().joints = AtSupport::rebound;
   scene.point_masses.emplace_back();
   scene.initial_velocity.emplace();
   scene.drag.emplace();
