@@ -24,11 +24,6 @@ constexpr double default_end_merge = 0.5;  // of L_std
 
 bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && scene.beam.curve.type != CurveType::line; }
 
-template <int D>
-Vec<double, D> vector_of(const Point& point) {
-  return Eigen::Map<const Vec<double, D>>(point.data());
-}
-
 LengthControl build_length_control(const Scene& scene) {
   const auto& control = scene.length_control;
   return {control.enabled,

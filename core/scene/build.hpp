@@ -6,6 +6,12 @@
 
 namespace vlbeam {
 
+/// The first D components of a point of the scene.
+template <int D>
+Vec<double, D> vector_of(const Point& point) {
+  return Eigen::Map<const Vec<double, D>>(point.data());
+}
+
 /// The beam's initial axis. Throws NurbsError.
 template <int D>
 Axis<D> build_axis(const Scene& scene);

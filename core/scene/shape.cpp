@@ -14,11 +14,6 @@
 namespace vlbeam {
 namespace {
 
-template <int D>
-Vec<double, D> vector_of(const Point& point) {
-  return Eigen::Map<const Vec<double, D>>(point.data());
-}
-
 void check(const Configuration& shape, int per_element) {
   const std::size_t nodes = shape.x.size();
   const bool whole =
