@@ -10,6 +10,7 @@
 #include "studies/harness/scene_sweep.hpp"
 
 namespace vlbeam {
+namespace across_events {
 namespace {
 
 struct Case {
@@ -113,13 +114,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace across_events
 
 Study across_events_study();
 
 Study across_events_study() {
   return {.name = "across_events",
           .title = "Across events: the order of generalized-alpha where elements merge",
-          .run = run};
+          .run = across_events::run};
 }
 
 }  // namespace vlbeam

@@ -13,6 +13,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace defaults {
 namespace {
 
 const std::string by_default = "default";
@@ -149,13 +150,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace defaults
 
 Study defaults_study();
 
 Study defaults_study() {
   return {.name = "defaults",
           .title = "Defaults: what each option costs and gains where a scene leaves it out",
-          .run = run};
+          .run = defaults::run};
 }
 
 }  // namespace vlbeam

@@ -10,6 +10,7 @@
 #include "core/system/steady_flow.hpp"
 
 namespace vlbeam {
+namespace drill_stem {
 namespace {
 
 constexpr int D = 3;
@@ -188,11 +189,12 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace drill_stem
 
 Study drill_stem_study();
 
 Study drill_stem_study() {
-  return {.name = "drill_stem", .title = "A spinning drill stem fed through its guide", .run = run};
+  return {.name = "drill_stem", .title = "A spinning drill stem fed through its guide", .run = drill_stem::run};
 }
 
 }  // namespace vlbeam

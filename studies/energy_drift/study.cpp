@@ -8,6 +8,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace energy_drift {
 namespace {
 
 struct Case {
@@ -106,13 +107,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace energy_drift
 
 Study energy_drift_study();
 
 Study energy_drift_study() {
   return {.name = "energy_drift",
           .title = "Drift of the total energy by integrator and formulation, and its jumps at length control",
-          .run = run};
+          .run = energy_drift::run};
 }
 
 }  // namespace vlbeam

@@ -8,6 +8,7 @@
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
+namespace equilibria {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -266,11 +267,12 @@ class Report {
 StudyReport run(const StudyContext& context) { return Report(context)(); }
 
 }  // namespace
+}  // namespace equilibria
 
 Study equilibria_study();
 
 Study equilibria_study() {
-  return {.name = "equilibria", .title = "Equilibria, their stability and natural frequencies", .run = run};
+  return {.name = "equilibria", .title = "Equilibria, their stability and natural frequencies", .run = equilibria::run};
 }
 
 }  // namespace vlbeam

@@ -10,6 +10,7 @@
 #include "core/geometry/axis.hpp"
 
 namespace vlbeam {
+namespace exact_arc {
 namespace {
 
 constexpr int samples_an_element = 60;
@@ -274,13 +275,14 @@ class Report {
 StudyReport run(const StudyContext& context) { return Report(context)(); }
 
 }  // namespace
+}  // namespace exact_arc
 
 Study exact_arc_study();
 
 Study exact_arc_study() {
   return {.name = "exact_arc",
           .title = "Exact circles, conics and NURBS curves, and what sliding does to them",
-          .run = run};
+          .run = exact_arc::run};
 }
 
 }  // namespace vlbeam

@@ -9,6 +9,7 @@
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
+namespace falling_beam {
 namespace {
 
 StudyReport run(const StudyContext& context) {
@@ -37,13 +38,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace falling_beam
 
 Study falling_beam_study();
 
 Study falling_beam_study() {
   return {.name = "falling_beam",
           .title = "Falling beam with a sliding mass: Figures 8-12 and Tables 1-2 of Ding & Ouyang 2022",
-          .run = run};
+          .run = falling_beam::run};
 }
 
 }  // namespace vlbeam

@@ -15,6 +15,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace hard_cases {
 namespace {
 
 constexpr int samples = 50;                   // of a run
@@ -227,11 +228,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace hard_cases
 
 Study hard_cases_study();
 
 Study hard_cases_study() {
-  return {.name = "hard_cases", .title = "Hard cases: what finishes, how well, and what fails clearly", .run = run};
+  return {.name = "hard_cases",
+          .title = "Hard cases: what finishes, how well, and what fails clearly",
+          .run = hard_cases::run};
 }
 
 }  // namespace vlbeam

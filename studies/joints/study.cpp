@@ -11,6 +11,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace joints {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -472,11 +473,12 @@ class Report {
 StudyReport run(const StudyContext& context) { return Report(context)(); }
 
 }  // namespace
+}  // namespace joints
 
 Study joints_study();
 
 Study joints_study() {
-  return {.name = "joints", .title = "What slides on a beam, and what holds or drives it", .run = run};
+  return {.name = "joints", .title = "What slides on a beam, and what holds or drives it", .run = joints::run};
 }
 
 }  // namespace vlbeam

@@ -12,6 +12,7 @@
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
+namespace moving_string {
 namespace {
 
 constexpr int D = 3;
@@ -349,12 +350,14 @@ class Report {
 StudyReport run(const StudyContext& context) { return Report(context)(); }
 
 }  // namespace
+}  // namespace moving_string
 
 Study moving_string_study();
 
 Study moving_string_study() {
-  return {
-      .name = "moving_string", .title = "Frequencies of a string and a beam that move along their axis", .run = run};
+  return {.name = "moving_string",
+          .title = "Frequencies of a string and a beam that move along their axis",
+          .run = moving_string::run};
 }
 
 }  // namespace vlbeam

@@ -12,6 +12,7 @@
 #include "studies/harness/scene_sweep.hpp"
 
 namespace vlbeam {
+namespace quadrature {
 namespace {
 
 constexpr int exact_points = 25;
@@ -141,11 +142,12 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace quadrature
 
 Study quadrature_study();
 
 Study quadrature_study() {
-  return {.name = "quadrature", .title = "How many Gauss points an element needs", .run = run};
+  return {.name = "quadrature", .title = "How many Gauss points an element needs", .run = quadrature::run};
 }
 
 }  // namespace vlbeam

@@ -15,6 +15,7 @@
 #include "studies/rotating_load/closed_form.hpp"
 
 namespace vlbeam {
+namespace rotating_load {
 namespace {
 
 constexpr int D = 3;
@@ -363,13 +364,14 @@ class Report {
 StudyReport run(const StudyContext& context) { return Report(context)(); }
 
 }  // namespace
+}  // namespace rotating_load
 
 Study rotating_load_study();
 
 Study rotating_load_study() {
   return {.name = "rotating_load",
           .title = "A spinning shaft under a load that moves along it and turns about it",
-          .run = run};
+          .run = rotating_load::run};
 }
 
 }  // namespace vlbeam

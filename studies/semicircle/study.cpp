@@ -18,6 +18,7 @@
 #include "studies/harness/scene_sweep.hpp"
 
 namespace vlbeam {
+namespace semicircle {
 namespace {
 
 constexpr double compared_at = 0.4;  // [s], the time of the meshes' errors
@@ -403,13 +404,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace semicircle
 
 Study semicircle_study();
 
 Study semicircle_study() {
   return {.name = "semicircle",
           .title = "A mass sliding on a suspended semicircular beam: the paper's Example 3",
-          .run = run};
+          .run = semicircle::run};
 }
 
 }  // namespace vlbeam

@@ -16,6 +16,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace suspended_beam {
 namespace {
 
 struct Case {
@@ -511,13 +512,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace suspended_beam
 
 Study suspended_beam_study();
 
 Study suspended_beam_study() {
   return {.name = "suspended_beam",
           .title = "A suspended beam with a heavy sliding mass (§6.2), and the beam's slopes at the mass",
-          .run = run};
+          .run = suspended_beam::run};
 }
 
 }  // namespace vlbeam

@@ -10,6 +10,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace thresholds {
 namespace {
 
 struct Case {
@@ -198,12 +199,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace thresholds
 
 Study thresholds_study();
 
 Study thresholds_study() {
-  return {
-      .name = "thresholds", .title = "When to cut an element: trigger, hysteresis, and no length control", .run = run};
+  return {.name = "thresholds",
+          .title = "When to cut an element: trigger, hysteresis, and no length control",
+          .run = thresholds::run};
 }
 
 }  // namespace vlbeam

@@ -11,6 +11,7 @@
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
+namespace torsion {
 namespace {
 
 /// An eigenvalue of a chain of 64 elements, whose largest is some 1e4 times the first, is known to that many times eps,
@@ -196,11 +197,14 @@ class Report {
 StudyReport run(const StudyContext& context) { return Report(context)(); }
 
 }  // namespace
+}  // namespace torsion
 
 Study torsion_study();
 
 Study torsion_study() {
-  return {.name = "torsion", .title = "Torsional vibration of a shaft at rest and of a rod that flows", .run = run};
+  return {.name = "torsion",
+          .title = "Torsional vibration of a shaft at rest and of a rod that flows",
+          .run = torsion::run};
 }
 
 }  // namespace vlbeam

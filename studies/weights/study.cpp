@@ -12,6 +12,7 @@
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
+namespace weights {
 namespace {
 
 constexpr double early = 0.5, late = 0.65;  // [s], before and after the whip
@@ -359,13 +360,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace weights
 
 Study weights_study();
 
 Study weights_study() {
   return {.name = "weights",
           .title = "Weights and velocities at length control: what merging costs in error and in energy",
-          .run = run};
+          .run = weights::run};
 }
 
 }  // namespace vlbeam

@@ -7,6 +7,7 @@
 #include "studies/work_precision/meshes.hpp"
 
 namespace vlbeam {
+namespace work_precision {
 namespace {
 
 StudyReport run(const StudyContext& context) {
@@ -20,13 +21,14 @@ StudyReport run(const StudyContext& context) {
 }
 
 }  // namespace
+}  // namespace work_precision
 
 Study work_precision_study();
 
 Study work_precision_study() {
   return {.name = "work_precision",
           .title = "Error against time and evaluations: integrators, steps and meshes",
-          .run = run,
+          .run = work_precision::run,
           .measures_time = true};
 }
 
