@@ -1,7 +1,8 @@
 #include "core/beam/block_tridiagonal.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "core/geometry/dense.hpp"
 
 namespace vlbeam {
 namespace {
@@ -128,16 +129,14 @@ int BorderedBlockTridiagonal<B>::negative_pivots(double zero) const {
     }
     const Block scaled = size.asDiagonal() * inverse_[k] * size.asDiagonal();
     const Block even = (scaled + scaled.transpose()) / 2;
-    const Eigen::SelfAdjointEigenSolver<Block> solver(even, Eigen::EigenvaluesOnly);
-    for (const double value : solver.eigenvalues()) count += value < 0 && value > -1 / zero ? 1 : 0;
+    for (const double value : eigenvalues(even)) count += value < 0 && value > -1 / zero ? 1 : 0;
   }
   if (border.empty()) return count;
   const Eigen::VectorXd sizes = corner.diagonal().head(borders()).cwiseAbs().cwiseMax(rest_.diagonal().cwiseAbs());
   const Eigen::VectorXd scale = (sizes.array() > 0).select(sizes, 1).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * rest_ * scale.asDiagonal();
   const Eigen::MatrixXd even = (scaled + scaled.transpose()) / 2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(even, Eigen::EigenvaluesOnly);
-  for (const double value : solver.eigenvalues()) count += value < -zero ? 1 : 0;
+  for (const double value : eigenvalues(even)) count += value < -zero ? 1 : 0;
   return count;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "core/element/active.hpp"
 #include "core/element/moving_kinematics.hpp"
 #include "core/element/section.hpp"
 #include "core/element/strain.hpp"
@@ -18,10 +18,10 @@ struct DampingTangent {
 
   DampingTangent(const PointMotion<double, D>& at, const BeamSection& section) {
     constexpr int N = 4 * D;
-    using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+    using Real = Active<N>;
     auto seed = [](const Vec<double, D>& value, int first) {
       Vec<Real, D> result;
-      for (int c = 0; c < D; ++c) result[c] = Real(value[c], N, first + c);
+      for (int c = 0; c < D; ++c) result[c] = Real(value[c], first + c);
       return result;
     };
     const DampingStress<Real, D> stress(seed(at.r_x, 0), seed(at.r_xx, D), seed(at.v_x, 2 * D), seed(at.v_xx, 3 * D),

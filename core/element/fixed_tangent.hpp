@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "core/element/active.hpp"
 #include "core/element/elastic_tangent.hpp"
 #include "core/element/fixed_element.hpp"
 #include "core/element/pack.hpp"
@@ -60,7 +60,7 @@ template <int D>
 ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane, const NodalCubic<double, D>& e,
                                         const NodalCubic<double, D>& rate, const BeamSection& section, double by_v) {
   constexpr int N = 2 * D;
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Real = Active<N>;
   using Matrix = Eigen::Matrix<double, D, D>;
   ChordTangent<double, D> tangent;
   for (auto& row : tangent) row.fill(Matrix::Zero());

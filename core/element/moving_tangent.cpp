@@ -1,5 +1,6 @@
 #include "core/element/moving_tangent.hpp"
 
+#include "core/element/active.hpp"
 #include "core/element/damping_tangent.hpp"
 #include "core/element/elastic_tangent.hpp"
 #include "core/element/rest_tangent.hpp"
@@ -136,7 +137,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
         }
       });
 
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
+  using Real = Active<1>;
   for (int e = 0; e < count; ++e) {
     const auto along_end = [&](const MovingCoordinates<double, D>& from, double scale) {
       MovingCoordinates<Real, D> result;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "core/element/active.hpp"
 #include "core/element/rest_strain.hpp"
 
 namespace vlbeam {
@@ -28,14 +28,13 @@ struct RestTangent {
 
   RestTangent(const Vector& rx, const Vector& rxx, const RestStrain<double>& rest, const BeamSection& section) {
     constexpr int N = 2 * D;
-    using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+    using Real = Active<N>;
     auto seed = [](const Vector& value, int first) {
       Vec<Real, D> result;
-      for (int c = 0; c < D; ++c) result[c] = Real(value[c], N, first + c);
+      for (int c = 0; c < D; ++c) result[c] = Real(value[c], first + c);
       return result;
     };
-    auto constant = [](double value) { return Real(value, Eigen::Matrix<double, N, 1>::Zero()); };
-    const RestStrain<Real> fixed{constant(rest.axial), constant(rest.curvature), {}, {}, {}};
+    const RestStrain<Real> fixed{Real(rest.axial), Real(rest.curvature), {}, {}, {}};
     const RestStress<Real, D> stress(seed(rx, 0), seed(rxx, D), fixed, section);
     m.setZero();
     mm.setZero();

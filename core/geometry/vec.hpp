@@ -1,12 +1,52 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <concepts>
 
 namespace vlbeam {
 
 /// A point, slope or force: `D` components of scalar type `Real`.
 template <class Real, int D>
 using Vec = Eigen::Matrix<Real, D, 1>;
+
+// Sums and multiples of small matrices are computed at once: as Eigen's expressions each would be a type of its own,
+// with hundreds of declarations, which is most of what compiling them takes. They round alike.
+
+template <class Real, int Rows, int Columns>
+concept Small = Rows >
+0 && Columns > 0 && Rows* Columns <= 16;
+
+template <class Real, int R, int C>
+requires Small<Real, R, C> Eigen::Matrix<Real, R, C>
+operator+(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
+  Eigen::Matrix<Real, R, C> sum = a;
+  sum += b;
+  return sum;
+}
+template <class Real, int R, int C>
+requires Small<Real, R, C> Eigen::Matrix<Real, R, C>
+operator-(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
+  Eigen::Matrix<Real, R, C> difference = a;
+  difference -= b;
+  return difference;
+}
+template <class Real, int R, int C>
+requires Small<Real, R, C> Eigen::Matrix<Real, R, C>
+operator-(const Eigen::Matrix<Real, R, C>& a) { return a.operator-(); }
+template <class Real, int R, int C, class Scale>
+requires(Small<Real, R, C>&& std::same_as<Real, Scale>) Eigen::Matrix<Real, R, C>
+operator*(const Eigen::Matrix<Real, R, C>& a, const Scale& scale) {
+  Eigen::Matrix<Real, R, C> product = a;
+  product *= scale;
+  return product;
+}
+template <class Real, int R, int C, class Scale>
+requires(Small<Real, R, C>&& std::same_as<Real, Scale>) Eigen::Matrix<Real, R, C>
+operator*(const Scale& scale, const Eigen::Matrix<Real, R, C>& a) {
+  Eigen::Matrix<Real, R, C> product = a;
+  product *= scale;
+  return product;
+}
 
 /// r x v: in the plane, its component across it is the last.
 template <int D>

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <optional>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "core/element/active.hpp"
 #include "core/joint/sliding_joint.hpp"
 
 namespace vlbeam {
@@ -137,14 +137,14 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> rider_tangent(const RiderMotion<doub
   if (!joint.friction) return tangent;
 
   constexpr int N = 2 * D + 1;  // friction by pull, slope and x'
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Real = Active<N>;
   Vec<Real, D> active_pull, active_slope;
   for (int c = 0; c < D; ++c) {
-    active_pull[c] = Real(pull[c], N, c);
-    active_slope[c] = Real(at.r_x[c], N, D + c);
+    active_pull[c] = Real(pull[c], c);
+    active_slope[c] = Real(at.r_x[c], D + c);
   }
   const Real force = friction_force<Real, D>(*joint.friction, active_pull * Real(m), Contact<Real, D>(active_slope),
-                                             Real(at.x_rate, N, 2 * D))
+                                             Real(at.x_rate, 2 * D))
                          .force;
   if (force.derivatives().size() == 0) return tangent;
   const Vector by_pull = force.derivatives().template head<D>(), by_slope = force.derivatives().template segment<D>(D);

@@ -4,8 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "core/element/active.hpp"
 #include "core/geometry/arc.hpp"
 #include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_motion.hpp"
@@ -28,7 +28,7 @@ class Search {
  public:
   static constexpr int N = 2 * D + 4;  // two slopes, four logarithms of weights
   static constexpr std::size_t first_weight = N - 4;
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Real = Active<N>;
   using Unknowns = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
 
@@ -182,9 +182,9 @@ class Search {
       hessian_ += residual.derivatives() * residual.derivatives().transpose();
       gradient_ += residual.derivatives() * residual.value();
     };
-    Real energy(0, Unknowns::Zero());
+    Real energy(0.0);
     std::array<Real, N> unknown;
-    for (int i = 0; i < N; ++i) unknown[static_cast<std::size_t>(i)] = Real(p[i], N, i);
+    for (int i = 0; i < N; ++i) unknown[static_cast<std::size_t>(i)] = Real(p[i], i);
     const auto& k = law_.section.stiffness;
     for (const Point& point : points_) {
       const auto now = shape_at(point, unknown);
@@ -193,25 +193,24 @@ class Search {
         const StrainGradients<Real, D> strain(now.rest_r_x, now.rest_r_xx, law_.section);
         const RestStress<Real, D> is(now.r_x, now.r_xx, {strain.axial, strain.curvature, {}, {}, {}}, law_.section);
         const RestStress<double, D> was(point.old.r_x, point.old.r_xx, point.old_rest, law_.section);
-        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
+        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending));
         old_energy_ += w * (was.axial + was.bending);
-        add((is.tension - Real(was.tension, Unknowns::Zero())) * std::sqrt(w / k.EA));
-        if (law_.section.bends()) add((is.moment - Real(was.moment, Unknowns::Zero())) * std::sqrt(w / k.EI));
+        add((is.tension - Real(was.tension)) * std::sqrt(w / k.EA));
+        if (law_.section.bends()) add((is.moment - Real(was.moment)) * std::sqrt(w / k.EI));
       } else {
         const ElasticStress<Real, D> is(now.r_x, now.r_xx, k);
         const ElasticStress<double, D> was(point.old.r_x, point.old.r_xx, k);
-        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending), Unknowns::Zero());
+        energy += (is.axial + is.bending) * w - Real(w * (was.axial + was.bending));
         old_energy_ += w * (was.axial + was.bending);
-        add((stretch<Real>(now.r_x, k.law) - Real(stretch<double>(point.old.r_x, k.law), Unknowns::Zero())) *
-            std::sqrt(w * k.EA));
+        add((stretch<Real>(now.r_x, k.law) - Real(stretch<double>(point.old.r_x, k.law))) * std::sqrt(w * k.EA));
         if (law_.section.bends()) {
           const Curvature<Real, D> kappa(now.r_x, now.r_xx, k.law, regularization_);
           const Curvature<double, D> old(point.old.r_x, point.old.r_xx, k.law, regularization_);
-          add((kappa.value - Real(old.value, Unknowns::Zero())) * std::sqrt(w * k.EI));
+          add((kappa.value - Real(old.value)) * std::sqrt(w * k.EI));
         }
       }
       for (int c = 0; c < D; ++c) {
-        Real change = now.r[c] - Real(point.old.r[c] - point.old_rest_r[c], Unknowns::Zero());
+        Real change = now.r[c] - Real(point.old.r[c] - point.old_rest_r[c]);
         if (chain_.curved_at_rest()) {
           for (int d = 0; d < D; ++d) change -= now.rest_r[d] * rotation_(c, d);
         }
@@ -242,7 +241,7 @@ class Search {
     const double l = q.x_b - q.x_a, u = (point.x - q.x_a) / l;
     auto constant = [](const Vec<double, D>& value) {
       Vec<Real, D> result;
-      for (int c = 0; c < D; ++c) result[c] = Real(value[c], Unknowns::Zero());
+      for (int c = 0; c < D; ++c) result[c] = Real(value[c]);
       return result;
     };
     Vec<Real, D> s_a = constant(q.e.s_a), s_b = constant(q.e.s_b);
@@ -256,13 +255,13 @@ class Search {
       using std::exp;
       Weights<Real> w;
       for (std::size_t i = 0; i < 4; ++i) w[i] = exp(unknown[first_weight + i]) * base_[i];
-      f = rational_shape(w, Real(u, Unknowns::Zero()));
+      f = rational_shape(w, Real(u));
     } else {
       if (point.element == merged_ - 1) move(s_b, 0);
       if (point.element == merged_ + 1) move(s_a, D);
       const auto table = rational_shape(current_weights(chain_, point.element, law_.transport), u);
       for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t n = 0; n < 4; ++n) f[i][n] = Real(table[i][n], Unknowns::Zero());
+        for (std::size_t n = 0; n < 4; ++n) f[i][n] = Real(table[i][n]);
       }
     }
     using Nodes = NodalCubic<Real, D>;

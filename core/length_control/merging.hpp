@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
+#include "core/geometry/dense.hpp"
 #include "core/geometry/rational_cubic.hpp"
 
 namespace vlbeam {
@@ -35,9 +35,8 @@ MergedWeights point_fit(const NodalCubic<double, D>& e, double l, double u, cons
   if (!matrix.allFinite() || !misfit.allFinite()) {  // of which no decomposition says anything, not even that it failed
     throw std::domain_error("an element is to be merged whose shape is not finite: the motion has broken down");
   }
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-12);  // a straight element has one equation, whatever rounding adds to the others
-  const Eigen::Vector3d x = svd.solve(misfit);
+  // a straight element has one equation, whatever rounding adds to the others
+  const Eigen::Vector3d x = least_squares<D, 3>(matrix, misfit, 1e-12);
   MergedWeights merged;
   for (int i = 0; i < 3; ++i) merged.k[static_cast<std::size_t>(i)] = 1 + x[i];
   if (std::any_of(merged.k.begin(), merged.k.end(), [](double k) { return !(k > 0); })) {

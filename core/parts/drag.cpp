@@ -31,7 +31,7 @@ double Drag<D>::add_forces(const ChainView<D>& beam, double* out) const {
 template <int D>
 PointMatrix<D> Drag<D>::fixed_tangent(const ChainView<D>& beam, int k, double by_v) const {
   constexpr int N = 2 * D;  // velocity and slope
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Real = Active<N>;
   const MovingKinematics<double, D> element = beam.kinematics(k);
   const bool unit = beam.weights(k).w == unit_weights;
   PointMatrix<D> matrix = PointMatrix<D>::Zero();
@@ -39,8 +39,8 @@ PointMatrix<D> Drag<D>::fixed_tangent(const ChainView<D>& beam, int k, double by
     const PointMotion<double, D> at = element.at(u, shape_at(element.weights(), unit, u));
     Vec<Real, D> v, r_x;
     for (int c = 0; c < D; ++c) {
-      v[c] = Real(at.v[c], N, c);
-      r_x[c] = Real(at.r_x[c], N, D + c);
+      v[c] = Real(at.v[c], c);
+      r_x[c] = Real(at.r_x[c], D + c);
     }
     const Vec<Real, D> f = this->force(v, r_x);
     Eigen::Matrix<double, D, N> by;

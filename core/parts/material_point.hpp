@@ -1,8 +1,7 @@
 #pragma once
 
-#include <unsupported/Eigen/AutoDiff>
-
 #include "core/beam/chain_view.hpp"
+#include "core/element/active.hpp"
 
 namespace vlbeam {
 
@@ -40,7 +39,7 @@ void add_point_force(const ChainView<D>& beam, int k, const PointMotion<double, 
 
 /// A number with its derivatives by the coordinates of an element.
 template <int D>
-using ElementReal = Eigen::AutoDiffScalar<Eigen::Matrix<double, point_coordinates<D>, 1>>;
+using ElementReal = Active<point_coordinates<D>>;
 
 /// Coordinates of element k, or their rates, each with `seed` for its derivative by itself.
 template <int D>

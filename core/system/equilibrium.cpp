@@ -1,6 +1,5 @@
 #include "core/system/equilibrium.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/geometry/dense.hpp"
 #include "core/system/static_equations.hpp"
 
 namespace vlbeam {
@@ -65,20 +65,20 @@ template <int D>
 std::string free_direction(const BeamSystem<D>& system, StaticEquations<D>& equations, const Eigen::VectorXd& u,
                            double factor) {
   const Modes modes = modes_at(equations, u, factor);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(modes.stiffness, modes.mass);
-  const Eigen::VectorXd sizes = solver.eigenvalues().cwiseAbs();
+  const Eigenpairs pairs = generalized_eigenpairs(modes.stiffness, modes.mass);
+  const Eigen::VectorXd sizes = pairs.values.cwiseAbs();
   Eigen::VectorXd pull;
   equations.residual(u, factor, pull);
   pull.conservativeResize(modes.directions.rows());
-  const Eigen::VectorXd shares = solver.eigenvectors().transpose() * (modes.directions.transpose() * -pull);
+  const Eigen::VectorXd shares = pairs.vectors.transpose() * (modes.directions.transpose() * -pull);
   Eigen::Index least = 0;
   sizes.minCoeff(&least);
   Eigen::VectorXd mode = Eigen::VectorXd::Zero(modes.directions.cols());
   for (Eigen::Index i = 0; i < sizes.size(); ++i) {
-    if (sizes[i] <= unheld * sizes.maxCoeff()) mode += shares[i] * solver.eigenvectors().col(i);
+    if (sizes[i] <= unheld * sizes.maxCoeff()) mode += shares[i] * pairs.vectors.col(i);
   }
   const bool held = mode.norm() <= unheld * shares.norm();
-  mode = modes.directions * (held ? solver.eigenvectors().col(least).eval() : mode);
+  mode = modes.directions * (held ? pairs.vectors.col(least).eval() : mode);
   const int last = system.mesh().last();
   Vec<double, D> mean = Vec<double, D>::Zero();
   double spread = 0, largest = -1;
@@ -632,9 +632,7 @@ std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium
   Eigen::VectorXd u(system.coordinates() + at.multipliers.size());
   u << at.y.head(system.coordinates()), at.multipliers;
   const Modes modes = modes_at<D>(equations, u, at.factor);
-  const Eigen::VectorXd squares =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(modes.stiffness, modes.mass, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::VectorXd squares = generalized_eigenvalues(modes.stiffness, modes.mass);
   std::vector<double> frequencies;
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(count, squares.size()); ++i) {
     frequencies.push_back(std::copysign(std::sqrt(std::abs(squares[i])), squares[i]) / (2 * std::numbers::pi));

@@ -1,10 +1,10 @@
 // What can happen to a beam with a sliding mass, when it is due, and what it does to the state.
-#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/geometry/dense.hpp"
 #include "core/length_control/least_change.hpp"
 #include "core/system/beam_system.hpp"
 
@@ -375,7 +375,7 @@ void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
     }
     changes[i] = -(1 + contact.impact.restitution) * gap.rate;
   }
-  const Eigen::VectorXd momenta = (lines.transpose() * answers).fullPivLu().solve(changes);
+  const Eigen::VectorXd momenta = solve_pivoting(lines.transpose() * answers, changes);
   const Eigen::VectorXd change = answers * momenta;
   Eigen::VectorXd all(coordinates_);  // what supports and guides do included
   multiply_mass(elements, y.data(), change.data(), all.data());

@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "core/element/active.hpp"
 #include "core/element/moving_tangent.hpp"
 #include "core/error.hpp"
+#include "core/geometry/dense.hpp"
 
 namespace vlbeam {
 template <int D>
@@ -223,9 +225,8 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
     const Slopes slopes = joint_slopes(conditions.joint, q.data());
     Eigen::MatrixXd gradients(2 * D, count);
     for (int i = 0; i < count; ++i) gradients.col(i) = conditions.of.gradient(i, slopes);
-    a.segment(at, count) = -(gradients.transpose() * gradients)
-                                .ldlt()
-                                .solve(gradients.transpose() * joint_slopes(conditions.joint, free_.data())) /
+    a.segment(at, count) = -solve_symmetric(gradients.transpose() * gradients,
+                                            gradients.transpose() * joint_slopes(conditions.joint, free_.data())) /
                            reference_mass_;
     at += count;
   }
@@ -674,7 +675,7 @@ template <int D>
 void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
                                            const Eigen::VectorXd& v, double by_v, double by_a) {
   constexpr int N = 3 * D + 1;  // by the pull, the slopes and x'
-  using Real = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
+  using Real = Active<N>;
   const SlidingJoint& joint = system_.joint(which).law;
   const JointPlace& place = places()[which];
   const int j = first_copy(which), far = j + (place.cut ? 1 : 0);
@@ -682,13 +683,13 @@ void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Vec<double, 
   const Slopes slopes = joint_slopes(which, q.data());
   Vec<Real, D> active_pull, before, behind;
   for (int c = 0; c < D; ++c) {
-    active_pull[c] = Real(pull[c], N, c);
-    before[c] = Real(slopes[c], N, D + c);
-    behind[c] = Real(slopes[D + c], N, 2 * D + c);
+    active_pull[c] = Real(pull[c], c);
+    before[c] = Real(slopes[c], D + c);
+    behind[c] = Real(slopes[D + c], 2 * D + c);
   }
   const Real force =
       friction_force<Real, D>(*joint.friction, active_pull, Contact<Real, D>(before, behind, joint.turns()),
-                              Real(v[place.mark], N, 3 * D))
+                              Real(v[place.mark], 3 * D))
           .force;
   if (force.derivatives().size() == 0 || force.value() == 0) return;
   const Eigen::Matrix<double, N, 1>& by = force.derivatives();

@@ -1,8 +1,8 @@
 #include "core/system/mass_condition.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "core/geometry/dense.hpp"
 #include "core/system/free_directions.hpp"
 
 namespace vlbeam {
@@ -28,8 +28,7 @@ double mass_condition(BeamSystem<D>& system, const Eigen::VectorXd& y) {
   Eigen::MatrixXd mass = directions.transpose() * momenta;
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
   mass = scale.asDiagonal() * mass * scale.asDiagonal();
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(mass, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = eigenvalues(mass);
   const double smallest = values[0], largest = values[values.size() - 1];
   return smallest > 0 ? largest / smallest : std::numeric_limits<double>::infinity();
 }

@@ -1,8 +1,7 @@
 #include "core/system/static_equations.hpp"
 
-#include <Eigen/QR>
-
 #include "core/element/moving_tangent.hpp"
+#include "core/geometry/dense.hpp"
 #include "core/system/free_directions.hpp"
 
 namespace vlbeam {
@@ -381,8 +380,7 @@ Eigen::MatrixXd StaticEquations<D>::directions(const Eigen::VectorXd& u) const {
   Eigen::MatrixXd gradients(system_.coordinates(), rows);
   for (Eigen::Index i = 0; i < rows; ++i) gradients.col(i) = normals[static_cast<std::size_t>(i)];
   // what is orthogonal to the gradients within the free directions
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(free.transpose() * gradients);
-  const Eigen::MatrixXd all = qr.householderQ();
+  const Eigen::MatrixXd all = orthogonal_factor(free.transpose() * gradients);
   return free * all.rightCols(free.cols() - rows);
 }
 

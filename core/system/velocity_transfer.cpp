@@ -1,8 +1,8 @@
 // Velocities of a new mesh from the field of the old one, and the energy that the change has cost.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/dense.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/system/beam_system.hpp"
 
@@ -175,9 +175,9 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
   // turning has another unit: pivots, and with them the rounding, must not depend on it
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(rigid.cols());
   unit.tail(rigid.cols() - D).setConstant(std::ldexp(1.0, -std::ilogb(mesh_.length())));
-  const Eigen::FullPivLU<Eigen::MatrixXd> metric(unit.asDiagonal() * (rigid.transpose() * motion) * unit.asDiagonal());
+  const Eigen::MatrixXd metric = unit.asDiagonal() * (rigid.transpose() * motion) * unit.asDiagonal();
   const auto velocities_of = [&](const Eigen::VectorXd& of) -> Eigen::VectorXd {
-    return unit.cwiseProduct(metric.solve(unit.cwiseProduct(of)));
+    return unit.cwiseProduct(solve_pivoting(metric, unit.cwiseProduct(of)));
   };
   rate += motion * velocities_of(momenta - rigid.transpose() * rate);
 
