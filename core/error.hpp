@@ -33,6 +33,13 @@ class InvalidInput : public std::runtime_error {
   std::string allowed;
 };
 
+/// The same, found by a room below scene/: `field` is what of the model is not allowed, in words ("drives", "radius").
+/// core/scene says where that stands in a scene.
+class ModelError : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
 [[noreturn]] inline void refuse(std::string field, std::string value, std::string allowed) {
   throw InvalidInput(std::move(field), std::move(value), std::move(allowed));
 }

@@ -18,12 +18,12 @@ MeshMotion::MeshMotion(std::vector<Guide> guides) : guides_(std::move(guides)) {
   for (const Guide& guide : guides_) {
     const bool first = &guide == &guides_.front();
     if (first ? guide.node != 0 : guide.node <= before) {
-      throw InvalidInput("/flow/nodes", "node " + std::to_string(guide.node),
-                         first ? "the motion of node 0 comes first" : "nodes stand in increasing order, each once");
+      throw ModelError("mesh motion", "node " + std::to_string(guide.node),
+                       first ? "the motion of node 0 comes first" : "nodes stand in increasing order, each once");
     }
     before = guide.node;
   }
-  if (guides_.size() < 2) throw InvalidInput("/flow/nodes", "one motion", "the first and the last node need theirs");
+  if (guides_.size() < 2) throw ModelError("mesh motion", "one motion", "the first and the last node need theirs");
 }
 
 void MeshMotion::at(double t, std::vector<Prescribed>& nodes) const {

@@ -47,7 +47,7 @@ class MeshMotion {
 
   MeshMotion() = default;
   /// `guides` in increasing order of their nodes, the first and the last node among them; elements between two
-  /// neighbouring guides are of equal length. Throws InvalidInput where the nodes do not increase from 0.
+  /// neighbouring guides are of equal length. Throws ModelError where the nodes do not increase from 0.
   explicit MeshMotion(std::vector<Guide> guides);
 
   int last() const { return guides_.empty() ? 0 : guides_.back().node; }  ///< index of the last node

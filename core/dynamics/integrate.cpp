@@ -299,8 +299,8 @@ class Herald {
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters, const Checkpoints* checkpoints) {
   if (checkpoints != nullptr && of_sundials(options.type)) {
-    refuse("/integrator/type", "a method of SUNDIALS, with checkpoints",
-           "it keeps its history to itself: take another method");
+    throw ModelError("integrator", "a method of SUNDIALS, with checkpoints",
+                     "it keeps its history to itself: take another method");
   }
   const Method method(ode, options, counters.newton);
   Stepper* const stepper = method.stepper.get();

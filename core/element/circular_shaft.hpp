@@ -22,20 +22,19 @@ struct CircularShaft {
   /// Second moment of area about a diameter, J = pi r^4/4 [m^4]; that about the axis, I_p, is twice as much.
   double second_moment() const { return area() * radius * radius / 4; }
 
-  /// Throws InvalidInput where no such shaft exists.
+  /// Throws ModelError where no such shaft exists.
   void check() const {
     auto demand = [](bool holds, const char* field, double value, const char* allowed) {
       if (holds) return;
       std::ostringstream text;
       text << value;
-      throw InvalidInput(field, text.str(), allowed);
+      throw ModelError(field, text.str(), allowed);
     };
-    demand(radius > 0, "/beam/section/radius", radius, "a number > 0 [m]");
-    demand(density > 0, "/beam/material/density", density, "a number > 0 [kg/m^3]");
-    demand(youngs_modulus > 0, "/beam/material/youngs_modulus", youngs_modulus, "a number > 0 [Pa]");
-    demand(poisson_ratio > -1 && poisson_ratio < 0.5, "/beam/material/poisson_ratio", poisson_ratio,
-           "a number in (-1, 0.5)");
-    demand(damping >= 0, "/beam/material/damping", damping, "a number >= 0 [s]");
+    demand(radius > 0, "radius", radius, "a number > 0 [m]");
+    demand(density > 0, "density", density, "a number > 0 [kg/m^3]");
+    demand(youngs_modulus > 0, "youngs_modulus", youngs_modulus, "a number > 0 [Pa]");
+    demand(poisson_ratio > -1 && poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "a number in (-1, 0.5)");
+    demand(damping >= 0, "damping", damping, "a number >= 0 [s]");
   }
 
   BeamSection section() const {

@@ -14,8 +14,8 @@ void check_places(const std::vector<PointLoad<D>>& loads, double until, double s
       const double t = until * i / instants, x = load.x(t);
       const auto [first, last] = ends(t);
       if (x >= first - slack && x <= last + slack) continue;
-      throw InvalidInput(
-          "/loads", "one at the material coordinate " + six_digits(x) + " m at t = " + six_digits(t) + " s",
+      throw ModelError(
+          "loads", "one at the material coordinate " + six_digits(x) + " m at t = " + six_digits(t) + " s",
           "it must be a point of the beam, " + six_digits(first) + " to " + six_digits(last) + " m at that time");
     }
   }

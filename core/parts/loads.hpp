@@ -35,7 +35,7 @@ struct PointLoad {
   }
 };
 
-/// Throws InvalidInput where the material point of a load is not between the ends of the beam in [0, until]; `ends`
+/// Throws ModelError where the material point of a load is not between the ends of the beam in [0, until]; `ends`
 /// gives their material coordinates, `slack` [m] is what rounding may be off.
 template <int D>
 void check_places(const std::vector<PointLoad<D>>& loads, double until, double slack,

@@ -23,19 +23,19 @@ void check_drives(const std::vector<DrivenAngle>& drives, int last_node) {
   for (const DrivenAngle& drive : drives) {
     const std::string node = "node " + std::to_string(drive.node);
     if (drive.node < 0 || drive.node > last_node) {
-      throw InvalidInput(
-          "/spin/drives", node,
+      throw ModelError(
+          "drives", node,
           "it must be a node of the beam, 0 to " + std::to_string(last_node) + ": beyond its ends there is none");
     }
     const auto k = static_cast<std::size_t>(drive.node);
-    if (driven[k]) throw InvalidInput("/spin/drives", node + " twice", "a node can stand there once");
+    if (driven[k]) throw ModelError("drives", node + " twice", "a node can stand there once");
     driven[k] = true;
     const double rate = drive.theta(0).rate, first = drives.front().theta(0).rate;
     if (rate == first) continue;
     std::ostringstream spins;
     spins << "spins of " << first << " and " << rate << " rad/s";
-    throw InvalidInput("/spin/drives", spins.str(),
-                       "it must be one: a shaft driven at two places at different rates winds up without bound");
+    throw ModelError("drives", spins.str(),
+                     "it must be one: a shaft driven at two places at different rates winds up without bound");
   }
 }
 

@@ -16,7 +16,7 @@ struct DrivenAngle {
   TimeFunction theta;
 };
 
-/// Throws InvalidInput where angles are driven at nodes that do not exist, twice at one, or at two places apart.
+/// Throws ModelError where angles are driven at nodes that do not exist, twice at one, or at two places apart.
 void check_drives(const std::vector<DrivenAngle>& drives, int last_node);
 
 /// Torques about the axis, as functions of time.

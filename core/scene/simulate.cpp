@@ -10,6 +10,7 @@
 #include "core/scene/build_flow.hpp"
 #include "core/scene/energy_ledger.hpp"
 #include "core/scene/initial_equilibrium.hpp"
+#include "core/scene/model_errors.hpp"
 #include "core/scene/run_support.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
@@ -293,8 +294,10 @@ RunResult simulate(const Scene& scene, const ProgressCallback& progress, const C
   if (checkpoints != nullptr && scene.analysis == Analysis::statics) {
     refuse("/analysis", "\"statics\" with checkpoints", "they are of runs in time");
   }
-  RunResult result = scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints)
-                                          : simulate_in<3>(scene, progress, checkpoints);
+  RunResult result = of_scene([&] {
+    return scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints)
+                                : simulate_in<3>(scene, progress, checkpoints);
+  });
   if (scene.analysis == Analysis::statics) return result;
   result.warnings = energy_warnings(scene, result);
   if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);

@@ -8,6 +8,7 @@
 #include "core/geometry/nurbs.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
+#include "core/scene/model_errors.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/time_function.hpp"
 #include "core/scene/validate_feed.hpp"
@@ -865,9 +866,7 @@ void check_output(const Scene& scene) {
   }
 }
 
-}  // namespace
-
-void validate(const Scene& scene) {
+void check_all(const Scene& scene) {
   visit_options(RangeCheck{}, scene);
   check_plane(scene);
   check_sizes(scene);
@@ -896,6 +895,12 @@ void validate(const Scene& scene) {
   check_drag(scene);
   if (flows(scene) || scene.spin) validate_flow(scene);
   if (!flows(scene)) scene.dimension == 2 ? check_resting_parts<2>(scene) : check_resting_parts<3>(scene);
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+  of_scene([&scene] { check_all(scene); });
 }
 
 }  // namespace vlbeam

@@ -18,8 +18,8 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
     spin_.emplace(model.spin.value(), std::move(marks), model.formulation, model.quadrature_points);
   }
   if (model.driven() && !model.joints.empty() && model.length_control.velocities == VelocityTransfer::conservative) {
-    throw InvalidInput("/length_control/velocities", "\"conservative\"",
-                       "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
+    throw ModelError("velocities at events", "\"conservative\"",
+                     "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
   }
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   adopt(chain);

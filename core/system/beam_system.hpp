@@ -130,7 +130,7 @@ class BeamSystem final : public EventedOde {
   using Vector = Vec<double, D>;
 
   /// `chain` is the initial state, but for the velocity of driven supports; its joints, inner nodes, must be those of
-  /// the model. A single mass may ride inside an end element instead. Throws InvalidInput for moving supports with
+  /// the model. A single mass may ride inside an end element instead. Throws ModelError for moving supports with
   /// conservative velocities at events.
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
   ~BeamSystem() override;

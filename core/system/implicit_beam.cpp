@@ -487,11 +487,11 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
                                             const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
                                             Eigen::VectorXd& r) {
   if (system_.model().spin) {
-    throw InvalidInput("/integrator/type", "\"energy-momentum\"", "it knows no spin: take any other integrator");
+    throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
   }
   if (driven() || system_.model().loads.present() || system_.model().drag.present()) {
-    throw InvalidInput("/integrator/type", "\"energy-momentum\"",
-                       "it keeps an energy that moving supports, loads and drag change: take any other integrator");
+    throw ModelError("integrator", "\"energy-momentum\"",
+                     "it keeps an energy that moving supports, loads and drag change: take any other integrator");
   }
   system_.count_evaluation();
   return conserving_step_.residual(q0, v0, q1, v1, t, h, r);

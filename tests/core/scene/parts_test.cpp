@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
+#include "core/parts/spin.hpp"
 #include "core/scene/simulate.hpp"
 #include "core/scene/validate.hpp"
 
@@ -330,6 +334,28 @@ TEST(Parts, AreRefusedByName) {
       EXPECT_EQ(error.field, refusal.field) << error.what();
     }
   }
+}
+
+// A room below scene/ knows the model, not where it stands in a scene.
+TEST(Parts, WhoeverReadsASceneSaysWhereTheModelsFaultStands) {
+  Scene scene = beam(ElementKind::ale_ancf);
+  scene.beam.elements = 4;
+  scene.spin.emplace().drives.emplace_back().node = 5;
+  const auto thrown = [](const auto& function) -> std::optional<std::array<std::string, 3>> {
+    try {
+      function();
+    } catch (const InvalidInput& error) {
+      return std::array{error.field, error.value, error.allowed};
+    }
+    return std::nullopt;
+  };
+  const auto by_model = thrown([] { check_drives({{5, steadily(0, 1)}}, 4); });
+  const auto by_scene = thrown([&] { validate(scene); });
+  ASSERT_TRUE(by_model && by_scene);
+  EXPECT_EQ((*by_model)[0], "drives");
+  EXPECT_EQ((*by_scene)[0], "/spin/drives");
+  EXPECT_EQ((*by_scene)[1], (*by_model)[1]);
+  EXPECT_EQ((*by_scene)[2], (*by_model)[2]);
 }
 
 }  // namespace
