@@ -45,6 +45,17 @@ double stability_limit(IntegratorType type) {
   }
 }
 
+/// Largest angular frequencies of an element of mean length with free ends [rad/s].
+struct ElementFrequencies {
+  double axial, bending;
+};
+ElementFrequencies element_frequencies(const Scene& scene) {
+  const BeamSection section = build_section(scene.beam);
+  const double l = beam_length(scene) / scene.beam.elements;
+  return {std::sqrt(axial * section.stiffness.EA / section.rhoA) / l,
+          std::sqrt(bending * section.stiffness.EI / section.rhoA) / (l * l)};
+}
+
 /// Rounded down, to be read.
 double two_digits(double value) {
   if (!(value > 0) || !std::isfinite(value)) return value;
@@ -58,9 +69,18 @@ double two_digits(double value) {
 }  // namespace
 
 double largest_frequency(const Scene& scene) {
-  const BeamSection section = build_section(scene.beam);
-  const double l = beam_length(scene) / scene.beam.elements;
-  return std::sqrt(std::max(axial * section.stiffness.EA, bending * section.stiffness.EI / (l * l)) / section.rhoA) / l;
+  const ElementFrequencies of = element_frequencies(scene);
+  return std::max(of.axial, of.bending);
+}
+
+double mean_largest_frequency(const Scene& scene) {
+  const ElementFrequencies of = element_frequencies(scene);
+  const auto& control = scene.length_control;
+  const bool remeshed = control.enabled && (!sliding_joints(scene).empty() || fed(scene));
+  if (!remeshed) return std::max(of.axial, of.bending);
+  // the shorter element at a joint that passes has each length from `least` L_std to L_std for as long
+  const double least = 2 - control.upper * (1 + control.hysteresis);
+  return std::max(of.axial * std::log(1 / least) / (1 - least), of.bending / least);
 }
 
 double longest_implicit_step(const Scene& scene) {
@@ -114,7 +134,7 @@ IntegratorSpec automatic_integrator(const Scene& scene) {
   IntegratorSpec implicit = dopri5;
   implicit.type = IntegratorType::generalized_alpha;
   implicit.step = two_digits(longest_implicit_step(scene));
-  const double fastest = largest_frequency(scene);
+  const double fastest = mean_largest_frequency(scene);
   const double damped = damping_limit / (scene.beam.material.damping * fastest * fastest);
   const double explicit_step = std::min(stability_limit(IntegratorType::dopri5) / fastest, damped);
   if (!(implicit.step >= worth_while * explicit_step && scene.duration >= too_many_steps * explicit_step))
