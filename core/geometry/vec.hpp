@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <concepts>
+#include <type_traits>
 
 namespace vlbeam {
 
@@ -9,40 +9,40 @@ namespace vlbeam {
 template <class Real, int D>
 using Vec = Eigen::Matrix<Real, D, 1>;
 
-// Sums and multiples of small matrices are computed at once: as Eigen's expressions each would be a type of its own,
-// with hundreds of declarations, which is most of what compiling them takes. They round alike.
+class Pack;
 
-template <class Real, int Rows, int Columns>
-concept Small = Rows >
-0 && Columns > 0 && Rows* Columns <= 16;
+// Sums and multiples of small matrices are computed at once: as Eigen's expressions each would be a type of its own,
+// with hundreds of declarations, which is most of what compiling them takes. They round alike. Not those of packs,
+// which are wider than registers: what is stored in between costs them a twentieth more.
 
 template <class Real, int R, int C>
-requires Small<Real, R, C> Eigen::Matrix<Real, R, C>
-operator+(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
+using Small =
+    std::enable_if_t<R >= 1 && C >= 1 && R * C <= 16 && !std::is_same_v<Real, Pack>, Eigen::Matrix<Real, R, C>>;
+
+template <class Real, int R, int C>
+Small<Real, R, C> operator+(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
   Eigen::Matrix<Real, R, C> sum = a;
   sum += b;
   return sum;
 }
 template <class Real, int R, int C>
-requires Small<Real, R, C> Eigen::Matrix<Real, R, C>
-operator-(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
+Small<Real, R, C> operator-(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
   Eigen::Matrix<Real, R, C> difference = a;
   difference -= b;
   return difference;
 }
 template <class Real, int R, int C>
-requires Small<Real, R, C> Eigen::Matrix<Real, R, C>
-operator-(const Eigen::Matrix<Real, R, C>& a) { return a.operator-(); }
-template <class Real, int R, int C, class Scale>
-requires(Small<Real, R, C>&& std::same_as<Real, Scale>) Eigen::Matrix<Real, R, C>
-operator*(const Eigen::Matrix<Real, R, C>& a, const Scale& scale) {
+Small<Real, R, C> operator-(const Eigen::Matrix<Real, R, C>& a) {
+  return a.operator-();
+}
+template <class Real, int R, int C, class Scale, std::enable_if_t<std::is_same_v<Real, Scale>, int> = 0>
+Small<Real, R, C> operator*(const Eigen::Matrix<Real, R, C>& a, const Scale& scale) {
   Eigen::Matrix<Real, R, C> product = a;
   product *= scale;
   return product;
 }
-template <class Real, int R, int C, class Scale>
-requires(Small<Real, R, C>&& std::same_as<Real, Scale>) Eigen::Matrix<Real, R, C>
-operator*(const Scale& scale, const Eigen::Matrix<Real, R, C>& a) {
+template <class Real, int R, int C, class Scale, std::enable_if_t<std::is_same_v<Real, Scale>, int> = 0>
+Small<Real, R, C> operator*(const Scale& scale, const Eigen::Matrix<Real, R, C>& a) {
   Eigen::Matrix<Real, R, C> product = a;
   product *= scale;
   return product;
