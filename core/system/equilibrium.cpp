@@ -15,7 +15,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr int most_iterations = 30;
+constexpr int most_corrections = 30;
 constexpr int most_halvings = 10;
 constexpr int most_relaxations = 3000;
 constexpr double largest_correction = 0.5;   // of the beam's length, and of slopes
@@ -211,7 +211,7 @@ class Path {
   bool newton(Eigen::VectorXd& q, double factor) {
     impose(q, factor);
     double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < most_corrections; ++i) {
       ++counters_.newton.iterations;
       residual(q, factor);
       if (!linearize(q, factor)) return false;
@@ -455,7 +455,7 @@ class Path {
     next = q + step * along.q;
     next_factor = factor + step * along.factor;
     double previous = std::numeric_limits<double>::infinity();
-    for (iterations = 1; iterations <= most_iterations; ++iterations) {
+    for (iterations = 1; iterations <= most_corrections; ++iterations) {
       ++counters_.newton.iterations;
       if (!linearize(next, next_factor)) return false;
       const Eigen::VectorXd by_factor = response(next, next_factor);
