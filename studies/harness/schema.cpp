@@ -294,9 +294,9 @@ Json with_head(const char* title, const Json& schema) {
   return result;
 }
 
-const Json number = {{"type", "number"}};
+const Json any_number = {{"type", "number"}};
 const Json nullable_number = {{"type", {"number", "null"}}};
-const Json text = {{"type", "string"}};
+const Json any_text = {{"type", "string"}};
 const Json whole = {{"type", "integer"}, {"minimum", 0}};
 const Json point = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}};
 const Json any_object = {{"type", "object"}};
@@ -408,27 +408,27 @@ Json run_schema() {
                             {"r_x_rate", described(point, "its rate", "1/s")}});
   const Json rest =
       record({{"r", described(array_of(point), "positions", "m")}, {"r_x", described(array_of(point), "slopes", "-")}});
-  const Json axis = record({{"element", described(array_of(number), "number of the element, from 0", "-")},
-                            {"x", described(array_of(number), "material coordinate", "m")},
+  const Json axis = record({{"element", described(array_of(any_number), "number of the element, from 0", "-")},
+                            {"x", described(array_of(any_number), "material coordinate", "m")},
                             {"r", described(array_of(point), "position", "m")},
                             {"v", described(array_of(point), "velocity of the material point", "m/s")},
-                            {"strain", described(array_of(number), "axial strain, from the rest shape", "-")},
-                            {"curvature", described(array_of(number), "magnitude of the curvature", "1/m")},
-                            {"tension", described(array_of(number), "axial force, damping included", "N")}});
+                            {"strain", described(array_of(any_number), "axial strain, from the rest shape", "-")},
+                            {"curvature", described(array_of(any_number), "magnitude of the curvature", "1/m")},
+                            {"tension", described(array_of(any_number), "axial force, damping included", "N")}});
   const Json configuration = record(
-      {{"t", described(number, "time", "s")},
-       {"x", described(array_of(number), "material coordinates of the nodes", "m")},
+      {{"t", described(any_number, "time", "s")},
+       {"x", described(array_of(any_number), "material coordinates of the nodes", "m")},
        {"r", described(array_of(point), "positions of the nodes", "m")},
        {"r_x", described(array_of(point), "slopes at the nodes; at a kink that before it", "-")},
-       {"weights", described(array_of(array_of(number)), "the four rational weights of each element", "-")},
-       {"angles", described(array_of(number), "of the section about the axis, at the nodes; with spin", "rad")},
-       {"x_rate", described(array_of(number), "rates of the material coordinates", "m/s")},
+       {"weights", described(array_of(array_of(any_number)), "the four rational weights of each element", "-")},
+       {"angles", described(array_of(any_number), "of the section about the axis, at the nodes; with spin", "rad")},
+       {"x_rate", described(array_of(any_number), "rates of the material coordinates", "m/s")},
        {"v", described(array_of(point),
                        "velocities of the material points at the nodes; a node itself moves with "
                        "v + r_x x_rate",
                        "m/s")},
        {"r_x_rate", described(array_of(point), "rates of the slopes at the nodes", "1/s")},
-       {"spins", described(array_of(number), "rates of the angles; with spin", "rad/s")},
+       {"spins", described(array_of(any_number), "rates of the angles; with spin", "rad/s")},
        {"rest", described(rest,
                           "nodes of the rest shape of these elements, from which strains are measured; "
                           "where it is not a straight beam")},
@@ -443,22 +443,22 @@ Json run_schema() {
        {"gravity", described(nullable_number, "of the potential energy", "J")},
        {"discrete_total", described(nullable_number, "of the total, by the model's own quadrature points", "J")}});
   const Json event = record(
-      {{"t", described(number, "time", "s")},
+      {{"t", described(any_number, "time", "s")},
        {"type", described(choice_of<EventType>(), "what happened to the mesh")},
        {"joint",
         described(whole, "which of the scene's sliding joints, from 0; behind them the ends that feed the beam", "-")},
-       {"joint_position", described(number, "its material coordinate", "m")},
-       {"weights", described(array_of(number), "k_0, k_1, k_2 of the merged element, over the last", "-")},
+       {"joint_position", described(any_number, "its material coordinate", "m")},
+       {"weights", described(array_of(any_number), "k_0, k_1, k_2 of the merged element, over the last", "-")},
        {"unit_fallback", described(flag, "whether the fit found a weight <= 0 and unit weights were taken")},
        {"energy_jumps", described(jumps, "after minus before, by a 25-point rule")},
-       {"momentum_jumps", described(array_of(number),
+       {"momentum_jumps", described(array_of(any_number),
                                     "linear [kg m/s], then angular about the origin [kg m^2/s]; none "
                                     "where the mass leaves")},
        {"energy_restored",
         described(flag, "false where velocities are conservative and yet the total energy changed")}});
   const auto residual = [](const std::string& of, const char* position, const char* velocity) {
-    return described(record({{"position", described(number, "largest", position)},
-                             {"velocity", described(number, "largest of its rate", velocity)}}),
+    return described(record({{"position", described(any_number, "largest", position)},
+                             {"velocity", described(any_number, "largest of its rate", velocity)}}),
                      of);
   };
   const Json solver = record(
@@ -470,7 +470,8 @@ Json run_schema() {
        {"newton_iterations", described(whole, "of implicit methods", "-")},
        {"tangents", described(whole, "factored by implicit methods", "-")},
        {"longest_newton_iteration",
-        described(array_of(number), "corrections, one after the other, of the iteration that took most of them", "-")},
+        described(array_of(any_number), "corrections, one after the other, of the iteration that took most of them",
+                  "-")},
        {"constraint_residual", residual("how far samples were from their constraints, with multipliers", "m", "m/s")},
        {"slope_residual", residual("how far the slopes at a kinked mass were from what ties them", "-", "1/s")},
        {"largest_kinetic_energy", described(nullable_number, "of all samples", "J")},
@@ -492,8 +493,8 @@ Json run_schema() {
                described(nullable_number, "change - supplied - at_events - at_contacts, at the last sample", "J")},
               {"largest_unexplained", described(nullable_number, "the same, largest magnitude of all samples", "J")}});
   const Json warning = record({{"kind", described(choice_of<WarningKind>(), "what it is about")},
-                               {"message", described(text, "what has happened, with numbers")},
-                               {"remedy", described(text, "what to try")}});
+                               {"message", described(any_text, "what has happened, with numbers")},
+                               {"remedy", described(any_text, "what to try")}});
   Json scene = scene_schema();
   scene.erase("$schema");
   return with_head(
@@ -503,9 +504,9 @@ Json run_schema() {
            {"status", described(choice_of<RunStatus>(),
                                 "how the run ended; separated: the mass left the beam, and "
                                 "the run went on to its end")},
-           {"failure",
-            described(record({{"message", described(text, "what went wrong")}, {"t", described(number, "when", "s")}}),
-                      "of a run that failed; what was computed until then is in the report")},
+           {"failure", described(record({{"message", described(any_text, "what went wrong")},
+                                         {"t", described(any_number, "when", "s")}}),
+                                 "of a run that failed; what was computed until then is in the report")},
            {"warnings", described(array_of(warning), "what the results do not show by themselves")},
            {"scene", described(scene, "as understood, every default filled in")},
            {"samples", samples_schema()},
@@ -514,15 +515,15 @@ Json run_schema() {
            {"energy_ledger", described(ledger,
                                        "where energy came from and went, from the first sample to the last, by "
                                        "a 25-point rule: change = supplied + at_events + at_contacts + unexplained")},
-           {"frequencies", described(array_of(number),
+           {"frequencies", described(array_of(any_number),
                                      "the lowest natural ones about the last equilibrium, where asked for; of a "
                                      "direction in which it is not stable minus the rate of growth over 2 pi",
                                      "Hz")},
            {"initial_equilibrium",
-            described(
-                record({{"negative_pivots", described(whole, "directions in which the potential energy falls")},
-                        {"holding_force", described(number, "on the joint's material coordinate until t = 0", "N")}}),
-                "of a motion that starts from one: stable where the first is 0")},
+            described(record({{"negative_pivots", described(whole, "directions in which the potential energy falls")},
+                              {"holding_force",
+                               described(any_number, "on the joint's material coordinate until t = 0", "N")}}),
+                      "of a motion that starts from one: stable where the first is 0")},
            {"solver", described(solver, "what the integrator did")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
@@ -534,53 +535,53 @@ Json study_schema() {
   const Json gate_kind = choice({"exact", "independent", "self", "guard"});
   const Json cell = {{"type", {"number", "string", "boolean", "null"}}};
   const Json study_case =
-      record({{"options", Json::object()}, {"results", Json::object()}, {"failure", text}}, {"failure"});
-  const Json fit = record({{"quantity", text},
-                           {"levels", array_of(number)},
+      record({{"options", Json::object()}, {"results", Json::object()}, {"failure", any_text}}, {"failure"});
+  const Json fit = record({{"quantity", any_text},
+                           {"levels", array_of(any_number)},
                            {"errors", array_of(nullable_number)},
-                           {"errors_known_to", number},
+                           {"errors_known_to", any_number},
                            {"fitted_from", whole},
                            {"fitted_to", whole},
                            {"pairwise_orders", array_of(nullable_number)},
-                           {"pair_uncertainties", array_of(number)},
+                           {"pair_uncertainties", array_of(any_number)},
                            {"slope", nullable_number},
                            {"slope_uncertainty", nullable_number},
-                           {"excluded", text},
-                           {"refusal", text}},
+                           {"excluded", any_text},
+                           {"refusal", any_text}},
                           {"excluded", "refusal"});
-  const Json grid_convergence = record({{"quantity", text},
-                                        {"levels", array_of(number)},
+  const Json grid_convergence = record({{"quantity", any_text},
+                                        {"levels", array_of(any_number)},
                                         {"values", array_of(nullable_number)},
                                         {"order", nullable_number},
                                         {"limit", nullable_number},
-                                        {"safety_factor", number},
+                                        {"safety_factor", any_number},
                                         {"uncertainty", nullable_number},
-                                        {"refusal", text}},
+                                        {"refusal", any_text}},
                                        {"refusal"});
-  const Json gate = record({{"name", text},
+  const Json gate = record({{"name", any_text},
                             {"kind", gate_kind},
                             {"value", nullable_number},
-                            {"uncertainty", number},
-                            {"bound", text},
-                            {"reason", text},
-                            {"guards", text},
+                            {"uncertainty", any_number},
+                            {"bound", any_text},
+                            {"reason", any_text},
+                            {"guards", any_text},
                             {"passed", {{"type", "boolean"}}},
-                            {"failure", text}},
+                            {"failure", any_text}},
                            {"uncertainty", "reason", "guards", "failure"});
-  const Json table = record({{"name", text},
-                             {"caption", text},
-                             {"file", text},
-                             {"columns", array_of(text)},
+  const Json table = record({{"name", any_text},
+                             {"caption", any_text},
+                             {"file", any_text},
+                             {"columns", array_of(any_text)},
                              {"rows", array_of(array_of(cell))}},
                             {"rows"});
-  const Json figure = record({{"name", text}, {"caption", text}, {"file", text}});
+  const Json figure = record({{"name", any_text}, {"caption", any_text}, {"file", any_text}});
   return with_head(
       "vlbeam study report",
       record({{"schema_version", {{"const", "vlbeam.study/1"}}},
-              {"study", text},
+              {"study", any_text},
               {"profile", profile},
               {"status", choice({"completed", "failed", "interrupted"})},
-              {"failure", text},
+              {"failure", any_text},
               {"measured", {{"type", "object"}, {"additionalProperties", nullable_number}}},
               {"cases", array_of(study_case)},
               {"fits", array_of(fit)},
@@ -595,8 +596,8 @@ Json study_schema() {
 
 Json gates_schema() {
   const Json nonempty = {{"type", "string"}, {"minLength", 1}};
-  const Json order =
-      record({{"expected", number}, {"tolerance", number}, {"at_most", number}, {"finest_error", number}});
+  const Json order = record(
+      {{"expected", any_number}, {"tolerance", any_number}, {"at_most", any_number}, {"finest_error", any_number}});
   Json gate = record(
       {{"name", nonempty},
        {"kind", choice({"exact", "independent", "self", "guard"})},
@@ -604,9 +605,9 @@ Json gates_schema() {
        {"guards", nonempty},
        {"profiles", {{"type", "array"}, {"items", choice({"ci", "full"})}, {"minItems", 1}}},
        {"quantity", nonempty},
-       {"max", number},
-       {"min", number},
-       {"equals", number},
+       {"max", any_number},
+       {"min", any_number},
+       {"equals", any_number},
        {"tolerance", {{"type", "number"}, {"minimum", 0}}},
        {"uncertainty", {{"type", {"number", "string"}}}},
        {"fit", nonempty},
@@ -634,20 +635,20 @@ Json converge_schema() {
                         {"properties",
                          {{"elements", whole},
                           {"quadrature_points", whole},
-                          {"step", described(number, "of methods that do not choose it", "s")},
-                          {"rtol", described(number, "of the others; atol keeps its ratio to it", "-")}}},
+                          {"step", described(any_number, "of methods that do not choose it", "s")},
+                          {"rtol", described(any_number, "of the others; atol keeps its ratio to it", "-")}}},
                         {"required", {"elements", "quadrature_points"}},
                         {"additionalProperties", false}};
   Json setting_or_null = setting;
   setting_or_null["type"] = {"object", "null"};
-  const Json part = record({{"quantity", text},
-                            {"levels", array_of(number)},
+  const Json part = record({{"quantity", any_text},
+                            {"levels", array_of(any_number)},
                             {"values", array_of(nullable_number)},
                             {"order", described(nullable_number, "of the three finest", "-")},
                             {"limit", described(nullable_number, "Richardson's extrapolation")},
-                            {"safety_factor", number},
+                            {"safety_factor", any_number},
                             {"uncertainty", nullable_number},
-                            {"refusal", described(text, "why there is no order: not asymptotic")}},
+                            {"refusal", described(any_text, "why there is no order: not asymptotic")}},
                            {"refusal"});
   Json level = record({{"refined", choice({"mesh", "time", "quadrature"})}}, {});
   level["properties"].update(setting.at("properties"));
@@ -655,22 +656,23 @@ Json converge_schema() {
       Json{{"value", nullable_number},
            {"difference", described(nullable_number, "from the answer, its magnitude")},
            {"error_bound", described(nullable_number, "difference and uncertainty of the answer together")},
-           {"work", described(number, "evaluations times elements and quadrature points", "-")},
+           {"work", described(any_number, "evaluations times elements and quadrature points", "-")},
            {"events", described(whole, "of length control, contacts and separation")},
-           {"failure", described(text, "why there is no value")}});
+           {"failure", described(any_text, "why there is no value")}});
   Json properties = {
       {"schema_version", {{"const", "vlbeam.converge/1"}}},
-      {"title", text},
-      {"quantity", text},
-      {"unit", text},
-      {"t", described(number, "time of the answer", "s")},
-      {"error", described(number, "wanted, in the unit")},
+      {"title", any_text},
+      {"quantity", any_text},
+      {"unit", any_text},
+      {"t", described(any_number, "time of the answer", "s")},
+      {"error", described(any_number, "wanted, in the unit")},
       {"answer", described(nullable_number, "of the finest setting, in the unit")},
       {"uncertainty", described(nullable_number, "of the answer: of mesh, time and quadrature together")},
       {"reached", described(flag, "whether the uncertainty is no more than the error wanted")},
-      {"reason", described(text, "why not")},
-      {"predictable_until", described(number, "the error wanted is kept until this sample", "s")},
-      {"horizon", described(number, "a density changed in its 8th digit matters less than the error until then", "s")},
+      {"reason", described(any_text, "why not")},
+      {"predictable_until", described(any_number, "the error wanted is kept until this sample", "s")},
+      {"horizon",
+       described(any_number, "a density changed in its 8th digit matters less than the error until then", "s")},
       {"setting", described(setting_or_null, "the cheapest of those run that keeps the error wanted")},
       {"finest", described(setting, "that of the answer")},
       {"parts",
@@ -681,27 +683,27 @@ Json converge_schema() {
       {"cost", record({{"runs", whole}, {"in_runs_of_the_finest", nullable_number}})},
       {"scene", described(any_object, "in the cheapest setting, or as given where there is none")},
       {"provenance", any_object},
-      {"timing", record({{"seconds", described(array_of(number), "of each level", "s")}})}};
+      {"timing", record({{"seconds", described(array_of(any_number), "of each level", "s")}})}};
   return with_head("vlbeam convergence of a scene", record(properties, {"reason", "horizon"}));
 }
 
 Json sweep_schema() {
-  const Json range = record({{"from", number},
-                             {"to", number},
+  const Json range = record({{"from", any_number},
+                             {"to", any_number},
                              {"count", {{"type", "integer"}, {"minimum", 2}, {"maximum", 1000000}}},
                              {"spacing", choice({"linear", "logarithmic"})}},
                             {"spacing"});
   const Json list = {{"type", "array"}, {"minItems", 1}};
   const Json properties = {
       {"schema", {{"const", "vlbeam.sweep/1"}}},
-      {"title", text},
+      {"title", any_text},
       {"scene", described({{"type", {"object", "string"}}}, "the scene, or its file's name, beside this file")},
       {"combine", described(choice({"product", "zip"}),
                             "all combinations (default), or the first values of all options, "
                             "then the second, and so on")},
       {"over", described({{"type", "object"}, {"additionalProperties", {{"anyOf", {list, range}}}}},
                          "JSON pointers into the scene, several separated by spaces, and their values")},
-      {"quantities", described(array_of(text), "whose last samples are kept, by the names that converge takes")}};
+      {"quantities", described(array_of(any_text), "whose last samples are kept, by the names that converge takes")}};
   return with_head("vlbeam sweep", record(properties, {"title", "combine", "quantities"}));
 }
 
