@@ -6,8 +6,8 @@
 namespace vlbeam {
 
 /// A number with its derivatives by `N` variables: forward automatic differentiation. Operation by operation it rounds
-/// as Eigen::AutoDiffScalar does, the oracle of the tests; it is no expression template, which compiles in a third of
-/// the time. A number without derivatives is a constant.
+/// as Eigen::AutoDiffScalar does, but is no expression template, which would be another type for each expression.
+/// A number without derivatives is a constant.
 template <int N>
 class Active {
  public:
