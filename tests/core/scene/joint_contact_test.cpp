@@ -9,13 +9,7 @@
 namespace vlbeam {
 namespace {
 
-SlidingJointSpec striker(double position, double mass, double velocity = 0) {
-  SlidingJointSpec joint;
-  joint.mass = mass;
-  joint.position = position;
-  joint.velocity = velocity;
-  return joint;
-}
+using test::slider;
 
 constexpr double of_rope = 2.0 / 16;  // L_std of test::rope() [m]
 
@@ -40,7 +34,7 @@ std::ptrdiff_t contacts(const RunResult& run) {
 TEST(JointContact, OnAStraightBeamIsTheCollisionOfTwoPoints) {
   constexpr double m_1 = 0.5, m_2 = 0.2, v_1 = 2, v_2 = -1, x_1 = 0.6, x_2 = 1.2;
   for (const double e : {1.0, 0.6}) {
-    Scene scene = rebounding({striker(x_1, m_1, v_1), striker(x_2, m_2, v_2)}, e);
+    Scene scene = rebounding({slider(x_1, m_1, v_1), slider(x_2, m_2, v_2)}, e);
     scene.gravity = {};
     const RunResult run = test::completed(scene);
     ASSERT_EQ(contacts(run), 1);
@@ -58,7 +52,7 @@ TEST(JointContact, OnAStraightBeamIsTheCollisionOfTwoPoints) {
 }
 
 TEST(JointContact, OfThreeAtOnceIsThatOfEachPair) {
-  Scene scene = rebounding({striker(0.5, 0.5, 2), striker(1, 0.3), striker(1.5, 0.5, -2)}, 1);
+  Scene scene = rebounding({slider(0.5, 0.5, 2), slider(1, 0.3), slider(1.5, 0.5, -2)}, 1);
   scene.gravity = {};
   scene.duration = 0.4;
   const RunResult run = test::completed(scene);
@@ -71,7 +65,7 @@ TEST(JointContact, OfThreeAtOnceIsThatOfEachPair) {
 }
 
 TEST(JointContact, OfEqualMassesOnASaggingBeamKeepsTheMirrorImageAndTheEnergy) {
-  Scene scene = rebounding({striker(0.7, 0.5, 1.5), striker(1.3, 0.5, -1.5)}, 1);
+  Scene scene = rebounding({slider(0.7, 0.5, 1.5), slider(1.3, 0.5, -1.5)}, 1);
   scene.duration = 0.4;
   const RunResult run = test::completed(scene);
   EXPECT_GE(contacts(run), 1);
@@ -86,7 +80,7 @@ TEST(JointContact, OfEqualMassesOnASaggingBeamKeepsTheMirrorImageAndTheEnergy) {
 
 /// Action and reaction have one line: a beam that nothing holds keeps its momenta, about the origin, too.
 TEST(JointContact, KeepsTheMomentaOfABeamThatNothingHolds) {
-  Scene scene = rebounding({striker(0.7, 0.5, 1.5), striker(1.2, 0.2, -1)}, 0.5);
+  Scene scene = rebounding({slider(0.7, 0.5, 1.5), slider(1.2, 0.2, -1)}, 0.5);
   scene.beam.curve = {.type = CurveType::arc, .center = {0, 0, 0}, .radius = 1, .from_degrees = 0, .to_degrees = 110};
   scene.gravity = {};
   scene.start.type = scene.end.type = SupportType::free;
@@ -102,13 +96,13 @@ TEST(JointContact, KeepsTheMomentaOfABeamThatNothingHolds) {
 
 /// What strikes a support at a distance is what rides up to it, in the limit.
 TEST(JointContact, WithASupportTendsToThatOfASingleMassThatRidesThere) {
-  SlidingJointSpec mass = striker(1.6, 0.5, 3);
+  SlidingJointSpec mass = slider(1.6, 0.5, 3);
   mass.at_support = AtSupport::rebound;
   mass.restitution = 0.8;
   const auto place = [&](double distance) {
     Scene scene = test::rope({mass});
     if (distance > 0) {
-      scene.sliding_joints.insert(scene.sliding_joints.begin(), striker(0.3, 1e-9));
+      scene.sliding_joints.insert(scene.sliding_joints.begin(), slider(0.3, 1e-9));
       scene.contact = ContactSpec{.distance = distance};
     }
     scene.gravity = {};
@@ -125,7 +119,7 @@ TEST(JointContact, WithASupportTendsToThatOfASingleMassThatRidesThere) {
 /// Bounces that get lower without end, of a mass that falls along the beam: against a ring, and a support.
 TEST(JointContact, ThatComesToRestEndsTheRunByName) {
   for (const bool support : {false, true}) {
-    SlidingJointSpec falls = striker(1.5, 0.5), other = striker(support ? 0.5 : 1.8, 0.5);
+    SlidingJointSpec falls = slider(1.5, 0.5), other = slider(support ? 0.5 : 1.8, 0.5);
     other.mass = 0;
     other.support = SupportType::pin;
     other.x.emplace();
@@ -150,9 +144,9 @@ TEST(JointContact, ThatComesToRestEndsTheRunByName) {
 
 /// The guide of a joint that is struck does work in the impact, which is supplied: the ledger of an elastic one closes.
 TEST(JointContact, WithAGuidedJointHasTheWorkOfTheGuide) {
-  SlidingJointSpec led = striker(0.5, 0.3);
+  SlidingJointSpec led = slider(0.5, 0.3);
   led.x = TimeSpec{.rate = 2};
-  Scene scene = rebounding({led, striker(1, 0.5)}, 1);
+  Scene scene = rebounding({led, slider(1, 0.5)}, 1);
   scene.duration = 0.35;
   const RunResult run = test::completed(scene);
   EXPECT_GE(contacts(run), 1);
@@ -161,7 +155,7 @@ TEST(JointContact, WithAGuidedJointHasTheWorkOfTheGuide) {
 }
 
 TEST(JointContact, RefusesWhatItDoesNotKnow) {
-  const Scene good = rebounding({striker(0.5, 0.3), striker(1.2, 0.3)}, 1);
+  const Scene good = rebounding({slider(0.5, 0.3), slider(1.2, 0.3)}, 1);
   Scene scene = good;
   scene.sliding_joints.pop_back();
   EXPECT_EQ(test::refused(scene), "/contact");

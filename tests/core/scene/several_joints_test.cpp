@@ -9,18 +9,12 @@
 namespace vlbeam {
 namespace {
 
-SlidingJointSpec mass_at(double position, double mass, double velocity = 0) {
-  SlidingJointSpec joint;
-  joint.mass = mass;
-  joint.position = position;
-  joint.velocity = velocity;
-  return joint;
-}
+using test::slider;
 
 double largest_ledger(const RunResult& run) { return run.max_energy_drift / run.max_kinetic; }
 
 TEST(SeveralJoints, TwoEqualMassesOnASymmetricBeamStayMirrorImages) {
-  Scene scene = test::rope({mass_at(0.4, 0.5, 1.5), mass_at(1.6, 0.5, -1.5)});
+  Scene scene = test::rope({slider(0.4, 0.5, 1.5), slider(1.6, 0.5, -1.5)});
   const RunResult run = test::completed(scene);
   EXPECT_GE(run.events.size(), 6U) << "nothing is shown without events";
   EXPECT_EQ(run.events.size() % 2, 0U);
@@ -36,8 +30,8 @@ TEST(SeveralJoints, TwoEqualMassesOnASymmetricBeamStayMirrorImages) {
 
 TEST(SeveralJoints, TheEffectOfALightOneIsProportionalToItsMass) {
   const auto place = [](double light) {
-    Scene scene = test::rope({mass_at(0.5, 0.5, 1)});
-    if (light > 0) scene.sliding_joints.push_back(mass_at(1.45, light));
+    Scene scene = test::rope({slider(0.5, 0.5, 1)});
+    if (light > 0) scene.sliding_joints.push_back(slider(1.45, light));
     scene.length_control.lower = 0.4985;  // the same events of the first one
     scene.length_control.end_merge = 0;   // of one mass too
     scene.duration = 0.12;
@@ -56,7 +50,7 @@ TEST(SeveralJoints, KeepTheLedgerBetweenEventsWithEveryElement) {
     SlidingJointSpec ring;
     ring.support = SupportType::pin;
     ring.position = 1.0;
-    Scene scene = test::rope({mass_at(0.4, 0.5, 1), ring, mass_at(1.5, 0.2, -0.5)}, element);
+    Scene scene = test::rope({slider(0.4, 0.5, 1), ring, slider(1.5, 0.2, -0.5)}, element);
     scene.end.type = SupportType::free;
     const RunResult run = test::completed(scene);
     EXPECT_GE(run.events.size(), 2U);
@@ -73,7 +67,7 @@ TEST(SeveralJoints, KeepTheEnergyAtEventsWithConservativeVelocities) {
   SlidingJointSpec ring;
   ring.support = SupportType::pin;
   ring.position = 1.0;
-  Scene scene = test::rope({mass_at(0.4, 0.5, 1), ring, mass_at(1.5, 0.2, -0.5)});
+  Scene scene = test::rope({slider(0.4, 0.5, 1), ring, slider(1.5, 0.2, -0.5)});
   const RunResult projected = test::completed(scene);
   scene.length_control.velocities = VelocityTransfer::conservative;
   const RunResult run = test::completed(scene);
@@ -90,9 +84,9 @@ TEST(SeveralJoints, KeepTheEnergyAtEventsWithConservativeVelocities) {
 }
 
 TEST(SeveralJoints, FrictionIsInTheLedger) {
-  auto rubbing = mass_at(0.6, 0.5, 1);
+  auto rubbing = slider(0.6, 0.5, 1);
   rubbing.friction = AxialFriction{0.2, 0.05};
-  auto other = mass_at(1.3, 0.3, -0.5);
+  auto other = slider(1.3, 0.3, -0.5);
   other.friction = AxialFriction{0.4, 0.05};
   Scene scene = test::rope({rubbing, other});
   scene.duration = 0.15;
@@ -103,7 +97,7 @@ TEST(SeveralJoints, FrictionIsInTheLedger) {
 
 TEST(SeveralJoints, GeneralizedAlphaComesNearTheExplicitRunWithItsOrder) {
   for (const Constraints constraints : {Constraints::eliminated, Constraints::multipliers}) {
-    Scene scene = test::rope({mass_at(0.55, 0.5, 1), mass_at(0.9, 0.3, 0.5), mass_at(1.5, 0.2, -0.5)});
+    Scene scene = test::rope({slider(0.55, 0.5, 1), slider(0.9, 0.3, 0.5), slider(1.5, 0.2, -0.5)});
     scene.duration = 0.08;
     const Point exact = *test::completed(scene).samples.back().joints[1].mass_position;
     scene.integrator = {};
@@ -122,7 +116,7 @@ TEST(SeveralJoints, GeneralizedAlphaComesNearTheExplicitRunWithItsOrder) {
 }
 
 TEST(SeveralJoints, MayLeaveAFreeEndOneAfterTheOther) {
-  Scene scene = test::rope({mass_at(1.2, 0.3, 3), mass_at(1.7, 0.3, 3)});
+  Scene scene = test::rope({slider(1.2, 0.3, 3), slider(1.7, 0.3, 3)});
   scene.gravity = {0, 0, 0};
   scene.start = {SupportType::clamp, ClampType::full};
   scene.end.type = SupportType::free;
@@ -141,7 +135,7 @@ TEST(SeveralJoints, MayLeaveAFreeEndOneAfterTheOther) {
 }
 
 TEST(SeveralJoints, ThatMeetEndTheRunByName) {
-  Scene scene = test::rope({mass_at(0.5, 0.3, 3), mass_at(1.2, 0.3)});
+  Scene scene = test::rope({slider(0.5, 0.3, 3), slider(1.2, 0.3)});
   scene.gravity = {0, 0, 0};
   const RunResult run = simulate(scene);
   EXPECT_EQ(run.status, RunStatus::failed);
@@ -151,7 +145,7 @@ TEST(SeveralJoints, ThatMeetEndTheRunByName) {
 }
 
 TEST(SeveralJoints, MayShareAnElementThatBothAskToCut) {
-  Scene scene = test::rope({mass_at(14.0 / 15, 0.3, -2), mass_at(16.0 / 15, 0.3, 2)});
+  Scene scene = test::rope({slider(14.0 / 15, 0.3, -2), slider(16.0 / 15, 0.3, 2)});
   scene.beam.elements = 15;
   const RunResult run = test::completed(scene);
   EXPECT_GE(run.events.size(), 3U);
@@ -163,7 +157,7 @@ TEST(SeveralJoints, MayShareAnElementThatBothAskToCut) {
 }
 
 TEST(SeveralJoints, ThatShareTheLastNodeBetweenThemMeet) {
-  Scene scene = test::rope({mass_at(0.4, 0.5, 1.5), mass_at(1.6, 0.5, -1.5)});
+  Scene scene = test::rope({slider(0.4, 0.5, 1.5), slider(1.6, 0.5, -1.5)});
   scene.gravity = {0, 0, 0};
   scene.duration = 0.5;
   const RunResult run = simulate(scene);
@@ -176,7 +170,7 @@ TEST(SeveralJoints, ThatShareTheLastNodeBetweenThemMeet) {
 
 TEST(SeveralJoints, MeetWhateverTheMeshBetweenThemIs) {
   for (const double other : {1.15, 1.18}) {
-    Scene scene = test::rope({mass_at(0.5, 0.3, 3), mass_at(other, 0.3)});
+    Scene scene = test::rope({slider(0.5, 0.3, 3), slider(other, 0.3)});
     scene.gravity = {0, 0, 0};
     scene.duration = 0.5;
     const RunResult run = simulate(scene);
@@ -187,8 +181,8 @@ TEST(SeveralJoints, MeetWhateverTheMeshBetweenThemIs) {
 }
 
 TEST(SeveralJoints, ThatGoOneWayAreTheMirrorImageOfThoseThatGoTheOther) {
-  const RunResult forward = test::completed(test::rope({mass_at(0.4, 0.5, 2), mass_at(0.65, 0.5, 2)}));
-  const RunResult backward = test::completed(test::rope({mass_at(1.35, 0.5, -2), mass_at(1.6, 0.5, -2)}));
+  const RunResult forward = test::completed(test::rope({slider(0.4, 0.5, 2), slider(0.65, 0.5, 2)}));
+  const RunResult backward = test::completed(test::rope({slider(1.35, 0.5, -2), slider(1.6, 0.5, -2)}));
   EXPECT_GE(forward.events.size(), 2U);
   ASSERT_EQ(forward.samples.size(), backward.samples.size());
   for (std::size_t i = 0; i < forward.samples.size(); ++i) {
@@ -198,7 +192,7 @@ TEST(SeveralJoints, ThatGoOneWayAreTheMirrorImageOfThoseThatGoTheOther) {
 }
 
 TEST(SeveralJoints, RefuseWhatTheyDoNotKnow) {
-  const Scene good = test::rope({mass_at(0.5, 0.3), mass_at(1.2, 0.3)});
+  const Scene good = test::rope({slider(0.5, 0.3), slider(1.2, 0.3)});
   Scene scene = good;
   std::swap(scene.sliding_joints[0], scene.sliding_joints[1]);
   EXPECT_EQ(test::refused(scene), "/sliding_joints/1/position");

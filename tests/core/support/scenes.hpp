@@ -85,6 +85,14 @@ inline void set_tolerance(Scene& scene, IntegratorType type, double tolerance) {
   scene.integrator.rtol = scene.integrator.atol = tolerance;
 }
 
+inline SlidingJointSpec slider(double position, double mass, double velocity = 0) {
+  SlidingJointSpec joint;
+  joint.mass = mass;
+  joint.position = position;
+  joint.velocity = velocity;
+  return joint;
+}
+
 /// A soft beam of 2 m between two pins, with something that slides on it.
 inline Scene rope(const std::vector<SlidingJointSpec>& joints, ElementKind element = ElementKind::ale_ancf) {
   Scene scene;

@@ -11,12 +11,10 @@
 namespace vlbeam::test {
 namespace {
 
-SlidingJointSpec sliding_at(double x, SupportType support, double mass = 0) {
-  SlidingJointSpec joint;
-  joint.mass = mass;
-  joint.position = x;
-  joint.support = support;
-  if (support == SupportType::pin) joint.slopes = JointSlopes::equal_stretch;
+SlidingJointSpec at_ring(double position) {
+  SlidingJointSpec joint = slider(position, 0);
+  joint.support = SupportType::pin;
+  joint.slopes = JointSlopes::equal_stretch;
   return joint;
 }
 
@@ -29,7 +27,7 @@ Scene through_rings(int elements, StrainLaw law) {
   scene.beam.curve.end = {3, 0, 0};
   scene.start = {.type = SupportType::pin, .motion = SupportMotionSpec{{0.6, 0.8, 0}, {.value = 0.25}}};
   scene.end = {.type = SupportType::pin, .motion = SupportMotionSpec{{-0.8, 0.6, 0}, {.value = 0.2}}};
-  scene.sliding_joints = {sliding_at(0.9, SupportType::pin), sliding_at(2, SupportType::pin)};
+  scene.sliding_joints = {at_ring(0.9), at_ring(2)};
   return scene;
 }
 
@@ -69,7 +67,7 @@ Scene hanging(const std::vector<SlidingJointSpec>& joints, int elements = 32) {
 }
 
 TEST(TrolleysStatics, HeldOnAHangingCableAreMirrorImages) {
-  Scene scene = hanging({sliding_at(0.6, SupportType::free, 0.5), sliding_at(1.4, SupportType::free, 0.5)});
+  Scene scene = hanging({slider(0.6, 0.5), slider(1.4, 0.5)});
   for (auto& joint : scene.sliding_joints) joint.slopes = JointSlopes::free;
   scene.statics.joints = StaticJoints::held;
   const Sample last = completed(scene).samples.back();
@@ -83,11 +81,10 @@ TEST(TrolleysStatics, HeldOnAHangingCableAreMirrorImages) {
 
 /// One on each side of a ring that holds the cable fast: each slides, through length control, to where it is lowest.
 TEST(TrolleysStatics, ReleasedTogetherRestWhereTheCableIsLowest) {
-  SlidingJointSpec ring = sliding_at(1, SupportType::pin);
+  SlidingJointSpec ring = at_ring(1);
   ring.x.emplace();
   ring.motion = SupportMotionSpec{{-1, 0, 0}, {.value = 0.15}};  // half of what the end moves
-  std::vector<SlidingJointSpec> joints{sliding_at(0.25, SupportType::free, 0.5), ring,
-                                       sliding_at(1.75, SupportType::free, 0.5)};
+  std::vector<SlidingJointSpec> joints{slider(0.25, 0.5), ring, slider(1.75, 0.5)};
   for (auto& joint : joints) joint.slopes = JointSlopes::equal_stretch;
   const RunResult result = completed(hanging(joints));
   const Sample& last = result.samples.back();
@@ -110,7 +107,7 @@ TEST(MovedJointStatics, IsTheSameSeenFromTheRing) {
   scene.beam.curve.end = {2, 0, 0};
   scene.gravity = {0, -1, 0};
   scene.start.type = scene.end.type = SupportType::pin;
-  scene.sliding_joints = {sliding_at(0.8, SupportType::pin)};
+  scene.sliding_joints = {at_ring(0.8)};
   Scene other = scene;
   scene.sliding_joints.front().motion = down;
   other.start.motion = other.end.motion = up;
@@ -124,7 +121,7 @@ TEST(MovedJointStatics, IsTheSameSeenFromTheRing) {
 /// The guide leads the beam through the ring, over its nodes, to where it could have been put at first.
 TEST(GuidedJointStatics, EndsWhereItIsLed) {
   Scene led = through_rings(60, StrainLaw::green);
-  led.sliding_joints = {sliding_at(0.9, SupportType::pin), sliding_at(2, SupportType::pin)};
+  led.sliding_joints = {at_ring(0.9), at_ring(2)};
   led.sliding_joints[0].x = TimeSpec{.value = -0.1};
   led.sliding_joints[1].x = TimeSpec{.value = 0.12};
   led.statics.steps = 8;
@@ -157,7 +154,7 @@ TEST(SeveralFromTheirEquilibrium, StayAtRest) {
     scene.beam.element = ElementKind::ale_ancf;
     scene.beam.elements = 30;
     scene.start.type = scene.end.type = SupportType::pin;
-    scene.sliding_joints = {sliding_at(0.8, SupportType::pin), sliding_at(1.7, SupportType::pin)};
+    scene.sliding_joints = {at_ring(0.8), at_ring(1.7)};
     if (!released) {
       for (auto& joint : scene.sliding_joints) joint.x.emplace();
     }
