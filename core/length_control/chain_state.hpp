@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -23,12 +24,18 @@ struct ChainState {
   struct Kink {
     Vec<double, D> slope, rate;
   };
+  /// How a joint touches a neighbour.
+  struct Touch {
+    double distance = 0;  ///< at which, once it has rested there [m]; 0 for that of the model
+    bool rests = false;
+  };
   /// A node that moves along the beam.
   struct Joint {
     int node;
     double rate = 0;  ///< of its material coordinate mesh.x[node] [m/s]
     std::optional<Kink> kink = {};
-    int index = 0;  ///< which of the joints there were at the start
+    int index = 0;                      ///< which of the joints there were at the start
+    std::array<Touch, 2> touches = {};  ///< the support at the start, and the next joint or the support at the end
   };
   std::vector<Joint> joints;  ///< in the order of the chain
   /// A sliding mass that has left the beam.

@@ -11,8 +11,8 @@ enum class EventType {
   reweighting,    ///< transported weights of an element at it are renewed before one of them is lost
   end_merge,      ///< near the beam's end its node goes: the mass rides inside the last element
   end_cut,        ///< away from the end it gets a node again
-  contact,        ///< the mass hits the support at the beam's end
-  lift_off,       ///< what has rested at a support leaves it
+  contact,        ///< a mass hits the support at the beam's end, or another joint
+  lift_off,       ///< what has rested there leaves it
   passage,        ///< it passes over a point mass: nothing jumps but accelerations
 };
 

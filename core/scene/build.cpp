@@ -236,6 +236,20 @@ double end_merge(const Scene& scene) {
   return scene.length_control.end_merge.value_or(otherwise);
 }
 
+bool joints_may_rest(const Scene& scene) {
+  switch (scene.integrator.type) {
+    case IntegratorType::rosenbrock4:  // these need more than forces of what rests: derivatives
+    case IntegratorType::ida:
+    case IntegratorType::cvode:
+    case IntegratorType::energy_momentum:
+      return false;
+    default:
+      break;
+  }
+  const auto& joints = scene.sliding_joints;
+  return std::ranges::none_of(joints, [](const SlidingJointSpec& joint) { return joint.friction || joint.pitch; });
+}
+
 double merge_below(const Scene& scene) {
   const auto& control = scene.length_control;
   const bool several = scene.sliding_joints.size() > 1 || fed(scene);
@@ -348,6 +362,7 @@ BeamModel<D> build_model(const Scene& scene) {
   }
   const ContactSpec contact = scene.contact.value_or(ContactSpec{});
   model.at_meeting = {contact.joints, contact.restitution};
+  model.joints_rest = joints_may_rest(scene);
   model.contact_distance = contact.distance;
   if (scene.start.feed) {
     model.joints.emplace_back().x = travelling(0, [in = time_function(*scene.start.feed)](double t) -> Prescribed {

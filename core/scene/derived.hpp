@@ -86,6 +86,8 @@ inline StaticJoints static_joints(const Scene& scene) {
 /// the beam is curved at rest.
 WeightTransport weight_transport(const Scene& scene);
 
+/// Whether several joints may come to rest against supports and each other.
+bool joints_may_rest(const Scene& scene);
 /// Between the nodes of joints that touch, or of one and a support that it strikes, over the length of an element.
 inline double contact_distance(const Scene& scene) { return scene.contact.value_or(ContactSpec{}).distance; }
 /// Distance from a free end at which a joint of the scene leaves [m].

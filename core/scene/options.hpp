@@ -595,13 +595,13 @@ void visit_options(Visitor&& visitor, SceneT& scene) {
     auto& contact = *scene.contact;
     visitor(Option{.pointer = "/contact/joints",
                    .unit = "",
-                   .description = "what becomes of two joints that meet: the run stops there, or they rebound",
-                   .without = "rest"},
+                   .description = "what becomes of two joints that meet: the run stops there, or they stay together "
+                                  "until the force between them turns, or they rebound"},
             contact.joints);
     visitor(Option{.pointer = "/contact/restitution",
                    .unit = "-",
                    .description = "of their rebound: relative speed after it over that before",
-                   .range = Range{.low = 0, .high = 1, .low_open = true},
+                   .range = Range::closed(0, 1),
                    .when = only_if("/contact/joints", contact.joints, AtSupport::rebound)},
             contact.restitution);
     visitor(Option{.pointer = "/contact/distance",

@@ -157,9 +157,9 @@ struct SlidingJointSpec : SlidingMassSpec {
   std::optional<double> pitch;  ///< of a nut on a beam that spins [m a turn], right-handed where > 0
 };
 
-/// How several joints touch: each other, and the supports from which they rebound.
+/// How several joints touch: each other, and the supports that they strike.
 struct ContactSpec {
-  AtSupport joints = AtSupport::stop;  ///< where two meet; they do not rest
+  AtSupport joints = AtSupport::stop;  ///< where two meet
   double restitution = 1;              ///< of their rebound
   double distance = 0.1;               ///< between the nodes of what touches, over L_std
 };

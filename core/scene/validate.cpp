@@ -236,20 +236,24 @@ bool is_zero(const TimeSpec& f) { return f.value == 0 && f.rate == 0 && f.accele
 /// rounding.
 double largest_rate(const TimeSpec& f) { return std::abs(f.rate) + std::abs(f.amplitude * f.frequency); }
 
-/// One of several joints that rebounds from supports.
+/// Of several joints; `key` is what lets them rest.
+void check_rest(const Scene& scene, const std::string& key) {
+  if (joints_may_rest(scene)) return;
+  const bool by_restitution = key.ends_with("/restitution");
+  refuse(
+      key, by_restitution ? "0" : "\"rest\"",
+      "several joints rest with explicit integrators and \"generalized-alpha\", and with neither friction nor a nut: "
+      "take " +
+          std::string(by_restitution ? "a number > 0" : "\"rebound\" or \"stop\""));
+}
+
+/// One of several joints that strikes supports.
 void check_strike(const Scene& scene, std::size_t which) {
   const SlidingJointSpec& joint = scene.sliding_joints[which];
   if (joint.at_support == AtSupport::stop) return;
   const std::string key = joint_key(scene, which);
-  if (joint.at_support == AtSupport::rest) {
-    refuse(
-        key + "/at_support", "\"rest\"",
-        "one of several joints keeps its node, and what is between it and the support, a spring, would throw it back "
-        "again and again: take \"rebound\" or \"stop\"");
-  }
-  if (joint.restitution == 0) {
-    refuse(key + "/restitution", "0", "several joints do not rest at supports: it must be > 0");
-  }
+  if (joint.at_support == AtSupport::rest) check_rest(scene, key + "/at_support");
+  if (joint.at_support == AtSupport::rebound && joint.restitution == 0) check_rest(scene, key + "/restitution");
   const double least = contact_distance(scene) * standard_length(scene), length = beam_length(scene);
   const bool near_start = scene.start.type != SupportType::free && joint.position <= least;
   const bool near_end = scene.end.type != SupportType::free && joint.position >= length - least;
@@ -264,8 +268,9 @@ void check_contact(const Scene& scene) {
   const auto& joints = scene.sliding_joints;
   if (joints.size() < 2) refuse("/contact", "this key", "it is of several /sliding_joints: leave it out");
   if (scene.contact->joints == AtSupport::stop) return;
-  if (scene.contact->joints == AtSupport::rest) {
-    refuse("/contact/joints", "\"rest\"", "two joints that move on as one are not modelled: take \"rebound\"");
+  if (scene.contact->joints == AtSupport::rest) check_rest(scene, "/contact/joints");
+  if (scene.contact->joints == AtSupport::rebound && scene.contact->restitution == 0) {
+    check_rest(scene, "/contact/restitution");
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].pitch) continue;

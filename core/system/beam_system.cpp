@@ -62,10 +62,12 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
   places_.clear();
   index_.clear();
+  touches_.clear();
   Eigen::Index next = nodal_;
   for (const auto& joint : chain.joints) {
     places_.push_back({.node = joint.node, .mark = next++, .passed = passed_[static_cast<std::size_t>(joint.index)]});
     index_.push_back(joint.index);
+    touches_.push_back(joint.touches);
   }
   if (chain.rider) ++next;
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -122,6 +124,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
                           RiderMass<D>(*left_, *right_, mesh_.last() + 1, chain.rider->element)});
   }
   set_end_limits();
+  find_resting();
 }
 
 template <int D>
@@ -204,7 +207,7 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
     const JointPlace& place = places_[i];
     result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
     auto& joint = result.joints.emplace_back();
-    joint = {.node = place.node, .rate = y[coordinates_ + place.mark], .index = index_[i]};
+    joint = {.node = place.node, .rate = y[coordinates_ + place.mark], .index = index_[i], .touches = touches_[i]};
     if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates_ + place.behind)};
     if (!result.curved_at_rest()) continue;
     const auto at_joint = model_.rest->derivatives(y[place.mark]);
@@ -576,6 +579,27 @@ double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
 }
 
 template <int D>
+Eigen::VectorXd BeamSystem<D>::forces_at_contacts(const Eigen::VectorXd& y, double t) const {
+  Eigen::VectorXd exact = y;
+  impose(exact, t);
+  orient(t);
+  const double *q = exact.data(), *rate = q + coordinates_;
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
+  JointElements elements;
+  add_forces(q, rate, t, a.data(), elements);
+  std::vector<JointMotion<D>> motions;
+  for (std::size_t i = 0; i < places_.size(); ++i) motions.push_back(joint_motion(i, q, rate, t));
+  std::optional<Pull> pull;
+  if (model_.driven()) pull.emplace(*this, elements, q, rate, a.data(), t);
+  std::optional<Eigen::VectorXd> forces;
+  if (solve_joints(elements, motions, a.data())) {
+    if (pull) pull->complete(a.data());
+    forces = press(resting_, elements, q, bending_in(rate), a.data());
+  }
+  return forces.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(resting_.size())));
+}
+
+template <int D>
 void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
   ++rhs_evaluations_;
   const bool driven = model_.driven();
@@ -631,6 +655,16 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     power = power + spin_->power(q + angles, rate + angles, force + angles, t, by_nut);
   }
   if (driven) power.supports += pull->power(force);
+  if (!resting_.empty()) {
+    const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(force, coordinates_);
+    const auto forces = press(resting_, elements_, q, bending_in(rate), force);
+    if (!forces) return invalid();
+    resting_forces_ = *forces;
+    if (driven) {
+      const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(force, coordinates_) - apart;
+      power.supports += work_of_prescribed(resting_, *forces, elements_, q, rate, change);
+    }
+  }
   model_.tallies().add(power, dydt);
 }
 

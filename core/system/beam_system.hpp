@@ -57,7 +57,8 @@ struct BeamModel {
   Drag<D> drag;
   std::optional<SpinModel> spin;  ///< without it there is no angle at all
   PointMasses<D> masses;
-  Impact at_meeting = {};         ///< of two joints; those that rebound do not rest
+  Impact at_meeting = {};         ///< of two joints
+  bool joints_rest = false;       ///< what bounces lower and lower stays, else the run ends there
   double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
   /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
   std::vector<ModelJoint<D>> joints;
@@ -285,6 +286,27 @@ class BeamSystem final : public EventedOde {
     return static_cast<int>(std::count_if(places_.begin(), places_.end(),
                                           [&](const JointPlace& place) { return place.node < span.low(); }));
   }
+  /// Two nodes that strike each other once they are near enough, or rest against each other: of joints, or of a joint
+  /// and an end of the beam.
+  struct Contact {
+    int behind, ahead;  ///< nodes
+    std::size_t which;  ///< of the joints on the beam: the first of the two
+    int support;        ///< -1: that at the start, 1: at the end, 0: another joint
+    Impact impact;
+    double distance;  ///< where they touch [m]
+    bool rests;
+
+    /// C [m] of the line from the one to the other.
+    double value(const Vector& apart) const { return (apart.squaredNorm() / distance - distance) / 2; }
+    /// Its gradient, of length 1 at rest.
+    Vector line(const double* q) const { return difference(q) / distance; }
+    /// Of an array like q.
+    Vector difference(const double* q) const { return position<D>(q, ahead) - position<D>(q, behind); }
+  };
+  /// What rests: C = (|r|^2 - d^2)/(2 d) = 0 for the line r between its nodes and their distance d.
+  const std::vector<Contact>& resting() const { return resting_; }
+  /// With what its nodes push each other apart, by the accelerations that rhs() has given last [N].
+  const Eigen::VectorXd& resting_forces() const { return resting_forces_; }
   /// What the supports hold: position and slope of the first and of the last node at the start.
   const std::array<Eigen::Matrix<double, node_size<D>, 1>, 2>& anchors() const { return anchors_; }
   /// Where a joint's node was at the start: what a ring or a sleeve holds.
@@ -380,13 +402,6 @@ class BeamSystem final : public EventedOde {
   double contact_force(const Eigen::VectorXd& y, double t) const;
   /// What acts on the coordinates but for spin, and its power but for what accelerations tell.
   Tally add_forces(const double* q, const double* rate, double t, double* force, JointElements& elements) const;
-  /// Two nodes that strike each other once they are near enough: of joints, or of a joint and an end of the beam.
-  struct Contact {
-    int behind, ahead;  ///< nodes
-    std::size_t which;  ///< of the joints on the beam: the first of the two
-    int support;        ///< -1: that at the start, 1: at the end, 0: another joint
-    Impact impact;
-  };
   std::vector<Contact> contacts() const;
   /// Of a contact: how far its nodes are apart, the direction from one to the other, and the rate of the distance.
   struct Gap {
@@ -394,11 +409,33 @@ class BeamSystem final : public EventedOde {
     Vector direction;
   };
   Gap gap(const Contact& contact, const Eigen::VectorXd& y) const;
-  /// Where they touch [m].
+  /// Where they touch for the first time [m].
   double touching() const { return model_.contact_distance * model_.length_control.standard_length; }
-  /// All that touch and come nearer strike each other at once: new velocities. Throws ComputationFailed where they come
-  /// to rest against each other.
+  /// From now on its nodes rest against each other, or no longer.
+  void settle(const Contact& contact, const Eigen::VectorXd& y);
+  void part(const Contact& contact);
+  void find_resting();
+  /// All that touch and come nearer strike each other at once, and what rests bears it: new velocities, and what rests
+  /// then. Throws ComputationFailed where it cannot.
   void strike(Eigen::VectorXd& y, double t);
+  /// Throws ComputationFailed.
+  [[noreturn]] void comes_to_rest(const Contact& contact, double t) const;
+  /// Velocities after an impact of these.
+  void collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t);
+  /// Adds what forces (or momenta) along the lines of contacts do to the accelerations (or velocities) `a` of a beam
+  /// without them, so that L . (a_ahead - a_behind) is as `wanted` on each line L. Returns them, positive where they
+  /// push; nothing where the mass matrix is singular.
+  std::optional<Eigen::VectorXd> press(const std::vector<Contact>& contacts, const JointElements& elements,
+                                       const double* q, const Eigen::VectorXd& wanted, double* a) const;
+  /// Of what prescribes parts of the state: what it does as such forces change accelerations (or momenta velocities) by
+  /// `change`.
+  double work_of_prescribed(const std::vector<Contact>& contacts, const Eigen::VectorXd& forces,
+                            const JointElements& elements, const double* q, const double* rate,
+                            const Eigen::VectorXd& change) const;
+  /// What press() is to give the accelerations of what rests, by C'' = 0.
+  Eigen::VectorXd bending_in(const double* rate) const;
+  /// Forces between what rests, at a state [N].
+  Eigen::VectorXd forces_at_contacts(const Eigen::VectorXd& y, double t) const;
   /// The mass hits a support: new velocities, and whether it is then held. Throws ComputationFailed where the run is to
   /// stop.
   void hit(ChainState<D>& chain, Eigen::VectorXd& y, double t);
@@ -428,6 +465,8 @@ class BeamSystem final : public EventedOde {
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
   /// matrix is singular.
   bool solve_mass(const JointElements& elements, const double* q, double* p) const;
+  /// As if nothing rested against anything.
+  bool solve_mass_apart(const JointElements& elements, const double* q, double* p) const;
   void multiply_mass(const JointElements& elements, const double* q, const double* rate, double* out) const;
   /// Adds what a force (or momentum) on the rider is of its element's nodes and of x.
   void push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const;
@@ -459,8 +498,11 @@ class BeamSystem final : public EventedOde {
   std::vector<double> rest_;        ///< nodes of the rest shape, but for the moving one; empty if it is straight
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain
   std::vector<int> index_;          ///< which of the model's they are
-  std::vector<int> departed_;       ///< the same of masses that have left
-  std::vector<int> passed_;         ///< of the model's joints: how many point masses are behind it
+  std::vector<std::array<typename ChainState<D>::Touch, 2>> touches_;  ///< of the joints on the beam
+  std::vector<Contact> resting_;
+  Eigen::VectorXd resting_forces_;
+  std::vector<int> departed_;  ///< the same of masses that have left
+  std::vector<int> passed_;    ///< of the model's joints: how many point masses are behind it
   mutable std::optional<Riding> rider_;
   std::array<double, 2> end_limit_{};  ///< [m], of the last and of the first element
   double cut_limit_ = 0;               ///< distance of a rider from the end at which it gets a node [m]

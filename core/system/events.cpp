@@ -15,6 +15,7 @@ constexpr double restored_energy = 1e-9;   // of the energies there are
 constexpr double contact_distance = 1e-6;  // of L_std: the joint has run into a node that does not give way
 constexpr double clearance = 1e-11;        // of L_std: by which a mass leaves a support, so that the guard is negative
 constexpr double least_bounce = 1e-9;      // of L_std: a lower one is the last
+constexpr double rounding = 1e-9;          // of the largest momentum of an impact
 constexpr double least_left = 0.1;         // of L_std: an element of a feed that cannot be merged; all_due() says so
 constexpr double same_instant = 1e-9;      // of L_std: what is this near is due at once
 constexpr double merge_slack = 1e-6;       // of the length below which is merged: a cut comes first
@@ -103,10 +104,18 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
     }
   }
   const std::vector<Contact> contacts = this->contacts();
+  Eigen::VectorXd forces;
+  if (!resting_.empty()) forces = forces_at_contacts(y, t);
+  Eigen::Index rests = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const int part = static_cast<int>(i);
+    if (contacts[i].rests) {
+      guards.push_back({number(Kind::lift_off), part, -forces[rests++] / model_.section.stiffness.EA});
+      continue;
+    }
     const Gap gap = this->gap(contacts[i], y);
-    const double value = (touching() - gap.distance) / unit;  // what parts is clear of each other
-    guards.push_back({number(Kind::contact), static_cast<int>(i), gap.rate > 0 ? value - clearance : value});
+    const double value = (contacts[i].distance - gap.distance) / unit;  // what parts is clear of each other
+    guards.push_back({number(Kind::contact), part, gap.rate > 0 ? value - clearance : value});
   }
   return guards;
 }
@@ -117,25 +126,25 @@ std::vector<typename BeamSystem<D>::Contact> BeamSystem<D>::contacts() const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (feeds(i)) continue;
     const int node = places_[i].node;
+    const auto add = [&](int behind, int support, const Impact& impact) {
+      const auto& touch = touches_[i][support < 0 ? 0 : 1];
+      found.push_back(
+          {behind, behind + 1, i, support, impact, touch.distance > 0 ? touch.distance : touching(), touch.rests});
+    };
     const Impact& at_support = joint(i).at_support;
     const bool strikes = at_support.law != AtSupport::stop && model_.length_control.end_merge == 0;
-    if (strikes && node == 1 && !model_.start_releases) found.push_back({0, 1, i, -1, at_support});
-    if (model_.at_meeting.law != AtSupport::stop && at_joint(node + 1) && !feeds(i + 1)) {
-      found.push_back({node, node + 1, i, 0, model_.at_meeting});
-    }
-    if (strikes && node + 1 == mesh_.last() && !model_.end_releases) {
-      found.push_back({node, node + 1, i, 1, at_support});
-    }
+    if (strikes && node == 1 && !model_.start_releases) add(0, -1, at_support);
+    if (model_.at_meeting.law != AtSupport::stop && at_joint(node + 1) && !feeds(i + 1))
+      add(node, 0, model_.at_meeting);
+    if (strikes && node + 1 == mesh_.last() && !model_.end_releases) add(node, 1, at_support);
   }
   return found;
 }
 
 template <int D>
 typename BeamSystem<D>::Gap BeamSystem<D>::gap(const Contact& contact, const Eigen::VectorXd& y) const {
-  const Vector apart = position<D>(y.data(), contact.ahead) - position<D>(y.data(), contact.behind);
-  const double* rate = y.data() + coordinates_;
-  const Vector direction = apart.normalized();
-  return {apart.norm(), direction.dot(position<D>(rate, contact.ahead) - position<D>(rate, contact.behind)), direction};
+  const Vector apart = contact.difference(y.data()), direction = apart.normalized();
+  return {apart.norm(), direction.dot(contact.difference(y.data() + coordinates_)), direction};
 }
 
 /// The element there is cut and merged as those at a joint are, but for the other side.
@@ -229,8 +238,12 @@ typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::
       return {EventType::end_merge, direction, which, {}};
     case Kind::away:
       return {EventType::end_cut, direction, which, {}};
-    case Kind::lift_off:
-      return {EventType::lift_off, direction, which, {}};
+    case Kind::lift_off: {
+      if (rider_) return {EventType::lift_off, direction, which, {}};
+      const Contact contact = contacts()[which];
+      const Direction to = contact.support < 0 ? Direction::backward : Direction::forward;
+      return {EventType::lift_off, to, contact.which, {}};
+    }
     case Kind::contact:
       return {EventType::contact, direction, contacts()[which].which, {}};
     case Kind::pass_forward:
@@ -351,53 +364,148 @@ void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
-void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
-  const double unit = model_.length_control.standard_length;
-  std::vector<Contact> touching;
-  for (const Contact& contact : contacts()) {
-    const Gap gap = this->gap(contact, y);
-    if (gap.distance <= this->touching() + same_instant * unit && gap.rate < 0) touching.push_back(contact);
+void BeamSystem<D>::find_resting() {
+  resting_ = contacts();
+  std::erase_if(resting_, [](const Contact& contact) { return !contact.rests; });
+  resting_forces_.setZero(static_cast<Eigen::Index>(resting_.size()));
+}
+
+template <int D>
+void BeamSystem<D>::part(const Contact& contact) {
+  const double clear = contact.distance - clearance * model_.length_control.standard_length;
+  touches_[contact.which][contact.support < 0 ? 0 : 1] = {clear, false};
+  find_resting();
+}
+
+template <int D>
+void BeamSystem<D>::settle(const Contact& contact, const Eigen::VectorXd& y) {
+  touches_[contact.which][contact.support < 0 ? 0 : 1] = {gap(contact, y).distance, true};
+  find_resting();
+}
+
+template <int D>
+std::optional<Eigen::VectorXd> BeamSystem<D>::press(const std::vector<Contact>& contacts, const JointElements& elements,
+                                                    const double* q, const Eigen::VectorXd& wanted, double* a) const {
+  const auto count = static_cast<Eigen::Index>(contacts.size());
+  Eigen::MatrixXd answers = Eigen::MatrixXd::Zero(coordinates_, count), by(count, count);  // M^-1 L, L^T M^-1 L
+  Eigen::VectorXd lacking = wanted;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Contact& contact = contacts[static_cast<std::size_t>(i)];
+    const Vector line = contact.line(q);
+    position<D>(answers.col(i).data(), contact.behind) = -line;
+    position<D>(answers.col(i).data(), contact.ahead) = line;
+    if (!solve_mass_apart(elements, q, answers.col(i).data())) return std::nullopt;
+    lacking[i] -= line.dot(contact.difference(a));
   }
-  // momenta J along the lines W between the nodes change velocities by M^-1 W J
-  const auto count = static_cast<Eigen::Index>(touching.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Contact& contact = contacts[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < count; ++k) by(i, k) = contact.line(q).dot(contact.difference(answers.col(k).data()));
+  }
+  const Eigen::VectorXd forces = solve_pivoting(by, lacking);
+  Eigen::Map<Eigen::VectorXd>(a, coordinates_) += answers * forces;
+  return forces;
+}
+
+template <int D>
+double BeamSystem<D>::work_of_prescribed(const std::vector<Contact>& contacts, const Eigen::VectorXd& forces,
+                                         const JointElements& elements, const double* q, const double* rate,
+                                         const Eigen::VectorXd& change) const {
+  Eigen::VectorXd all(coordinates_);
+  multiply_mass(elements, q, change.data(), all.data());
+  double work = all.dot(Eigen::Map<const Eigen::VectorXd>(rate, coordinates_));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    work -= forces[static_cast<Eigen::Index>(i)] * contacts[i].line(q).dot(contacts[i].difference(rate));
+  }
+  return work;
+}
+
+template <int D>
+Eigen::VectorXd BeamSystem<D>::bending_in(const double* rate) const {
+  Eigen::VectorXd wanted(static_cast<Eigen::Index>(resting_.size()));
+  for (std::size_t i = 0; i < resting_.size(); ++i) {
+    wanted[static_cast<Eigen::Index>(i)] = -resting_[i].difference(rate).squaredNorm() / resting_[i].distance;
+  }
+  return wanted;
+}
+
+template <int D>
+void BeamSystem<D>::comes_to_rest(const Contact& contact, double t) const {
+  const std::string first = "the sliding joint " + std::to_string(index_[contact.which]) + " comes to rest against ";
+  throw ComputationFailed(first + (contact.support == 0 ? "the joint " + std::to_string(index_[contact.which + 1])
+                                                        : std::string("the support at the beam's ") +
+                                                              (contact.support < 0 ? "start" : "end")),
+                          t);
+}
+
+template <int D>
+void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t) {
   const JointElements elements = elements_at(y, t);
   auto rate = y.segment(coordinates_, coordinates_);
-  Eigen::MatrixXd lines = Eigen::MatrixXd::Zero(coordinates_, count), answers(coordinates_, count);
-  Eigen::VectorXd changes(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Contact& contact = touching[static_cast<std::size_t>(i)];
-    const Gap gap = this->gap(contact, y);
-    position<D>(lines.col(i).data(), contact.behind) = -gap.direction;
-    position<D>(lines.col(i).data(), contact.ahead) = gap.direction;
-    answers.col(i) = lines.col(i);
-    if (!solve_mass(elements, y.data(), answers.col(i).data())) {
-      throw ComputationFailed("joints strike each other that have no inertia", t);
+  std::vector<Contact> bearing = contacts;  // what rests pushes, but does not pull
+  while (!bearing.empty()) {
+    Eigen::VectorXd wanted(static_cast<Eigen::Index>(bearing.size())), after = rate;
+    for (std::size_t i = 0; i < bearing.size(); ++i) {
+      const double restitution = bearing[i].rests ? 0 : bearing[i].impact.restitution;
+      wanted[static_cast<Eigen::Index>(i)] = -restitution * gap(bearing[i], y).rate;
     }
-    changes[i] = -(1 + contact.impact.restitution) * gap.rate;
+    const auto momenta = press(bearing, elements, y.data(), wanted, after.data());
+    if (!momenta) throw ComputationFailed("joints strike each other that have no inertia", t);
+    const double pull = -rounding * momenta->cwiseAbs().maxCoeff();
+    const auto pulls = [&](std::size_t i) {
+      return bearing[i].rests && (*momenta)[static_cast<Eigen::Index>(i)] < pull;
+    };
+    std::size_t pulled = 0;
+    while (pulled < bearing.size() && !pulls(pulled)) ++pulled;
+    if (pulled < bearing.size()) {
+      part(bearing[pulled]);
+      bearing.erase(bearing.begin() + static_cast<std::ptrdiff_t>(pulled));
+      continue;
+    }
+    const double work = work_of_prescribed(bearing, *momenta, elements, y.data(), rate.data(), after - rate);
+    model_.tallies().add({.supports = work}, y);
+    rate = after;
+    return;
   }
-  const Eigen::VectorXd momenta = solve_pivoting(lines.transpose() * answers, changes);
-  const Eigen::VectorXd change = answers * momenta;
-  Eigen::VectorXd all(coordinates_);  // what supports and guides do included
-  multiply_mass(elements, y.data(), change.data(), all.data());
-  model_.tallies().add({.supports = (all - lines * momenta).dot(rate)}, y);
-  rate += change;
+}
+
+template <int D>
+void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
+  const double unit = model_.length_control.standard_length;
+  std::vector<Contact> bearing;  // what rests bears what strikes
+  for (Contact contact : contacts()) {
+    const Gap gap = this->gap(contact, y);
+    const bool strikes = gap.distance <= contact.distance + same_instant * unit && gap.rate < 0;
+    if (!strikes && !contact.rests) continue;
+    if (!contact.rests) contact.distance = gap.distance;
+    if (contact.impact.law == AtSupport::rest) contact.impact.restitution = 0;
+    bearing.push_back(contact);
+  }
+  const Eigen::VectorXd before = y;
+  const auto stays = [](const Contact& contact) { return !contact.rests && contact.impact.restitution == 0; };
+  const auto collides = [&] {
+    collide(bearing, y, t);
+    for (const Contact& contact : bearing) {
+      if (stays(contact)) settle(contact, y);
+    }
+  };
+  collides();
 
   Eigen::VectorXd rates(y.size());
   rhs(y, rates, t);
-  for (const Contact& contact : touching) {
+  bool lower = false;
+  for (Contact& contact : bearing) {
+    if (contact.rests || stays(contact)) continue;
     const Gap gap = this->gap(contact, y);
-    const auto difference = [&](const double* of) -> Vector {
-      return position<D>(of, contact.ahead) - position<D>(of, contact.behind);
-    };
-    const double across = difference(rate.data()).squaredNorm() - gap.rate * gap.rate;
-    const double falls = -gap.direction.dot(difference(rates.data() + coordinates_)) - across / gap.distance;
+    const double across = contact.difference(y.data() + coordinates_).squaredNorm() - gap.rate * gap.rate;
+    const double falls = -gap.direction.dot(contact.difference(rates.data() + coordinates_)) - across / gap.distance;
     if (!(falls > 0 && gap.rate * gap.rate < 2 * falls * least_bounce * unit)) continue;
-    const std::string first = "the sliding joint " + std::to_string(index_[contact.which]) + " comes to rest against ";
-    throw ComputationFailed(first + (contact.support == 0 ? "the joint " + std::to_string(index_[contact.which + 1])
-                                                          : std::string("the support at the beam's ") +
-                                                                (contact.support < 0 ? "start" : "end")),
-                            t);
+    if (!model_.joints_rest) comes_to_rest(contact, t);
+    contact.impact.restitution = 0;
+    lower = true;
   }
+  if (!lower) return;
+  y = before;
+  collides();
 }
 
 template <int D>
@@ -423,6 +531,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
         chain.rider.reset();
       } else {
         separate(chain, due.direction, control, model_.transport);
+        if (!chain.joints.empty()) chain.joints.back().touches[1] = {};
       }
       const ModelJoint<D>& left = model_.joints[static_cast<std::size_t>(index)];
       if (!left.support && left.law.mass > 0) chain.departed.push_back({index, mass->r, mass->v});
@@ -453,8 +562,16 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
       }
       return {};
     case EventType::lift_off:
-      chain.rider->held = false;
-      chain.rider->x = clear_of_end();
+      if (rider_) {
+        chain.rider->held = false;
+        chain.rider->x = clear_of_end();
+      } else {
+        const auto parts = std::ranges::find_if(resting_, [&](const Contact& contact) {
+          return contact.which == due.which && (contact.support < 0) == (due.direction == Direction::backward);
+        });
+        part(Contact(*parts));
+        chain = this->chain(y);
+      }
       return {};
     case EventType::passage:
       passed_[static_cast<std::size_t>(index_[due.which])] += due.direction == Direction::forward ? 1 : -1;
@@ -588,6 +705,17 @@ template MergedWeights BeamSystem<2>::change(const Due&, ChainState<2>&, Eigen::
 template std::vector<BeamSystem<2>::Contact> BeamSystem<2>::contacts() const;
 template BeamSystem<2>::Gap BeamSystem<2>::gap(const Contact&, const Eigen::VectorXd&) const;
 template void BeamSystem<2>::strike(Eigen::VectorXd&, double);
+template void BeamSystem<2>::find_resting();
+template void BeamSystem<2>::comes_to_rest(const Contact&, double) const;
+template void BeamSystem<2>::part(const Contact&);
+template void BeamSystem<2>::settle(const Contact&, const Eigen::VectorXd&);
+template void BeamSystem<2>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
+template std::optional<Eigen::VectorXd> BeamSystem<2>::press(const std::vector<Contact>&, const JointElements&,
+                                                             const double*, const Eigen::VectorXd&, double*) const;
+template double BeamSystem<2>::work_of_prescribed(const std::vector<Contact>&, const Eigen::VectorXd&,
+                                                  const JointElements&, const double*, const double*,
+                                                  const Eigen::VectorXd&) const;
+template Eigen::VectorXd BeamSystem<2>::bending_in(const double*) const;
 template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template Guards BeamSystem<3>::guards(const Eigen::VectorXd&, double) const;
@@ -605,6 +733,17 @@ template MergedWeights BeamSystem<3>::change(const Due&, ChainState<3>&, Eigen::
 template std::vector<BeamSystem<3>::Contact> BeamSystem<3>::contacts() const;
 template BeamSystem<3>::Gap BeamSystem<3>::gap(const Contact&, const Eigen::VectorXd&) const;
 template void BeamSystem<3>::strike(Eigen::VectorXd&, double);
+template void BeamSystem<3>::find_resting();
+template void BeamSystem<3>::comes_to_rest(const Contact&, double) const;
+template void BeamSystem<3>::part(const Contact&);
+template void BeamSystem<3>::settle(const Contact&, const Eigen::VectorXd&);
+template void BeamSystem<3>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
+template std::optional<Eigen::VectorXd> BeamSystem<3>::press(const std::vector<Contact>&, const JointElements&,
+                                                             const double*, const Eigen::VectorXd&, double*) const;
+template double BeamSystem<3>::work_of_prescribed(const std::vector<Contact>&, const Eigen::VectorXd&,
+                                                  const JointElements&, const double*, const double*,
+                                                  const Eigen::VectorXd&) const;
+template Eigen::VectorXd BeamSystem<3>::bending_in(const double*) const;
 template void BeamSystem<3>::hit(ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

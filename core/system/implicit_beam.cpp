@@ -1,5 +1,6 @@
 #include "core/system/implicit_beam.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/element/active.hpp"
@@ -64,6 +65,7 @@ void ImplicitBeam<D>::rebuild() const {
   }
   for (std::size_t i = 0; i < places_.size(); ++i) places_[i].mark = after_nodes() + static_cast<Eigen::Index>(i);
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
+  contacts_ = system_.resting();
   if (!with_multipliers()) return;
   at_held_nodes([&](int node, const Support<D>& support, int joint) {
     const int end = joint >= 0 ? 2 + joint : node == 0 ? 0 : 1;
@@ -118,7 +120,7 @@ auto ImplicitBeam<D>::slope_conditions(const double* q) const -> const std::vect
 template <int D>
 Eigen::Index ImplicitBeam<D>::multipliers() const {
   refresh();
-  return static_cast<Eigen::Index>(constraints_.size()) + condition_count();
+  return static_cast<Eigen::Index>(constraints_.size() + contacts_.size()) + condition_count();
 }
 
 template <int D>
@@ -143,6 +145,7 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
     runs.push_back({place ? Field::multiplier : Field::slope_multiplier, at++});
   }
   if (condition_count() > 0) runs.push_back({Field::slope_multiplier, at, condition_count()});
+  at_contacts([&](const auto&, int, Eigen::Index multiplier) { runs.push_back({Field::multiplier, multiplier}); });
   return runs;
 }
 
@@ -205,6 +208,7 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   Eigen::VectorXd unused;
   expand(y_, a, unused);
   if (multipliers() == 0) return;
+  a.tail(system_.resting_forces().size()) = -system_.resting_forces() / reference_mass_;
   stand(t);
   // what the equations of motion lack is what the constraints give: their directions are orthonormal, node by node
   free_.resize(q.size());
@@ -325,6 +329,11 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     r[extra] = part.x;
     dissipation += part.dissipation;
   }
+  at_contacts([&](const auto& contact, int node, Eigen::Index multiplier) {
+    const Vec<double, D> pull = reference_mass_ * a[multiplier] / contact.distance * apart(node, q.data());
+    position<D>(r.data(), node) -= pull;
+    position<D>(r.data(), node + 1) += pull;
+  });
   for (std::size_t i = 0; i < system_.departed().size(); ++i) {
     const Eigen::Index at = departed() + D * static_cast<Eigen::Index>(i);
     const double mass = model.joints[static_cast<std::size_t>(system_.departed()[i])].law.mass;
@@ -374,6 +383,9 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
       r[at] = conditions.of.value(i, slopes);
     }
   }
+  at_contacts([&](const auto& contact, int node, Eigen::Index multiplier) {
+    r[multiplier] = contact.value(apart(node, q.data()));
+  });
   return dissipation;
 }
 
@@ -394,6 +406,11 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
       largest.velocity = std::max(largest.velocity, std::abs(conditions.of.rate(i, slopes, rates)));
     }
   }
+  at_contacts([&](const auto& contact, int node, Eigen::Index /*multiplier*/) {
+    const Vec<double, D> line = apart(node, q.data());
+    largest.position = std::max(largest.position, std::abs(contact.value(line)));
+    largest.velocity = std::max(largest.velocity, std::abs(line.dot(apart(node, v.data())) / contact.distance));
+  });
   return largest;
 }
 
@@ -602,12 +619,10 @@ template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 double by_v, double by_a) {
   assemble(q, v, a, t, by_v, by_a);
-  if (with_multipliers()) {
-    constraint_scale_ = reference_mass_ * by_a;  // as the rest of the tangent: by a mass and by_a
-    add_constraints(q, a, constraint_scale_);
-  } else {
-    constrain_tangent();
-  }
+  constraint_scale_ = reference_mass_ * by_a;  // as the rest of the tangent: by a mass and by_a
+  if (with_multipliers()) add_constraints(q, a, constraint_scale_);
+  add_contacts(q, a, constraint_scale_);
+  if (!with_multipliers()) constrain_tangent();
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by_a); });
   const auto nut = system_.nut_place();
   if (nut) take_nut(*nut, reference_mass_ * by_a);
@@ -780,6 +795,24 @@ void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::Vec
 }
 
 template <int D>
+void ImplicitBeam<D>::add_contacts(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale) {
+  at_contacts([&](const auto& contact, int node, Eigen::Index multiplier) {
+    auto& border = tangent_.add_border(node);
+    const Vec<double, D> line = scale / contact.distance * apart(node, q.data());
+    const auto first = static_cast<std::size_t>(node - border.first);
+    border.column[first].template head<D>() = border.row[first].template head<D>() = -line;
+    border.column[first + 1].template head<D>() = border.row[first + 1].template head<D>() = line;
+    const auto k = static_cast<std::size_t>(node);
+    const double turns = reference_mass_ * a[multiplier] / contact.distance;
+    const auto diagonal = [](Block& block) { return block.template topLeftCorner<D, D>().diagonal().array(); };
+    diagonal(tangent_.diagonal[k]) += turns;
+    diagonal(tangent_.diagonal[k + 1]) += turns;
+    diagonal(tangent_.upper[k]) -= turns;
+    diagonal(tangent_.lower[k + 1]) -= turns;
+  });
+}
+
+template <int D>
 void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                               double by_v, double by_a, Eigen::MatrixXd& dense) {
   assemble(q, v, a, t, by_v, by_a);
@@ -830,7 +863,13 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   const auto nut = system_.nut_place();
   const Eigen::Index x = nut ? places()[*nut].mark : 0;
   const double off = nut ? std::exchange(r[x], 0) : 0;
+  // what has a tangent of its own stands between the others and multipliers
+  const auto swap_multipliers = [&](Eigen::Index ahead) {
+    std::rotate(r.begin() + angles(), r.end() - ahead, r.end());
+  };
+  if (system_.spin()) swap_multipliers(multipliers());
   tangent_.solve(r.data());
+  if (system_.spin()) swap_multipliers(system_.spin()->coordinates());
   if (const Spin* spin = system_.spin()) {
     auto turn = r.segment(angles(), spin->coordinates());
     if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;
@@ -900,6 +939,15 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
     on_mass = system_.joint(i).law.mass * (acceleration - system_.gravity(t));
     if (system_.held(i) != nullptr) on_mass -= on_joint_node(i, free_);  // what holds it does the rest
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {  // and so does what it rests against
+    const auto& contact = contacts_[c];
+    const Vec<double, D> push = system_.resting_forces()[static_cast<Eigen::Index>(c)] * contact.line(y.data());
+    for (std::size_t i = 0; i < places().size(); ++i) {
+      auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
+      if (places()[i].node == contact.ahead) on_mass -= push;
+      if (places()[i].node == contact.behind) on_mass += push;
+    }
   }
   return forces;
 }

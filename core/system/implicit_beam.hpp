@@ -115,7 +115,22 @@ class ImplicitBeam final : public SecondOrderSystem {
     return count;
   }
   /// Where the multiplier of the first of them stands.
-  Eigen::Index first_slope_multiplier() const { return coordinates() - condition_count(); }
+  Eigen::Index first_slope_multiplier() const { return first_contact_multiplier() - condition_count(); }
+  /// Calls function(contact, first of two nodes next to each other, where its multiplier stands) for what rests against
+  /// each other: a constraint with a multiplier, whatever supports are.
+  template <class Function>
+  void at_contacts(const Function& function) const {
+    refresh();
+    Eigen::Index multiplier = first_contact_multiplier();
+    for (const auto& contact : contacts_) {
+      int node = contact.behind;
+      for (const JointPlace& place : places_) node += place.cut && contact.behind >= place.node ? 1 : 0;
+      function(contact, node, multiplier++);
+    }
+  }
+  Eigen::Index first_contact_multiplier() const { return coordinates() - static_cast<Eigen::Index>(contacts_.size()); }
+  /// From the one to the other.
+  Vec<double, D> apart(int node, const double* q) const { return position<D>(q, node + 1) - position<D>(q, node); }
   bool with_multipliers() const { return system_.model().constraints == Constraints::multipliers; }
   /// Where the coordinates of the joints stand here.
   const std::vector<JointPlace>& places() const {
@@ -199,6 +214,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void constrain_tangent();
   /// Rows and columns of the constraints, times `scale`, and what their forces add to the tangent.
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
+  void add_contacts(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
   /// Of a joint at which the beam pulls by `pull` [N]; all that acts on the nodes is in the tangent.
   void add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, double by_v, double by_a);
@@ -229,9 +245,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   mutable DrivenPoints driven_points_;          ///< of that time
   mutable std::vector<JointPlace> places_;      ///< of the joints in these coordinates
   mutable std::vector<Constraint> constraints_;
-  mutable std::vector<Conditions> slope_conditions_;  ///< behind them
-  mutable double reference_mass_ = 1;                 ///< [kg], makes an acceleration of a multiplier
-  double constraint_scale_ = 1;                       ///< of the constraints' equations, that of the last tangent
+  mutable std::vector<Conditions> slope_conditions_;               ///< behind them
+  mutable std::vector<typename BeamSystem<D>::Contact> contacts_;  ///< behind those
+  mutable double reference_mass_ = 1;                              ///< [kg], makes an acceleration of a multiplier
+  double constraint_scale_ = 1;  ///< of the constraints' equations, that of the last tangent
   BorderedBlockTridiagonal<B> tangent_;
   SpinTangent spin_tangent_;
   /// A nut moves by what the angles do, dx = g . dq + off, and what acts on it turns them by g: with all else solved

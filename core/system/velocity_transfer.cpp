@@ -16,6 +16,13 @@ constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 
 template <int D>
 bool BeamSystem<D>::solve_mass(const JointElements& elements, const double* q, double* p) const {
+  if (!solve_mass_apart(elements, q, p)) return false;
+  const auto count = static_cast<Eigen::Index>(resting_.size());
+  return count == 0 || press(resting_, elements, q, Eigen::VectorXd::Zero(count), p);
+}
+
+template <int D>
+bool BeamSystem<D>::solve_mass_apart(const JointElements& elements, const double* q, double* p) const {
   if (elements.empty()) {
     solve_without_joint(*left_, *right_, p);
     if (!rider_) return true;
@@ -195,6 +202,7 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
 }
 
 template bool BeamSystem<2>::solve_mass(const JointElements&, const double*, double*) const;
+template bool BeamSystem<2>::solve_mass_apart(const JointElements&, const double*, double*) const;
 template void BeamSystem<2>::multiply_mass(const JointElements&, const double*, const double*, double*) const;
 template void BeamSystem<2>::push_rider(const RiderMotion<double, 2>&, const Vec<double, 2>&, double*) const;
 template Eigen::VectorXd BeamSystem<2>::excess_momentum(const ChainState<2>&, const ChainState<2>&, int, int) const;
@@ -203,6 +211,7 @@ template Eigen::MatrixXd BeamSystem<2>::rigid_momenta(const JointElements&, cons
 template Eigen::VectorXd BeamSystem<2>::momenta(const Eigen::VectorXd&, double) const;
 template void BeamSystem<2>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 template bool BeamSystem<3>::solve_mass(const JointElements&, const double*, double*) const;
+template bool BeamSystem<3>::solve_mass_apart(const JointElements&, const double*, double*) const;
 template void BeamSystem<3>::multiply_mass(const JointElements&, const double*, const double*, double*) const;
 template void BeamSystem<3>::push_rider(const RiderMotion<double, 3>&, const Vec<double, 3>&, double*) const;
 template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, const ChainState<3>&, int, int) const;

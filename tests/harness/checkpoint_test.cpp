@@ -95,6 +95,22 @@ std::vector<Case> cases() {
                    scene["beam"]["elements"] = 8;
                    scene["sliding_joints"] = {{{"mass", 0.8}, {"position", 0.3}}, {{"mass", 0.5}, {"position", 0.7}}};
                  }});
+  const auto piled = [](Json& scene) {  // the first one rests against a support, and then the second one against it
+    scene.erase("sliding_mass");
+    scene["beam"].update({{"elements", 8}, {"material", {{"density", 1200}, {"youngs_modulus", 5e6}}}});
+    scene["supports"] = {{{"at", "start"}, {"type", "pin"}}, {{"at", "end"}, {"type", "pin"}}};
+    scene["sliding_joints"] = {{{"mass", 0.8}, {"position", 0.2}, {"velocity", -2}, {"at_support", "rest"}},
+                               {{"mass", 0.5}, {"position", 0.5}, {"velocity", -2}}};
+    scene["contact"] = {{"joints", "rest"}};
+  };
+  all.push_back({"masses that rest", [alpha, piled](Json& scene) {
+                   alpha(scene);
+                   piled(scene);
+                 }});
+  all.push_back({"masses that rest, explicit", [piled](Json& scene) {
+                   scene["integrator"] = {{"type", "dopri5"}, {"rtol", 1e-6}};
+                   piled(scene);
+                 }});
   all.push_back({"a nut on a screw", [](Json& scene) {
                    scene.erase("sliding_mass");
                    scene["integrator"] = {{"type", "dopri5"}, {"rtol", 1e-6}};
