@@ -413,7 +413,7 @@ class BeamSystem final : public EventedOde {
   double touching() const { return model_.contact_distance * model_.length_control.standard_length; }
   /// From now on its nodes rest against each other, or no longer.
   void settle(const Contact& contact, const Eigen::VectorXd& y);
-  void part(const Contact& contact);
+  void part(const Contact& contact, const Eigen::VectorXd& y);
   void find_resting();
   /// All that touch and come nearer strike each other at once, and what rests bears it: new velocities, and what rests
   /// then. Throws ComputationFailed where it cannot.

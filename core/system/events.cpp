@@ -371,8 +371,8 @@ void BeamSystem<D>::find_resting() {
 }
 
 template <int D>
-void BeamSystem<D>::part(const Contact& contact) {
-  const double clear = contact.distance - clearance * model_.length_control.standard_length;
+void BeamSystem<D>::part(const Contact& contact, const Eigen::VectorXd& y) {
+  const double clear = gap(contact, y).distance - clearance * model_.length_control.standard_length;
   touches_[contact.which][contact.support < 0 ? 0 : 1] = {clear, false};
   find_resting();
 }
@@ -457,7 +457,7 @@ void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorX
     std::size_t pulled = 0;
     while (pulled < bearing.size() && !pulls(pulled)) ++pulled;
     if (pulled < bearing.size()) {
-      part(bearing[pulled]);
+      part(bearing[pulled], y);
       bearing.erase(bearing.begin() + static_cast<std::ptrdiff_t>(pulled));
       continue;
     }
@@ -569,7 +569,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
         const auto parts = std::ranges::find_if(resting_, [&](const Contact& contact) {
           return contact.which == due.which && (contact.support < 0) == (due.direction == Direction::backward);
         });
-        part(Contact(*parts));
+        part(Contact(*parts), y);
         chain = this->chain(y);
       }
       return {};
@@ -707,7 +707,7 @@ template BeamSystem<2>::Gap BeamSystem<2>::gap(const Contact&, const Eigen::Vect
 template void BeamSystem<2>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<2>::find_resting();
 template void BeamSystem<2>::comes_to_rest(const Contact&, double) const;
-template void BeamSystem<2>::part(const Contact&);
+template void BeamSystem<2>::part(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<2>::settle(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<2>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
 template std::optional<Eigen::VectorXd> BeamSystem<2>::press(const std::vector<Contact>&, const JointElements&,
@@ -735,7 +735,7 @@ template BeamSystem<3>::Gap BeamSystem<3>::gap(const Contact&, const Eigen::Vect
 template void BeamSystem<3>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<3>::find_resting();
 template void BeamSystem<3>::comes_to_rest(const Contact&, double) const;
-template void BeamSystem<3>::part(const Contact&);
+template void BeamSystem<3>::part(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<3>::settle(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<3>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
 template std::optional<Eigen::VectorXd> BeamSystem<3>::press(const std::vector<Contact>&, const JointElements&,
