@@ -7,7 +7,7 @@
 
 #include "core/element/circular_shaft.hpp"
 #include "core/scene/build.hpp"
-#include "core/system/flowing_beam.hpp"
+#include "core/system/steady_flow.hpp"
 
 namespace {
 
@@ -109,13 +109,14 @@ template <int D>
 void flowing(benchmark::State& state, bool spins) {
   const int elements = static_cast<int>(state.range(0));
   const CircularShaft shaft{.radius = 0.01, .density = 7200, .youngs_modulus = 2e7};
-  FlowingModel<D> model;
+  BeamModel<D> model;
   model.section = shaft.section();
   if (spins) model.spin.emplace().section = shaft.spin();
   model.motion = MeshMotion({{0, steadily(0, -0.1)}, {elements / 2, steadily(0.5, 1)}, {elements, steadily(1, 0.1)}});
-  model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
-  FlowingBeam<D> beam(model);
-  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0), dydt(y.size());
+  model.start = model.end = Support<D>::pin();
+  model.books_flow = false;
+  BeamSystem<D> beam(model, straight_chain(model));
+  Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0), dydt(y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += 1e-6 * std::sin(static_cast<double>(i));
   for (auto _ : state) {
     beam.rhs(y, dydt, 0);

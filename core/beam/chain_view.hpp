@@ -82,6 +82,9 @@ struct ChainView {
   /// Rate at which the integral of r along the beam grows because matter comes in through its ends [m^2/s].
   Vec<double, D> inflow() const {
     Vec<double, D> sum = Vec<double, D>::Zero();
+    if (marks != nullptr) {
+      return marks->back().rate * position<D>(q, mesh.last()) - marks->front().rate * position<D>(q, 0);
+    }
     for (const JointPlace& joint : joints) {
       if (joint.node == 0) sum -= rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q);
       if (joint.node == mesh.last()) {

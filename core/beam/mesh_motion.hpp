@@ -1,32 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "core/geometry/prescribed.hpp"
+
 namespace vlbeam {
-
-/// A quantity that is given as a function of time, with its first two derivatives.
-struct Prescribed {
-  double value = 0, rate = 0, acceleration = 0;
-};
-using TimeFunction = std::function<Prescribed(double t)>;
-
-/// value + rate t.
-inline TimeFunction steadily(double value, double rate) {
-  return [=](double t) { return Prescribed{value + rate * t, rate, 0}; };
-}
-
-/// What grows smoothly from 0 to 1 within `duration` [s]: S(t/duration), S(s) = s^4 (35 - 84 s + 70 s^2 - 20 s^3), with
-/// three continuous derivatives; 0 before and 1 behind, and so a step at t = 0 where the duration is 0.
-inline Prescribed smooth_ramp(double t, double duration) {
-  if (t >= duration) return {1, 0, 0};
-  if (t <= 0) return {0, 0, 0};
-  const double s = t / duration, v = s * (1 - s);
-  return {s * s * s * s * (35 + s * (-84 + s * (70 - 20 * s))), 140 * v * v * v / duration,
-          420 * v * v * (1 - 2 * s) / (duration * duration)};
-}
 
 /// Index of the element between nodes at `marks` that holds the material point x; of the first or the last one beyond
 /// the ends.
@@ -51,6 +31,8 @@ class MeshMotion {
   explicit MeshMotion(std::vector<Guide> guides);
 
   int last() const { return guides_.empty() ? 0 : guides_.back().node; }  ///< index of the last node
+  /// Material coordinate of the first node at time t.
+  Prescribed first(double t) const { return guides_.front().x(t); }
   /// Writes the material coordinates of all nodes at time t.
   void at(double t, std::vector<Prescribed>& nodes) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/beam/support.hpp"
+#include "core/geometry/prescribed.hpp"
 
 namespace vlbeam {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/element/driven_tangent.hpp"
+#include "core/geometry/prescribed.hpp"
 
 namespace vlbeam {
 

@@ -17,8 +17,9 @@ namespace vlbeam {
 template <int D>
 struct ChainState {
   Mesh mesh;
-  std::vector<double> q, rate;  ///< nodal arrays
-  std::vector<double> rest;     ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
+  std::vector<double> q, rate;     ///< nodal arrays
+  std::vector<double> mark_rates;  ///< of the nodes' material coordinates, where all of them travel [m/s]
+  std::vector<double> rest;        ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
   const Axis<D>* rest_curve = nullptr;  ///< what new nodes follow then
   /// The beam's slope behind a joint.
   struct Kink {
@@ -61,6 +62,7 @@ struct ChainState {
     return result;
   }
   MovingCoordinates<double, D> rates(int k) const {
+    if (!mark_rates.empty()) return {element_nodes<D>(rate.data(), k), mark_rate(k), mark_rate(k + 1)};
     const Joint *const start = joint_at(k), *const end = joint_at(k + 1);
     MovingCoordinates<double, D> result{element_nodes<D>(rate.data(), k), start != nullptr ? start->rate : 0,
                                         end != nullptr ? end->rate : 0};
@@ -75,8 +77,14 @@ struct ChainState {
     }
     return nullptr;
   }
+  /// Rate of a node's material coordinate [m/s].
+  double mark_rate(int node) const {
+    if (!mark_rates.empty()) return mark_rates[static_cast<std::size_t>(node)];
+    const Joint* const joint = joint_at(node);
+    return joint != nullptr ? joint->rate : 0;
+  }
   /// Whether an end of element k moves.
-  bool moves(int k) const { return joint_at(k) != nullptr || joint_at(k + 1) != nullptr; }
+  bool moves(int k) const { return !mark_rates.empty() || joint_at(k) != nullptr || joint_at(k + 1) != nullptr; }
 
   bool curved_at_rest() const { return !rest.empty(); }
   /// Nodes of element k in its rest shape.

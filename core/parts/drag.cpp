@@ -11,7 +11,7 @@ ShapeTable<Real> shape_at(const Weights<Real>& weights, bool unit, double u) {
 }  // namespace
 
 template <int D>
-double Drag<D>::add_forces(const ChainView<D>& beam, double* out) const {
+double Drag<D>::add_forces(const ChainView<D>& beam, double* out, double* on_marks) const {
   double taken = 0;
   const auto& rule = gauss_legendre(quadrature_points);
   for (int k = 0; k < beam.mesh.elements(); ++k) {
@@ -23,6 +23,9 @@ double Drag<D>::add_forces(const ChainView<D>& beam, double* out) const {
       f.on_r = share * element.length() * this->force(at.v, at.r_x);
       add_point_force(beam, k, at, f, out);
       taken -= f.on_r.dot(at.v);
+      if (on_marks == nullptr) continue;
+      on_marks[k] += f.on_r.dot(at.y_a);
+      on_marks[k + 1] += f.on_r.dot(at.y_b);
     }
   }
   return taken;

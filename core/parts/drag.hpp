@@ -41,15 +41,17 @@ struct Drag {
     return f;
   }
 
-  /// Adds it to an array like q; returns the power that it takes [W].
-  double add_forces(const ChainView<D>& beam, double* force) const;
+  /// Adds it to an array like q; returns the power that it takes [W]. Where nodes are prescribed, what it does along
+  /// the beam [N] is added to `on_marks`, one entry a node, unless that is null.
+  double add_forces(const ChainView<D>& beam, double* force, double* on_marks = nullptr) const;
   /// Calls `add(element, matrix)` with the derivatives of minus it by the element's coordinates, and by_v times those
   /// by their rates.
   template <class Add>
   void add_tangent(const ChainView<D>& beam, double by_v, const Add& add) const {
     if (!present()) return;
     for (int k = 0; k < beam.mesh.elements(); ++k) {
-      add(k, beam.at_joint(k) ? moving_tangent(beam, k, by_v) : fixed_tangent(beam, k, by_v));
+      const bool moves = beam.at_joint(k) || beam.marks != nullptr;
+      add(k, moves ? moving_tangent(beam, k, by_v) : fixed_tangent(beam, k, by_v));
     }
   }
 

@@ -400,6 +400,7 @@ BeamModel<D> build_model(const Scene& scene) {
     spin.torques = std::move(torques);
   }
   model.loads = std::move(loads);
+  if (flows(scene)) add_flow<D>(scene, axis.tangent(0).normalized(), model);
   return model;
 }
 
@@ -502,6 +503,11 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
 
 template <int D>
 ChainState<D> build_chain(const Scene& scene) {
+  if (flows(scene)) {
+    ChainState<D> chain = flowing_chain(scene, build_model<D>(scene));
+    add_rigid_motion(scene, build_axis<D>(scene), chain);
+    return chain;
+  }
   ChainState<D> chain = build_shape<D>(scene);
   set_in_motion(scene, chain);
   return chain;

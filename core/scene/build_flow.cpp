@@ -11,11 +11,6 @@
 namespace vlbeam {
 namespace {
 
-template <int D>
-Vec<double, D> direction_of(const Scene& scene) {
-  return build_axis<D>(scene).tangent(0).normalized();
-}
-
 std::vector<MeshMotion::Guide> build_guides(const Scene& scene) {
   const int last = scene.beam.elements;
   if (!scene.flow || scene.flow->nodes.empty()) return {{0, steadily(0, 0)}, {last, steadily(beam_length(scene), 0)}};
@@ -44,57 +39,67 @@ double initial_velocity(const Scene& scene) {
 }
 
 template <int D>
-FlowingModel<D> build_flowing_model(const Scene& scene) {
-  const BeamModel<D> beam = build_model<D>(scene);
-  const Vec<double, D> along = direction_of<D>(scene);
-  FlowingModel<D> model;
-  model.section = beam.section;
-  model.spin = beam.spin;
+void add_flow(const Scene& scene, const Vec<double, D>& along, BeamModel<D>& model) {
   if (scene.beam.rotary_inertia != BendingInertia::none) {
     const double rhoIp = build_spin(scene.beam).rhoIp;
     model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = 0, .direction = along};
     if (scene.beam.rotary_inertia == BendingInertia::gyroscopic) model.rotary.gyroscopic = rhoIp * initial_spin(scene);
   }
-  model.formulation = scene.formulation;
-  model.transport = weight_transport(scene);
-  model.quadrature_points = quadrature_points(scene);
-  model.gravity = beam.gravity;
-  model.gravity_ramp = scene.gravity_ramp;
   model.motion = MeshMotion(build_guides(scene));
-  std::vector<Prescribed> nodes;
-  model.motion.at(0, nodes);
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    model.weights.push_back({scene.beam.weights, nodes[k].value, nodes[k + 1].value});
+  if (!scene.flow) return;
+  for (const auto& guide : scene.flow->nodes) {
+    if (guide.support == SupportType::free) continue;
+    model.held_nodes.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
   }
-  const int last = model.motion.last();
-  if (scene.start.type != SupportType::free) model.supports.push_back({0, beam.start});
-  if (scene.end.type != SupportType::free) model.supports.push_back({last, beam.end});
-  if (scene.flow) {
-    for (const auto& guide : scene.flow->nodes) {
-      if (guide.support == SupportType::free) continue;
-      model.supports.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
-    }
-  }
-  model.loads = beam.loads;
-  model.rest = beam.rest;
-  model.ledger = true;
-  return model;
 }
+
+namespace {
+
+/// Matter that moves along its axis as it was built.
+template <int D>
+ChainState<D> curved_chain(const Scene& scene, const Axis<D>& axis, const BeamModel<D>& model) {
+  std::vector<Prescribed> marks;
+  model.motion.at(0, marks);
+  ChainState<D> chain;
+  for (const Prescribed& x : marks) {
+    chain.mesh.x.push_back(x.value);
+    chain.mark_rates.push_back(x.rate);
+  }
+  const CubicChain<D> shape = even_chain(axis, chain.mesh.x, !is_polynomial(scene.beam.element));
+  chain.q.resize(marks.size() * static_cast<std::size_t>(node_size<D>));
+  chain.rate.resize(chain.q.size());
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const int node = static_cast<int>(k);
+    position<D>(chain.q.data(), node) = shape.r[k];
+    slope<D>(chain.q.data(), node) = shape.r_x[k];
+    const double along = initial_velocity(scene) + marks[k].rate;
+    const auto at = axis.derivatives(marks[k].value);
+    position<D>(chain.rate.data(), node) = along * at[1];
+    slope<D>(chain.rate.data(), node) = along * at[2];
+    if (k > 0) chain.mesh.weights.push_back({shape.weights[k - 1], marks[k - 1].value, marks[k].value});
+  }
+  if (model.rest) chain.rest = chain.q;
+  return chain;
+}
+
+}  // namespace
 
 template <int D>
-Eigen::VectorXd initial_flow(const Scene& scene, FlowingBeam<D>& beam) {
-  const Vec<double, D> start = build_axis<D>(scene).position(0), along = direction_of<D>(scene);
-  const double stretch = initial_stretch(scene);
-  const Vec<double, D> origin = start + along * (stretch * beam.nodes_at(0).front().value);
-  Eigen::VectorXd y = beam.straight_state(origin, along, stretch, initial_velocity(scene), initial_spin(scene));
-  if (const Spin* spin = beam.spin())
-    spin->start(y.data() + beam.angle(0), y.data() + beam.coordinates() + beam.angle(0));
-  return scene.flow && scene.flow->steady ? steady_state(beam, y) : y;
+ChainState<D> flowing_chain(const Scene& scene, const BeamModel<D>& model) {
+  const Axis<D> axis = build_axis<D>(scene);
+  if (!axis.straight()) return curved_chain(scene, axis, model);
+  const Vec<double, D> along = axis.tangent(0).normalized();
+  const double stretch = initial_stretch(scene), first = model.motion.first(0).value;
+  ChainState<D> chain =
+      straight_chain<D>(model, axis.position(0) + along * (stretch * first), along, stretch, initial_velocity(scene));
+  for (WeightFunction& weights : chain.mesh.weights) weights.w = scene.beam.weights;
+  if (model.rest) chain.rest = chain.q;
+  return chain;
 }
 
-template FlowingModel<2> build_flowing_model(const Scene&);
-template FlowingModel<3> build_flowing_model(const Scene&);
-template Eigen::VectorXd initial_flow(const Scene&, FlowingBeam<2>&);
-template Eigen::VectorXd initial_flow(const Scene&, FlowingBeam<3>&);
+template void add_flow(const Scene&, const Vec<double, 2>&, BeamModel<2>&);
+template void add_flow(const Scene&, const Vec<double, 3>&, BeamModel<3>&);
+template ChainState<2> flowing_chain(const Scene&, const BeamModel<2>&);
+template ChainState<3> flowing_chain(const Scene&, const BeamModel<3>&);
 
 }  // namespace vlbeam

@@ -1,17 +1,18 @@
 #pragma once
 
+#include "core/length_control/chain_state.hpp"
 #include "core/scene/derived.hpp"
-#include "core/system/flowing_beam.hpp"
+#include "core/system/beam_model.hpp"
 
 namespace vlbeam {
 
-/// The model of a scene that flows(), validated or not; `D` is its dimension. Throws InvalidInput.
+/// How the nodes of a scene that flows() travel, what holds inner ones, and rotary inertia. `along` is the axis.
+/// Throws InvalidInput.
 template <int D>
-FlowingModel<D> build_flowing_model(const Scene& scene);
+void add_flow(const Scene& scene, const Vec<double, D>& along, BeamModel<D>& model);
 
-/// Its initial state: straight, stretched by the tension, moving and spinning evenly; or the steady flow near it.
-/// Throws ComputationFailed where there is none.
+/// The initial mesh and motion of such a scene: straight, stretched by the tension, moving evenly.
 template <int D>
-Eigen::VectorXd initial_flow(const Scene& scene, FlowingBeam<D>& beam);
+ChainState<D> flowing_chain(const Scene& scene, const BeamModel<D>& model);
 
 }  // namespace vlbeam

@@ -100,7 +100,7 @@ double merge_below(const Scene& scene);
 /// With what is not given.
 AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 
-/// Whether a scene flows or has rotary inertia: its beam is then a FlowingBeam.
+/// Whether a scene flows or has rotary inertia: the nodes of its beam then travel as prescribed, or stand still so.
 inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_inertia != BendingInertia::none; }
 
 /// Whether its samples have what FlowSample holds.

@@ -10,8 +10,12 @@ namespace vlbeam {
 
 /// Where a field of the model stands in a scene, as a JSON pointer.
 inline std::string pointer_to(const std::string& field) {
-  constexpr std::array<std::pair<const char*, const char*>, 10> places{{
+  constexpr std::array<std::pair<const char*, const char*>, 14> places{{
       {"mesh motion", "/flow/nodes"},
+      {"weights", "/beam/weights"},
+      {"supports", "/supports"},
+      {"rotary inertia", "/beam/rotary_inertia"},
+      {"tension", "/flow/tension"},
       {"drives", "/spin/drives"},
       {"loads", "/loads"},
       {"integrator", "/integrator/type"},

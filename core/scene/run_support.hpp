@@ -28,8 +28,7 @@ inline StrainSample strain_sample(const StrainExtremes& extremes) {
 
 /// The whole shape of a beam at time t.
 template <int D>
-Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport,
-                               const std::vector<double>& mark_rates = {});
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport);
 
 /// Where a run stops to look: at the samples, and at the configurations, both in increasing order.
 struct Stops {

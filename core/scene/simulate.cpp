@@ -3,24 +3,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <type_traits>
 
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
-#include "core/scene/build_flow.hpp"
 #include "core/scene/energy_ledger.hpp"
 #include "core/scene/initial_equilibrium.hpp"
 #include "core/scene/model_errors.hpp"
 #include "core/scene/run_support.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
+#include "core/system/steady_flow.hpp"
 
 namespace vlbeam {
 
-/// `mark_rates` are those of all nodes along the beam, where more than the joint moves.
 template <int D>
-Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport,
-                               const std::vector<double>& mark_rates) {
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
   Configuration shape;
   shape.t = t;
   shape.x = chain.mesh.x;
@@ -44,9 +41,7 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
     shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
   }
   for (int k = 0; k <= chain.mesh.last(); ++k) {
-    const auto* const joint = chain.joint_at(k);
-    const double at_joint = joint != nullptr ? joint->rate : 0;
-    const double x_rate = mark_rates.empty() ? at_joint : mark_rates[static_cast<std::size_t>(k)];
+    const double x_rate = chain.mark_rate(k);
     shape.rates.x.push_back(x_rate);
     shape.rates.v.push_back(point_of<D>(position<D>(chain.rate.data(), k) - x_rate * slope<D>(chain.q.data(), k)));
     shape.rates.r_x.push_back(point_of<D>(slope<D>(chain.rate.data(), k)));
@@ -54,42 +49,37 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
   return shape;
 }
 
-template Configuration configuration_of(const ChainState<2>&, double, WeightTransport, const std::vector<double>&);
-template Configuration configuration_of(const ChainState<3>&, double, WeightTransport, const std::vector<double>&);
+template Configuration configuration_of(const ChainState<2>&, double, WeightTransport);
+template Configuration configuration_of(const ChainState<3>&, double, WeightTransport);
 
 namespace {
 
-/// Runs one scene of a known dimension and kind of beam, and fills in its result.
-template <int D, class System>
+/// Runs one scene of a known dimension, and fills in its result.
+template <int D>
 class Run {
  public:
-  template <class... Parts>
-  Run(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints, const Parts&... parts)
-      : scene_(scene), progress_(progress), checkpoints_(checkpoints), stops_(scene), system_(parts...) {
+  Run(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints, const ChainState<D>& chain)
+      : scene_(scene),
+        progress_(progress),
+        checkpoints_(checkpoints),
+        stops_(scene),
+        system_(build_model<D>(scene), chain) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_.on_step = [this](double t) { return !progress_ || progress_(t); };
-    if constexpr (!prescribed) system_.on_event = [this](const EventRecord<D>& record) { event(record); };
+    system_.on_event = [this](const EventRecord<D>& record) { event(record); };
   }
 
   /// Remembers what the first sample says of the equilibrium that the run starts from.
   void starts_from(const StaticSample& equilibrium) { start_ = equilibrium; }
 
   RunResult operator()() {
-    std::vector<double> x;
-    if constexpr (prescribed) {
-      for (const Prescribed& node : system_.nodes_at(0)) x.push_back(node.value);
-    } else {
-      x = system_.mesh().x;
-    }
+    const std::vector<double>& x = system_.mesh().x;
     double shortest = x.back() - x.front();
     for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
     const auto options = integration_options(scene_, system_.model().section, shortest);
     const auto initial = [this]() -> Eigen::VectorXd {
-      if constexpr (prescribed) {
-        return initial_flow(scene_, system_);
-      } else {
-        return system_.initial_state();
-      }
+      const Eigen::VectorXd y = system_.initial_state();
+      return scene_.flow && scene_.flow->steady ? steady_state(system_, y) : y;
     };
     run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
     result_.timing.motion -= result_.timing.length_control + observing_;
@@ -98,33 +88,19 @@ class Run {
   }
 
  private:
-  static constexpr bool prescribed = std::is_same_v<System, FlowingBeam<D>>;  ///< all nodes are
-
-  ChainState<D> chain_at(const Eigen::VectorXd& y, double t) const {
-    if constexpr (prescribed) {
-      return system_.chain(y, t);
-    } else {
-      return system_.chain(y);
-    }
-  }
-
   void keep_shape(const Eigen::VectorXd& y, double t) {
-    std::vector<double> mark_rates;
-    if constexpr (prescribed) {
-      for (const Prescribed& node : system_.nodes_at(t)) mark_rates.push_back(node.rate);
-    }
-    const ChainState<D> chain = chain_at(y, t);
-    Configuration shape = configuration_of(chain, t, weight_transport(scene_), mark_rates);
+    const ChainState<D> chain = system_.chain(y, t);
+    Configuration shape = configuration_of(chain, t, weight_transport(scene_));
     for (int k = 0; system_.spin() != nullptr && k <= chain.mesh.last(); ++k) {
-      if constexpr (prescribed) {
-        shape.angles.push_back(y[system_.angle(k)]);
-        shape.rates.spins.push_back(y[system_.coordinates() + system_.angle(k)]);
-      } else {
-        const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
-        const auto section = system_.spin()->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
-        shape.angles.push_back(section.angle);
-        shape.rates.spins.push_back(section.spin);
+      const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
+      if (system_.marks() != nullptr) {
+        shape.angles.push_back(angles[system_.spin()->angle(k)]);
+        shape.rates.spins.push_back(rates[system_.spin()->angle(k)]);
+        continue;
       }
+      const auto section = system_.spin()->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
+      shape.angles.push_back(section.angle);
+      shape.rates.spins.push_back(section.spin);
     }
     result_.configurations.push_back(std::move(shape));
   }
@@ -137,7 +113,7 @@ class Run {
       const Observation<D> own = system_.observe(y, t, system_.model().quadrature_points);
       Sample sample;
       sample.t = t;
-      const ChainState<D> chain = chain_at(y, t);
+      const ChainState<D> chain = system_.chain(y, t);
       sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
       sample.beam_length = seen.beam_length;
       sample.beam_length_rate = seen.beam_length_rate;
@@ -149,7 +125,7 @@ class Run {
       const OuterForces<D> forces = system_.forces(y, t);
       if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
       for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
-      if constexpr (!prescribed) look_at_mass(y, chain, forces, sample);
+      look_at_mass(y, chain, forces, sample);
       if (result_.samples.empty()) {
         first_total_ = sample.discrete_total;
         sample.equilibrium = start_;
@@ -254,7 +230,7 @@ class Run {
   ProgressCallback progress_;
   const Checkpoints* checkpoints_;
   Stops stops_;
-  System system_;
+  BeamSystem<D> system_;
   RunResult result_;
   std::optional<StaticSample> start_;
   double first_total_ = 0, jumps_ = 0, most_energy_ = 0, observing_ = 0;
@@ -274,7 +250,7 @@ RunResult simulate_from_equilibrium(const Scene& scene, const ProgressCallback& 
   }
   if (!start) return none;
   set_in_motion(scene, start->chain);
-  Run<D, BeamSystem<D>> run(scene, progress, checkpoints, build_model<D>(scene), start->chain);
+  Run<D> run(scene, progress, checkpoints, start->chain);
   run.starts_from(start->seen);
   return run();
 }
@@ -282,9 +258,8 @@ RunResult simulate_from_equilibrium(const Scene& scene, const ProgressCallback& 
 template <int D>
 RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
   if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
-  if (flows(scene)) return Run<D, FlowingBeam<D>>(scene, progress, checkpoints, build_flowing_model<D>(scene))();
   if (starts_in_equilibrium(scene)) return simulate_from_equilibrium<D>(scene, progress, checkpoints);
-  return Run<D, BeamSystem<D>>(scene, progress, checkpoints, build_model<D>(scene), build_chain<D>(scene))();
+  return Run<D>(scene, progress, checkpoints, build_chain<D>(scene))();
 }
 
 }  // namespace

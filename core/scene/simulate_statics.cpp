@@ -12,7 +12,7 @@ namespace {
 template <int D>
 Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number) {
   const auto seen = system.observe(at.y, at.factor, ledger_points, true);
-  const ChainState<D> chain = system.chain(at.y);
+  const ChainState<D> chain = system.chain(at.y, number);
   Sample sample;
   sample.t = number;
   sample.equilibrium = static_sample_of(at);
@@ -60,7 +60,7 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
   const auto on_point = [&](const Equilibrium& at) {
     const auto number = static_cast<double>(result.samples.size());
     result.samples.push_back(static_sample(system, at, number));
-    result.configurations.push_back(configuration_of(system.chain(at.y), number, weight_transport(scene)));
+    result.configurations.push_back(configuration_of(system.chain(at.y, number), number, weight_transport(scene)));
     last = at;
     const bool goes_on = !progress || progress(at.factor);
     if (!goes_on) result.status = RunStatus::interrupted;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/beam/mesh_motion.hpp"
+#include "core/geometry/prescribed.hpp"
 #include "core/scene/scene.hpp"
 
 namespace vlbeam {

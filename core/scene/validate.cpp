@@ -601,7 +601,8 @@ void check_motion(const Scene& scene, const std::string& at, SupportType type, c
     refuse("/length_control/velocities", quoted(scene.length_control.velocities),
            "with moving supports it must be \"nodal\" or \"projected\": they give energy and momentum away");
   }
-  if (flows(scene)) refuse(at, "this key", "it goes together with neither /flow nor rotary inertia");
+  if (scene.beam.rotary_inertia != BendingInertia::none) refuse(at, "this key", "it does not go with rotary inertia");
+  if (flows(scene) && motion.angle) refuse(at + "/angle", "this key", "it does not go with /flow");
 }
 
 void check_support_motion(const Scene& scene) {
@@ -639,7 +640,6 @@ void check_loads(const Scene& scene) {
       if (load.at == LoadPlace::beam) {
         refuse(at + "/at", quoted(load.at), "a moment is at a \"node\" or a \"point\"");
       }
-      if (flows(scene)) refuse(at + "/type", "\"moment\"", "it goes together with neither /flow nor rotary inertia");
     }
     if (load.type == LoadType::force && load.direction == Point{}) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
@@ -691,8 +691,9 @@ template <int D>
 void check_initial_velocity(const Scene& scene) {
   if (!scene.initial_velocity) return;
   const InitialVelocitySpec& motion = *scene.initial_velocity;
-  if (flows(scene)) {
-    refuse("/initial_velocity", "this key", "it goes together with neither /flow nor rotary inertia");
+  for (std::size_t i = 0; scene.flow && i < scene.flow->nodes.size(); ++i) {
+    if (scene.flow->nodes[i].support == SupportType::free) continue;
+    refuse("/initial_velocity", "this key", "it does not go with /flow/nodes/" + std::to_string(i) + "/support");
   }
   if (motion.axis == Point{}) refuse("/initial_velocity/axis", "a vector of zeros", "it must have a direction");
   const Axis<D> axis = build_axis<D>(scene);
@@ -720,15 +721,6 @@ void check_initial_velocity(const Scene& scene) {
     const bool turned = starts_in_equilibrium(scene) && joints[i].support == SupportType::pin;
     through.type = turned ? SupportType::pin : SupportType::slide;
     check(joint_key(scene, i), through, joints[i].position);
-  }
-}
-
-void check_drag(const Scene& scene) {
-  if (!flows(scene)) return;
-  if (scene.drag) refuse("/drag", "this key", "it goes together with neither /flow nor rotary inertia");
-  if (scene.beam.material.mass_damping > 0) {
-    refuse("/beam/material/mass_damping", number_text(scene.beam.material.mass_damping),
-           "with /flow or rotary inertia it must be 0");
   }
 }
 
@@ -897,7 +889,6 @@ void check_all(const Scene& scene) {
   check_equilibrium(scene);
   check_start(scene);
   check_statics(scene);
-  check_drag(scene);
   if (flows(scene) || scene.spin) validate_flow(scene);
   if (!flows(scene)) scene.dimension == 2 ? check_resting_parts<2>(scene) : check_resting_parts<3>(scene);
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/build_flow.hpp"
 #include "core/scene/options.hpp"
+#include "core/system/moving_mesh.hpp"
 #include "core/system/steady_flow.hpp"
 
 namespace vlbeam {
@@ -19,8 +21,13 @@ void check_parts(const Scene& scene) {
   if (sliding_joint(scene) && flows(scene)) {
     refuse(joint_key(scene), "this key", "it goes together with neither /flow nor rotary inertia");
   }
-  if (flows(scene) && scene.beam.curve.type != CurveType::line) {
-    refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with /flow or rotary inertia it must be \"line\"");
+  if (scene.beam.curve.type != CurveType::line) {
+    if (scene.beam.rotary_inertia != BendingInertia::none) {
+      refuse("/beam/curve/type", quoted(scene.beam.curve.type), "with rotary inertia it must be \"line\"");
+    }
+    if (scene.flow && scene.flow->tension != 0) {
+      refuse("/flow/tension", number_text(scene.flow->tension), "of a curved beam it must be 0");
+    }
   }
   const auto& section = scene.beam.section;
   const BendingInertia rotary = scene.beam.rotary_inertia;
@@ -36,12 +43,15 @@ void check_parts(const Scene& scene) {
     refuse("/beam/rotary_inertia", quoted(rotary), "it needs /spin and three dimensions");
   }
   const IntegratorType type = scene.integrator.type;
-  if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum || of_sundials(type)) {
+  if ((scene.spin && type == IntegratorType::rosenbrock4) || type == IntegratorType::energy_momentum ||
+      of_sundials(type)) {
     refuse("/integrator/type", quoted(type),
-           "with /spin, /flow or rotary inertia take an explicit method of Odeint or \"generalized-alpha\"");
+           std::string("with ") + (scene.spin ? "/spin" : "/flow or rotary inertia") +
+               " take an explicit method of Odeint" + (scene.spin ? "" : ", \"rosenbrock4\"") +
+               " or \"generalized-alpha\"");
   }
-  if (scene.constraints != Constraints::eliminated) {
-    refuse("/constraints", quoted(scene.constraints), "with /spin, /flow or rotary inertia it must be \"eliminated\"");
+  if (scene.spin && scene.constraints != Constraints::eliminated) {
+    refuse("/constraints", quoted(scene.constraints), "with /spin it must be \"eliminated\"");
   }
 }
 
@@ -75,20 +85,40 @@ void check_guides(const Scene& scene) {
   }
 }
 
+/// The curve says how the beam is built: there is none beyond its ends.
+void check_within_curve(const Scene& scene, const MeshMotion& motion) {
+  constexpr int instants = 2000;
+  const double length = beam_length(scene), slack = 1e-9 * length;
+  std::vector<Prescribed> nodes;
+  for (int i = 0; i <= instants; ++i) {
+    const double t = scene.duration * i / instants;
+    motion.at(t, nodes);
+    for (const std::size_t end : {std::size_t{0}, nodes.size() - 1}) {
+      const double x = nodes[end].value;
+      if (x >= -slack && x <= length + slack) continue;
+      refuse("/flow/nodes",
+             "node " + std::to_string(end) + " at " + number_text(x) + " m at t = " + number_text(t) + " s",
+             "a curved beam is built from 0 to " + number_text(length) + " m: its end nodes must stay there");
+    }
+  }
+}
+
 template <int D>
 void check_model(const Scene& scene) {
-  const FlowingBeam<D> beam(build_flowing_model<D>(scene));
+  const BeamModel<D> model = build_model<D>(scene);
+  const ChainState<D> chain = flowing_chain(scene, model);
+  const MovingMesh<D> mesh(model, chain.mesh.weights);
   if (scene.flow) {
-    const double stretch =
-        stretch_under(scene.flow->tension, beam.model().section.stiffness.EA, beam.model().section.stiffness.law);
-    const auto nodes = beam.nodes_at(0);
-    const double length = stretch * (nodes.back().value - nodes.front().value), curve = beam_length(scene);
+    const double stretch = stretch_under(scene.flow->tension, model.section.stiffness.EA, model.section.stiffness.law);
+    const double length = stretch * chain.mesh.length(), curve = beam_length(scene);
     if (!(std::abs(length - curve) <= length_tolerance * curve)) {
       refuse("/flow/nodes", "a stretched length of " + number_text(length) + " m at t = 0",
              "it must be that of /beam/curve, " + number_text(curve) + " m, within 1 %");
     }
   }
-  beam.check_motion(scene.duration);
+  if (model.rest && scene.beam.curve.type != CurveType::line) check_within_curve(scene, model.motion);
+  if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
+  mesh.check_motion(scene.duration);
 }
 
 }  // namespace

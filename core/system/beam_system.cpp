@@ -11,10 +11,12 @@
 namespace vlbeam {
 template <int D>
 BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
+  if (model.travels()) moving_.emplace(model_, chain.mesh.weights);
   if (model.spin) {
     check_drives(model.spin->drives, chain.mesh.last());
     std::vector<Prescribed> marks;
-    for (const double x : chain.mesh.x) marks.push_back({x, 0, 0});
+    if (moving_) marks = moving_->marks();
+    for (std::size_t k = marks.size(); k < chain.mesh.x.size(); ++k) marks.push_back({chain.mesh.x[k], 0, 0});
     spin_.emplace(model.spin.value(), std::move(marks), model.formulation, model.quadrature_points);
   }
   if (model.driven() && !model.joints.empty() && model.length_control.velocities == VelocityTransfer::conservative) {
@@ -24,14 +26,14 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   adopt(chain);
   initial_ = state_of(chain, {});
-  if (spin_) spin_->start(initial_.data() + angles(), initial_.data() + coordinates_ + angles());
+  if (spin_) spin_->start(initial_.data() + angles(), initial_.data() + coordinates() + angles());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (joint(i).pitch == 0) continue;
     const double x = initial_[places_[i].mark];
     nut_.emplace(joint(i).pitch, x,
-                 spin_->section(initial_.data() + angles(), initial_.data() + coordinates_ + angles(), x).at.angle);
+                 spin_->section(initial_.data() + angles(), initial_.data() + coordinates() + angles(), x).at.angle);
   }
-  anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(nodal_ - node_size<D>)};
+  anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(layout_.mark() - node_size<D>)};
   joint_anchors_.assign(model.joints.size(), Eigen::Matrix<double, node_size<D>, 1>::Zero());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     joint_anchors_[static_cast<std::size_t>(index_[i])] =
@@ -59,27 +61,31 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     passed = static_cast<int>(std::ranges::count_if(model_.masses.points, [x](auto& point) { return point.x < x; }));
   }
   if (chain.rider) passed_.front() = -1;
-  nodal_ = node_size<D> * static_cast<Eigen::Index>(mesh_.x.size());
+  layout_ = {.nodes = static_cast<int>(mesh_.x.size()),
+             .marks = chain.rider ? 1 : static_cast<int>(chain.joints.size()),
+             .departed = static_cast<int>(departed_.size()),
+             .turning = spin_ ? spin_->coordinates() : 0,
+             .tallies = model_.tallies()};
   places_.clear();
   index_.clear();
   touches_.clear();
-  Eigen::Index next = nodal_;
   for (const auto& joint : chain.joints) {
-    places_.push_back({.node = joint.node, .mark = next++, .passed = passed_[static_cast<std::size_t>(joint.index)]});
+    places_.push_back({.node = joint.node,
+                       .mark = layout_.mark(static_cast<int>(places_.size())),
+                       .passed = passed_[static_cast<std::size_t>(joint.index)]});
     index_.push_back(joint.index);
     touches_.push_back(joint.touches);
   }
-  if (chain.rider) ++next;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (!joint(i).law.kinked()) continue;
-    places_[i].behind = next;
-    next += D;
+    places_[i].behind = layout_.kink(layout_.kinks++);
   }
-  coordinates_ = next + D * static_cast<Eigen::Index>(departed_.size()) + (spin_ ? spin_->coordinates() : 0);
   const auto& rule = gauss_legendre(model_.quadrature_points);
   const int middle = mesh_.elements() / 2;
-  const int left_open = has_joint() ? std::max(0, places_.front().node - 1) : middle,
-            right_open = has_joint() ? std::min(mesh_.last(), places_.back().node + 1) : middle;
+  const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
+  const int right_open = moving_       ? mesh_.last()
+                         : has_joint() ? std::min(mesh_.last(), places_.back().node + 1)
+                                       : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest, model_.masses.points);
   right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest, model_.masses.points);
@@ -101,10 +107,10 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     }
     return -1;
   };
-  for (int k = 0; has_joint() && k < mesh_.elements(); ++k) {
+  for (int k = 0; (has_joint() || moving_) && k < mesh_.elements(); ++k) {
     const int a = joint_at(k), b = joint_at(k + 1);
-    if (a < 0 && b < 0) continue;
-    const MovingEnds ends = a < 0 ? MovingEnds::b : b < 0 ? MovingEnds::a : MovingEnds::both;
+    if (a < 0 && b < 0 && !moving_) continue;
+    const MovingEnds ends = moving_ || (a >= 0 && b >= 0) ? MovingEnds::both : a < 0 ? MovingEnds::b : MovingEnds::a;
     parts_.push_back({k, ends, a, b, ShapeTabulation(rule, mesh_.weights[static_cast<std::size_t>(k)].w)});
   }
   elements_.reserve(parts_.size());
@@ -147,78 +153,75 @@ void BeamSystem<D>::set_end_limits() {
 }
 
 template <int D>
-std::vector<FieldRun> BeamSystem<D>::fields() const {
-  auto runs = nodal_fields(D, nodal_ / node_size<D>);
-  if (rider_) runs.push_back({Field::mark, nodal_});
-  for (const JointPlace& place : places_) runs.push_back({Field::mark, place.mark});
-  for (const JointPlace& place : places_) {
-    if (place.behind >= 0) runs.push_back({Field::slope, place.behind, D});
-  }
-  if (!departed_.empty())
-    runs.push_back({Field::mass, departed_at(0), D * static_cast<Eigen::Index>(departed_.size())});
-  if (spin_) {
-    for (const FieldRun& run : spin_->fields(angles())) runs.push_back(run);
-  }
-  return runs;
-}
-
-template <int D>
 Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
-  y.head(nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal_);
-  y.segment(coordinates_, nodal_) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), nodal_);
+  y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
+  y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
     const auto& joint = chain.joints[i];
     y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
-    y[coordinates_ + place.mark] = joint.rate;
+    y[coordinates() + place.mark] = joint.rate;
     if (place.behind < 0) continue;
     y.segment<D>(place.behind) = joint.kink->slope;
-    y.segment<D>(coordinates_ + place.behind) = joint.kink->rate;
+    y.segment<D>(coordinates() + place.behind) = joint.kink->rate;
   }
   for (std::size_t i = 0; i < departed_.size(); ++i) {
     y.segment<D>(departed_at(i)) = chain.departed[i].r;
-    y.segment<D>(coordinates_ + departed_at(i)) = chain.departed[i].v;
+    y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
   }
   if (rider_) {
-    y[nodal_] = chain.rider->x;
-    y[coordinates_ + nodal_] = chain.rider->rate;
+    y[layout_.mark()] = chain.rider->x;
+    y[coordinates() + layout_.mark()] = chain.rider->rate;
   }
   if (old.size() == 0) return y;
-  const Eigen::Index tallies = model_.tallies().count();
+  const Eigen::Index tallies = layout_.tallies.count();
   y.tail(tallies) = old.tail(tallies);
   if (spin_) {
     const Eigen::Index count = spin_->coordinates(), before = (old.size() - tallies) / 2;
     y.segment(angles(), count) = old.segment(before - count, count);
-    y.segment(coordinates_ + angles(), count) = old.segment(2 * before - count, count);
+    y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
   }
   return y;
 }
 
 template <int D>
-ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y) const {
+ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
   ChainState<D> result;
   result.mesh = mesh_;
-  result.q.assign(y.data(), y.data() + nodal_);
-  result.rate.assign(y.data() + coordinates_, y.data() + coordinates_ + nodal_);
+  if (moving_) {
+    travel(t);
+    result.mark_rates.clear();
+    for (std::size_t k = 0; k < mesh_.x.size(); ++k) {
+      result.mesh.x[k] = moving_->marks()[k].value;
+      result.mark_rates.push_back(moving_->marks()[k].rate);
+    }
+  }
+  result.q.assign(y.data(), y.data() + layout_.mark());
+  result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + layout_.mark());
   result.rest = rest_;
   result.rest_curve = model_.rest.get();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
     result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
     auto& joint = result.joints.emplace_back();
-    joint = {.node = place.node, .rate = y[coordinates_ + place.mark], .index = index_[i], .touches = touches_[i]};
-    if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates_ + place.behind)};
+    joint = {.node = place.node, .rate = y[coordinates() + place.mark], .index = index_[i], .touches = touches_[i]};
+    if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates() + place.behind)};
     if (!result.curved_at_rest()) continue;
     const auto at_joint = model_.rest->derivatives(y[place.mark]);
     position<D>(result.rest.data(), place.node) = at_joint[0];
     slope<D>(result.rest.data(), place.node) = at_joint[1];
   }
+  for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
+    const auto at_node = model_.rest->derivatives(result.mesh.x[static_cast<std::size_t>(k)]);
+    position<D>(result.rest.data(), k) = at_node[0];
+    slope<D>(result.rest.data(), k) = at_node[1];
+  }
   for (std::size_t i = 0; i < departed_.size(); ++i) {
     const Eigen::Index at = departed_at(i);
-    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates_ + at)});
+    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
   }
-  if (rider_) result.rider = {rider_->element, y[nodal_], y[coordinates_ + nodal_], rider_->held};
+  if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
   return result;
 }
 
@@ -226,10 +229,10 @@ template <int D>
 std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y,
                                                                              int index) const {
   const auto at = [&](Eigen::Index place) {
-    return MassMotion{y.segment<D>(place), y.segment<D>(coordinates_ + place)};
+    return MassMotion{y.segment<D>(place), y.segment<D>(coordinates() + place)};
   };
   if (rider_ && index == 0) {
-    const auto motion = rider_motion(y.data(), y.data() + coordinates_);
+    const auto motion = rider_motion(y.data(), y.data() + coordinates());
     return MassMotion{motion.r, motion.v};
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -253,7 +256,7 @@ ConstraintResidual BeamSystem<D>::slope_residual(const Eigen::VectorXd& y) const
   ConstraintResidual largest;
   for (std::size_t j = 0; j < places_.size(); ++j) {
     if (places_[j].behind < 0) continue;
-    const auto slopes = joint_slopes(j, y.data()), rates = joint_slopes(j, y.data() + coordinates_);
+    const auto slopes = joint_slopes(j, y.data()), rates = joint_slopes(j, y.data() + coordinates());
     const SlopeConditions<D> conditions(joint(j).law.slopes, longest_axis<D>(slopes.template head<D>()));
     for (int i = 0; i < conditions.count(); ++i) {
       largest.position = std::max(largest.position, std::abs(conditions.value(i, slopes)));
@@ -268,6 +271,10 @@ std::optional<RestElement<D>> BeamSystem<D>::rest_of(const MovingPart& part, con
                                                      std::span<const JointPlace> places) const {
   if (!model_.rest) return std::nullopt;
   const auto end = [&](int node, int joint) -> RestEnd<D> {
+    if (moving_) {
+      const double x = moving_->marks()[static_cast<std::size_t>(node)].value;
+      return {x, model_.rest->derivatives(x)};
+    }
     if (joint >= 0) {
       const double x = q[places[static_cast<std::size_t>(joint)].mark];
       return {x, model_.rest->derivatives(x)};
@@ -302,6 +309,7 @@ void BeamSystem<D>::fill_elements(const double* q, const double* rate, double t,
     }
     if (model_.masses.present()) model_.masses.add_to(beam, k, gravity(t), elements.back());
   }
+  if (moving_) moving_->take_inertia(beam, parts_, elements);
 }
 
 template <int D>
@@ -317,22 +325,22 @@ template <int D>
 void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
   if (const auto which = nut_place()) {
     const Eigen::Index mark = places_[*which].mark;
-    const Nut::Place place = nut_->place(*spin_, y.data() + angles(), y.data() + coordinates_ + angles(), y[mark]);
+    const Nut::Place place = nut_->place(*spin_, y.data() + angles(), y.data() + coordinates() + angles(), y[mark]);
     y[mark] = place.x;
-    y[coordinates_ + mark] = place.rate;
+    y[coordinates() + mark] = place.rate;
   }
   if (!model_.driven()) return;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto guide = guided(i, t);
     if (!guide) continue;
     y[places_[i].mark] = guide->value;
-    y[coordinates_ + places_[i].mark] = guide->rate;
+    y[coordinates() + places_[i].mark] = guide->rate;
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto point = driven_joint(i, t);
     if (!point) continue;
     position<D>(y.data(), places_[i].node) = joint_anchor(i).template head<D>() + point->value;
-    position<D>(y.data() + coordinates_, places_[i].node) = point->rate;
+    position<D>(y.data() + coordinates(), places_[i].node) = point->rate;
   }
   const auto points = driven_points(t);
   const auto standing = supports(points);
@@ -346,10 +354,10 @@ void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
           (support.into_frame(part).array() * free + support.into_frame(value).array() * (1 - free)).matrix());
     };
     set(position<D>(y.data(), node), anchors_[end].template head<D>() + points[end].value, support.free_position);
-    set(position<D>(y.data() + coordinates_, node), points[end].rate, support.free_position);
+    set(position<D>(y.data() + coordinates(), node), points[end].rate, support.free_position);
     if (!motion.turns()) continue;
     set(slope<D>(y.data(), node), points[end].turned(anchors_[end].template tail<D>()), support.free_slope);
-    set(slope<D>(y.data() + coordinates_, node), points[end].slope_rate(slope<D>(y.data(), node)), support.free_slope);
+    set(slope<D>(y.data() + coordinates(), node), points[end].slope_rate(slope<D>(y.data(), node)), support.free_slope);
   }
 }
 
@@ -542,12 +550,15 @@ Tally BeamSystem<D>::add_forces(const double* q, const double* rate, double t, d
   for (const SpanBetween<D>& span : between_) power.dissipated += span.span().add_forces(q, rate, on_beam, force);
   if (model_.loads.present()) {
     const ChainView<D> beam = view(q, rate);
-    power.loads = model_.loads.add_forces(beam, t, force) + line_power(beam, t);
-    power.supports += fed_line_power(beam, t);
+    power.loads = model_.loads.add_forces(beam, t, force);
+    if (!moving_) {  // else flow_power() counts it
+      power.loads += line_power(beam, t);
+      power.supports += fed_line_power(beam, t);
+    }
   }
   if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
   if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
-  if (!has_joint()) return power;
+  if (parts_.empty()) return power;
   fill_elements(q, rate, t, elements);
   double lost = 0;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -561,6 +572,7 @@ Tally BeamSystem<D>::add_forces(const double* q, const double* rate, double t, d
   }
   power.dissipated += lost;
   for (std::size_t i = 0; i < places_.size(); ++i) position<D>(force, places_[i].node) += joint(i).law.mass * g;
+  if (moving_) moving_->add_inflow(view(q, rate), force);
   return power;
 }
 
@@ -569,8 +581,8 @@ double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
   Eigen::VectorXd exact = y;
   impose(exact, t);
   orient(t);
-  const double *q = exact.data(), *rate = q + coordinates_;
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
+  const double *q = exact.data(), *rate = q + coordinates();
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates());
   JointElements none;
   add_forces(q, rate, t, a.data(), none);
   solve_apart(q, rate, t, a.data());
@@ -583,8 +595,8 @@ Eigen::VectorXd BeamSystem<D>::forces_at_contacts(const Eigen::VectorXd& y, doub
   Eigen::VectorXd exact = y;
   impose(exact, t);
   orient(t);
-  const double *q = exact.data(), *rate = q + coordinates_;
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
+  const double *q = exact.data(), *rate = q + coordinates();
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates());
   JointElements elements;
   add_forces(q, rate, t, a.data(), elements);
   std::vector<JointMotion<D>> motions;
@@ -609,20 +621,25 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     orient(t);
   }
   const double* q = imposes() ? imposed_.data() : y.data();
-  const double* rate = q + coordinates_;
-  dydt.head(coordinates_) = Eigen::Map<const Eigen::VectorXd>(rate, coordinates_);
-  dydt.tail(dydt.size() - coordinates_).setZero();
-  double* force = dydt.data() + coordinates_;
-  Tally power = add_forces(q, rate, t, force, elements_);
-  std::optional<Pull> pull;       // of moving supports
+  const double* rate = q + coordinates();
+  dydt.head(coordinates()) = Eigen::Map<const Eigen::VectorXd>(rate, coordinates());
+  dydt.tail(dydt.size() - coordinates()).setZero();
+  double* force = dydt.data() + coordinates();
   const auto invalid = [&dydt] {  // outside the domain: the step is repeated, shorter
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
   };
+  if (!travel(t)) return invalid();
+  Tally power = add_forces(q, rate, t, force, elements_);
+  std::optional<Pull> pull;  // of moving supports
   const Eigen::Index angles = this->angles();
   if (spin_ && !spin_->accelerate(q + angles, rate + angles, t, force + angles, power.dissipated)) return invalid();
 
   const auto nut = nut_place();
-  if (has_joint()) {
+  if (moving_) {
+    if (driven) pull.emplace(*this, elements_, q, rate, force, t);
+    if (!moving_->solve(elements_, force)) return invalid();
+    if (driven) pull->complete(force);
+  } else if (has_joint()) {
     motions_.clear();
     for (std::size_t i = 0; i < places_.size(); ++i) motions_.push_back(joint_motion(i, q, rate, t));
     if (nut) {
@@ -643,29 +660,32 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       const auto at = rider_motion(q, rate);
       const auto solved = solve_rider(at, gravity(t), force);
       if (!solved) return invalid();
-      force[nodal_] = solved->x;
+      force[layout_.mark()] = solved->x;
       power.dissipated += solved->dissipation;
       if (driven) pull->add_rider(solved->force, at.s);
     }
   }
-  for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates_ + departed_at(i)) = gravity(t);
+  for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates() + departed_at(i)) = gravity(t);
   const Eigen::VectorXd* by_nut = nullptr;
   if (nut) by_nut = &nut_->torque(nut_->turn(force[places_[*nut].mark], force + angles));
-  if (spin_ && model_.spin->supplied()) {
+  if (moving_) {
+    power.loads = 0;
+    if (model_.books_flow) power = power + flow_power(q, rate, force, t);
+  } else if (spin_ && model_.spin->supplied()) {
     power = power + spin_->power(q + angles, rate + angles, force + angles, t, by_nut);
   }
-  if (driven) power.supports += pull->power(force);
+  if (driven && !moving_) power.supports += pull->power(force);
   if (!resting_.empty()) {
-    const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(force, coordinates_);
+    const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
     const auto forces = press(resting_, elements_, q, bending_in(rate), force);
     if (!forces) return invalid();
     resting_forces_ = *forces;
     if (driven) {
-      const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(force, coordinates_) - apart;
+      const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(force, coordinates()) - apart;
       power.supports += work_of_prescribed(resting_, *forces, elements_, q, rate, change);
     }
   }
-  model_.tallies().add(power, dydt);
+  layout_.tallies.add(power, dydt);
 }
 
 template <int D>
@@ -706,7 +726,7 @@ OuterForces<D> BeamSystem<D>::forces_at_rest(const Eigen::VectorXd& y, double t)
 template <int D>
 void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                                      Observation<D>& seen) const {
-  const Observer<D> observer(model_.section, gravity(t), points);
+  const Observer<D> observer(model_.section, gravity(t), points, model_.rotary.present() ? &model_.rotary : nullptr);
   for (int k = first; k < last; ++k) {
     const MovingKinematics<double, D> element(chain.coordinates(k), chain.rates(k),
                                               chain.moves(k) ? model_.transport : WeightTransport::frozen,
@@ -747,21 +767,23 @@ template <int D>
 Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int points, bool strains) const {
   Observation<D> seen;
   if (strains) seen.extremes.emplace();
-  observe_elements(chain(y), 0, mesh_.elements(), t, points, seen);
+  observe_elements(chain(y, t), 0, mesh_.elements(), t, points, seen);
   for (std::size_t i = 0; i < model_.joints.size(); ++i) {
     const auto mass = mass_motion(y, static_cast<int>(i));
     if (mass) seen.add_mass(model_.joints[i].law.mass, mass->r, mass->v, gravity(t));
   }
   if (spin_) {
-    const Spin::Seen turning = spin_->observe(y.data() + angles(), y.data() + coordinates_ + angles(), points);
+    const Spin::Seen turning = spin_->observe(y.data() + angles(), y.data() + coordinates() + angles(), points);
     seen.energy.kinetic += turning.kinetic;
     seen.energy.torsion += turning.torsion;
     seen.spin_momentum += turning.momentum;
   }
-  const Tally counted = model_.tallies().of(y);
+  const Tally counted = layout_.tallies.of(y);
   seen.energy.dissipated = counted.dissipated;
   seen.load_work = counted.loads;
   seen.end_work = counted.ends;
+  seen.mesh_work = counted.mesh;
+  seen.mass_in = counted.mass;
   seen.energy.supplied = counted.supports;
   seen.energy.supplied += ramp_.until(t, {seen.mass_moment, moment_rate(seen, y)});
   return seen;

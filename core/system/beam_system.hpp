@@ -7,97 +7,18 @@
 #include <vector>
 
 #include "core/beam/span_between.hpp"
-#include "core/beam/support_motion.hpp"
 #include "core/dynamics/integrate.hpp"
-#include "core/dynamics/tallies.hpp"
-#include "core/geometry/axis.hpp"
-#include "core/joint/at_support.hpp"
 #include "core/joint/joint_chain.hpp"
 #include "core/joint/rider.hpp"
 #include "core/length_control/event_type.hpp"
-#include "core/length_control/length_control.hpp"
-#include "core/parts/drag.hpp"
-#include "core/parts/loads.hpp"
 #include "core/parts/nut.hpp"
-#include "core/parts/point_masses.hpp"
-#include "core/parts/spin.hpp"
-#include "core/system/constraints.hpp"
+#include "core/system/beam_model.hpp"
+#include "core/system/layout.hpp"
+#include "core/system/moving_mesh.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
 
 namespace vlbeam {
-
-/// Something that slides along the beam.
-template <int D>
-struct ModelJoint {
-  SlidingJoint law;
-  /// What holds the place of its node in space: of a ring, a pin; of a sleeve, a clamp of the direction.
-  std::optional<Support<D>> support = std::nullopt;
-  SupportMotion<D> motion = {};    ///< of what holds it; it does not turn
-  double separation_distance = 0;  ///< [m]
-  Impact at_support = {};          ///< where it may not leave
-  TimeFunction x = {};             ///< its material coordinate, where a guide prescribes it [m]
-  double pitch = 0;                ///< of a nut on a beam that spins [m a turn], right-handed where > 0; 0 for none
-};
-
-/// What a beam system is made of and which choices its equations follow.
-template <int D>
-struct BeamModel {
-  BeamSection section;
-  Formulation formulation = Formulation::variational;
-  WeightTransport transport = WeightTransport::frozen;
-  int quadrature_points = 5;
-  Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
-  double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
-  bool time_is_load_factor = false;                 ///< gravity is t times what it says, as loads may be: statics
-  Support<D> start, end;
-  SupportMotion<D> start_motion, end_motion;
-  bool start_releases = false, end_releases = false;  ///< joints may leave the beam there
-  Loads<D> loads;
-  Drag<D> drag;
-  std::optional<SpinModel> spin;  ///< without it there is no angle at all
-  PointMasses<D> masses;
-  Impact at_meeting = {};         ///< of two joints
-  bool joints_rest = false;       ///< what bounces lower and lower stays, else the run ends there
-  double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
-  /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
-  std::vector<ModelJoint<D>> joints;
-  LengthControl length_control;
-  Constraints constraints = Constraints::eliminated;
-  /// What nodes that move or that are new follow in the rest shape, by arc length, where the chain's `rest` has the
-  /// others; null for a straight, unstrained rest shape.
-  std::shared_ptr<const Axis<D>> rest;
-
-  /// Whether energy is lost.
-  bool dissipates() const {
-    return section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
-  }
-  /// Whether there is friction at a joint.
-  bool rubs() const {
-    return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.law.friction.has_value(); });
-  }
-  /// Whether material coordinates of joints are prescribed.
-  bool guides() const {
-    return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return static_cast<bool>(joint.x); });
-  }
-  bool supports_move() const {
-    return start_motion || end_motion ||
-           std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return bool{joint.motion}; });
-  }
-  /// Whether something moves as prescribed, and so does work.
-  bool driven() const { return supports_move() || guides(); }
-  bool turns() const { return start_motion.turns() || end_motion.turns(); }
-  /// Which of the joints is a nut, of which there is one at most; -1 for none.
-  int nut() const {
-    const auto at = std::find_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.pitch != 0; });
-    return at == joints.end() ? -1 : static_cast<int>(at - joints.begin());
-  }
-  /// The energies that the state counts.
-  Tallies tallies() const {
-    return {dissipates(), loads.present() || (spin && spin->torques.present()), spin && !spin->drives.empty(),
-            driven()};
-  }
-};
 
 /// What happened to a beam system at an event.
 template <int D>
@@ -123,8 +44,8 @@ class ImplicitBeam;
 /// State y = (q, q', tallies): q holds the nodes (position and slope each), x_i of the joints, the slopes behind those
 /// that are kinked, and the positions of masses that have left; or x of a mass that rides inside an end element; then
 /// the angles of a section that spins, at the nodes that there were at t = 0: joints and what they do to the mesh leave
-/// them alone. The tallies are those of BeamModel::tallies(). What a support drives stands in the state too, but is
-/// read from its motion, wherever it counts, and so is where a nut is, from the angles.
+/// them alone; where all nodes travel, at these. The tallies are those of BeamModel::tallies(). What a support drives
+/// stands in the state too, but is read from its motion, wherever it counts, and so is where a nut is, from the angles.
 template <int D>
 class BeamSystem final : public EventedOde {
  public:
@@ -136,8 +57,8 @@ class BeamSystem final : public EventedOde {
   BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain);
   ~BeamSystem() override;
 
-  Eigen::Index size() const override { return 2 * coordinates_ + model_.tallies().count(); }
-  std::vector<FieldRun> fields() const override;
+  Eigen::Index size() const override { return layout_.state(); }
+  std::vector<FieldRun> fields() const override { return layout_.fields(spin()); }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
@@ -163,8 +84,27 @@ class BeamSystem final : public EventedOde {
     if (model_.loads.line_force) sum += model_.loads.line_force(t) / model_.section.rhoA;
     return sum;
   }
-  /// The beam with coordinates q and their rates, arrays like those of the state.
-  ChainView<D> view(const double* q, const double* rate) const { return {mesh_, model_.transport, q, rate, places_}; }
+  /// The beam with coordinates q and their rates, arrays like those of the state; where its nodes travel, as travel()
+  /// was told last.
+  ChainView<D> view(const double* q, const double* rate) const {
+    return {mesh_, model_.transport, q, rate, places_, marks()};
+  }
+  /// Lets nodes that travel be where they are at time t; false where they tangle.
+  bool travel(double t) const {
+    if (!moving_) return true;
+    const bool sound = moving_->move(t);
+    if (spin_) spin_->move(moving_->marks());
+    return sound;
+  }
+  /// The mesh of a beam whose nodes travel, or null.
+  MovingMesh<D>* moving_mesh() const { return moving_ ? &*moving_ : nullptr; }
+  /// Material coordinates of all nodes, if they travel, or null.
+  const std::vector<Prescribed>* marks() const { return moving_ ? &moving_->marks() : nullptr; }
+  /// M a - Q of a beam whose nodes travel, of the nodal accelerations `a`, added to an array like q; returns the power
+  /// lost to damping [W].
+  double add_travelling_residual(const double* q, const double* rate, const double* a, double t, double* r);
+  /// What such a beam is given in a second at the accelerations `a`, of what was evaluated last.
+  Tally flow_power(const double* q, const double* rate, const double* a, double t);
   /// Power of the load along the beam [W].
   double line_power(const ChainView<D>& beam, double t) const;
   /// What feeds do besides the work of their force along the beam, which takes the load for a potential: matter that
@@ -187,8 +127,8 @@ class BeamSystem final : public EventedOde {
   std::size_t rhs_evaluations() const { return rhs_evaluations_; }
   void count_evaluation() { ++rhs_evaluations_; }
 
-  /// Mesh and motion at state y.
-  ChainState<D> chain(const Eigen::VectorXd& y) const;
+  /// Mesh and motion at state y, at time t.
+  ChainState<D> chain(const Eigen::VectorXd& y, double t) const;
   bool has_joint() const { return !places_.empty(); }
   /// Where the coordinates of the joints stand that are on the beam, in the order of the chain.
   const std::vector<JointPlace>& places() const { return places_; }
@@ -217,9 +157,7 @@ class BeamSystem final : public EventedOde {
   /// Masses that have left the beam are in the state: which of the model's joints they were.
   const std::vector<int>& departed() const { return departed_; }
   /// Where the position of one of them stands.
-  Eigen::Index departed_at(std::size_t i) const {
-    return angles() - D * static_cast<Eigen::Index>(departed_.size() - i);
-  }
+  Eigen::Index departed_at(std::size_t i) const { return layout_.departed_mass(static_cast<int>(i)); }
   /// Whether joint `index` of the model is on the beam.
   bool on_beam(int index) const {
     return rider_ ? index == 0 : std::find(index_.begin(), index_.end(), index) != index_.end();
@@ -228,14 +166,14 @@ class BeamSystem final : public EventedOde {
   RiderMotion<double, D> rider_motion(const double* q, const double* rate) const {
     const bool held = rider_->held;
     return vlbeam::rider_motion<double, D>(rider_->curve, element_nodes<D>(q, rider_->element),
-                                           element_nodes<D>(rate, rider_->element), held ? rider_->end : q[nodal_],
-                                           held ? 0 : rate[nodal_]);
+                                           element_nodes<D>(rate, rider_->element),
+                                           held ? rider_->end : q[layout_.mark()], held ? 0 : rate[layout_.mark()]);
   }
   /// How the section turns; null if it does not. Its angles stand behind all else.
   Spin* spin() { return spin_ ? &*spin_ : nullptr; }
   const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
   /// Where the angles stand among the coordinates.
-  Eigen::Index angles() const { return coordinates_ - (spin_ ? spin_->coordinates() : 0); }
+  Eigen::Index angles() const { return layout_.angle(); }
   /// Where the angle of a node of the mesh at t = 0 stands.
   Eigen::Index angle(int node) const { return angles() + spin_->angle(node); }
   /// Which of the joints on the beam is a nut; nothing where none is.
@@ -248,7 +186,7 @@ class BeamSystem final : public EventedOde {
   const Nut& nut() const { return *nut_; }
   /// Where the concentrated loads are.
   std::vector<Vector> load_places(const Eigen::VectorXd& y, double t) const {
-    return model_.loads.places(view(y.data(), y.data() + coordinates_), t);
+    return model_.loads.places(view(y.data(), y.data() + coordinates()), t);
   }
   /// The beam has two slopes at that joint.
   bool kinked(std::size_t which) const { return joint(which).law.kinked(); }
@@ -266,7 +204,8 @@ class BeamSystem final : public EventedOde {
   /// How far the slopes at joints are from their conditions [-], [1/s].
   ConstraintResidual slope_residual(const Eigen::VectorXd& y) const;
   const Mesh& mesh() const { return mesh_; }
-  Eigen::Index coordinates() const { return coordinates_; }
+  Eigen::Index coordinates() const { return layout_.coordinates(); }
+  const Layout<D>& layout() const { return layout_; }
   /// Counts the meshes there have been.
   std::size_t revision() const { return revision_; }
   /// The elements at the joints, in the order of the chain.
@@ -371,7 +310,7 @@ class BeamSystem final : public EventedOde {
     if (guide) return guide->value;
     const double x = y[places_[which].mark];
     if (!nut_ || joint(which).pitch == 0) return x;
-    return nut_->place(*spin_, y.data() + angles(), y.data() + coordinates_ + angles(), x).x;
+    return nut_->place(*spin_, y.data() + angles(), y.data() + coordinates() + angles(), x).x;
   }
   void add_feed_guards(std::size_t which, const Eigen::VectorXd& y, double t, Guards& guards) const;
   /// Throws ComputationFailed: joint `which` is as near the next one as joints come.
@@ -398,6 +337,9 @@ class BeamSystem final : public EventedOde {
   MergedWeights change(const Due& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
   bool at_joint(int node) const { return view(nullptr, nullptr).joint_at(node) != nullptr; }
   Guards rider_guards(const Eigen::VectorXd& y, double t) const;
+  Guards travel_guards(double t) const;
+  /// Nodes that travel cannot go on: throws ComputationFailed.
+  [[noreturn]] void stop_travelling(int index, double t) const;
   /// Generalized force of the support on the x of a held rider [N].
   double contact_force(const Eigen::VectorXd& y, double t) const;
   /// What acts on the coordinates but for spin, and its power but for what accelerations tell.
@@ -453,7 +395,7 @@ class BeamSystem final : public EventedOde {
   }
   JointElements elements_at(const Eigen::VectorXd& y, double t) const {
     JointElements elements;
-    fill_elements(y.data(), y.data() + coordinates_, t, elements);
+    fill_elements(y.data(), y.data() + coordinates(), t, elements);
     return elements;
   }
   void fill_elements(const double* q, const double* rate, double t, JointElements& elements) const;
@@ -488,7 +430,7 @@ class BeamSystem final : public EventedOde {
   }
   /// Rate of the first moment of mass: the momentum, and what is fed into the beam.
   Vector moment_rate(const Observation<D>& seen, const Eigen::VectorXd& y) const {
-    return seen.momentum + model_.section.rhoA * view(y.data(), y.data() + coordinates_).inflow();
+    return seen.momentum + model_.section.rhoA * view(y.data(), y.data() + coordinates()).inflow();
   }
   void observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                         Observation<D>& seen) const;
@@ -504,10 +446,11 @@ class BeamSystem final : public EventedOde {
   std::vector<int> departed_;  ///< the same of masses that have left
   std::vector<int> passed_;    ///< of the model's joints: how many point masses are behind it
   mutable std::optional<Riding> rider_;
-  std::array<double, 2> end_limit_{};  ///< [m], of the last and of the first element
-  double cut_limit_ = 0;               ///< distance of a rider from the end at which it gets a node [m]
+  mutable std::optional<MovingMesh<D>> moving_;  ///< its nodes are where travel() was told last
+  std::array<double, 2> end_limit_{};            ///< [m], of the last and of the first element
+  double cut_limit_ = 0;                         ///< distance of a rider from the end at which it gets a node [m]
   std::vector<Eigen::Matrix<double, node_size<D>, 1>> joint_anchors_;  ///< of the model's joints
-  Eigen::Index nodal_ = 0, coordinates_ = 0;
+  Layout<D> layout_;
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;
   std::vector<MovingPart> parts_;
@@ -516,8 +459,10 @@ class BeamSystem final : public EventedOde {
   mutable JointChain<D> joint_chain_;        ///< of several joints, or one that is guided
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;
+  Eigen::VectorXd flow_residual_, flow_forces_;  ///< of flow_power()
+  std::vector<double> on_marks_;                 ///< the same
   std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
-  std::optional<Spin> spin_;
+  mutable std::optional<Spin> spin_;
   std::optional<Nut> nut_;
   RampWork<D> ramp_;
   std::size_t rhs_evaluations_ = 0, revision_ = 0;

@@ -57,6 +57,7 @@ ComputationFailed ran_into_support(bool held, Direction direction, double t) {
 template <int D>
 Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
   if (rider_) return rider_guards(y, t);
+  if (moving_) return travel_guards(t);
   Guards guards;
   const auto& control = model_.length_control;
   const double unit = control.standard_length;
@@ -144,7 +145,7 @@ std::vector<typename BeamSystem<D>::Contact> BeamSystem<D>::contacts() const {
 template <int D>
 typename BeamSystem<D>::Gap BeamSystem<D>::gap(const Contact& contact, const Eigen::VectorXd& y) const {
   const Vector apart = contact.difference(y.data()), direction = apart.normalized();
-  return {apart.norm(), direction.dot(contact.difference(y.data() + coordinates_)), direction};
+  return {apart.norm(), direction.dot(contact.difference(y.data() + coordinates())), direction};
 }
 
 /// The element there is cut and merged as those at a joint are, but for the other side.
@@ -196,7 +197,7 @@ Guards BeamSystem<D>::rider_guards(const Eigen::VectorXd& y, double t) const {
     const double stiffness = model_.section.stiffness.EA;
     return {{number(Kind::lift_off), 0, (at_end ? 1 : -1) * contact_force(y, t) / stiffness}};
   }
-  const double distance = at_end ? rider_->end - y[nodal_] : y[nodal_] - rider_->end;
+  const double distance = at_end ? rider_->end - y[layout_.mark()] : y[layout_.mark()] - rider_->end;
   const bool releases = at_end ? model_.end_releases : model_.start_releases;
   const double least = releases ? model_.joints.front().separation_distance : 0;
   return {{number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit},
@@ -338,14 +339,15 @@ void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
     throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);
   }
   // a momentum J on x changes velocities by J M^-1 e_x
-  const Eigen::Index x = coordinates_ + nodal_;
-  Eigen::VectorXd answer = Eigen::VectorXd::Unit(coordinates_, nodal_), momentum(coordinates_);
+  const Eigen::Index x = coordinates() + layout_.mark();
+  Eigen::VectorXd answer = Eigen::VectorXd::Unit(coordinates(), layout_.mark()), momentum(coordinates());
   if (!solve_mass({}, y.data(), answer.data())) throw ran_into_support(false, Direction::forward, t);
   multiply_mass({}, y.data(), answer.data(), momentum.data());
   auto strike = [&](double restitution) {
-    auto rate = y.segment(coordinates_, coordinates_);
-    const double change = -(1 + restitution) * rate[nodal_] / answer[nodal_];
-    model_.tallies().add({.supports = change * (momentum.dot(rate) - momentum[nodal_] * rate[nodal_])}, y);
+    auto rate = y.segment(coordinates(), coordinates());
+    const double change = -(1 + restitution) * rate[layout_.mark()] / answer[layout_.mark()];
+    layout_.tallies.add({.supports = change * (momentum.dot(rate) - momentum[layout_.mark()] * rate[layout_.mark()])},
+                        y);
     rate += change * answer;
   };
   bool rests = impact.law == AtSupport::rest || impact.restitution == 0;
@@ -357,7 +359,7 @@ void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
     rests = falls > 0 && y[x] * y[x] < 2 * falls * least_bounce * model_.length_control.standard_length;
   }
   if (rests) strike(0);
-  chain = this->chain(y);
+  chain = this->chain(y, t);
   chain.rider->held = rests;
   chain.rider->x = rests ? rider_->end : clear_of_end();
   if (rests) chain.rider->rate = 0;
@@ -387,7 +389,7 @@ template <int D>
 std::optional<Eigen::VectorXd> BeamSystem<D>::press(const std::vector<Contact>& contacts, const JointElements& elements,
                                                     const double* q, const Eigen::VectorXd& wanted, double* a) const {
   const auto count = static_cast<Eigen::Index>(contacts.size());
-  Eigen::MatrixXd answers = Eigen::MatrixXd::Zero(coordinates_, count), by(count, count);  // M^-1 L, L^T M^-1 L
+  Eigen::MatrixXd answers = Eigen::MatrixXd::Zero(coordinates(), count), by(count, count);  // M^-1 L, L^T M^-1 L
   Eigen::VectorXd lacking = wanted;
   for (Eigen::Index i = 0; i < count; ++i) {
     const Contact& contact = contacts[static_cast<std::size_t>(i)];
@@ -402,7 +404,7 @@ std::optional<Eigen::VectorXd> BeamSystem<D>::press(const std::vector<Contact>& 
     for (Eigen::Index k = 0; k < count; ++k) by(i, k) = contact.line(q).dot(contact.difference(answers.col(k).data()));
   }
   const Eigen::VectorXd forces = solve_pivoting(by, lacking);
-  Eigen::Map<Eigen::VectorXd>(a, coordinates_) += answers * forces;
+  Eigen::Map<Eigen::VectorXd>(a, coordinates()) += answers * forces;
   return forces;
 }
 
@@ -410,9 +412,9 @@ template <int D>
 double BeamSystem<D>::work_of_prescribed(const std::vector<Contact>& contacts, const Eigen::VectorXd& forces,
                                          const JointElements& elements, const double* q, const double* rate,
                                          const Eigen::VectorXd& change) const {
-  Eigen::VectorXd all(coordinates_);
+  Eigen::VectorXd all(coordinates());
   multiply_mass(elements, q, change.data(), all.data());
-  double work = all.dot(Eigen::Map<const Eigen::VectorXd>(rate, coordinates_));
+  double work = all.dot(Eigen::Map<const Eigen::VectorXd>(rate, coordinates()));
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     work -= forces[static_cast<Eigen::Index>(i)] * contacts[i].line(q).dot(contacts[i].difference(rate));
   }
@@ -440,7 +442,7 @@ void BeamSystem<D>::comes_to_rest(const Contact& contact, double t) const {
 template <int D>
 void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t) {
   const JointElements elements = elements_at(y, t);
-  auto rate = y.segment(coordinates_, coordinates_);
+  auto rate = y.segment(coordinates(), coordinates());
   std::vector<Contact> bearing = contacts;  // what rests pushes, but does not pull
   while (!bearing.empty()) {
     Eigen::VectorXd wanted(static_cast<Eigen::Index>(bearing.size())), after = rate;
@@ -462,7 +464,7 @@ void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorX
       continue;
     }
     const double work = work_of_prescribed(bearing, *momenta, elements, y.data(), rate.data(), after - rate);
-    model_.tallies().add({.supports = work}, y);
+    layout_.tallies.add({.supports = work}, y);
     rate = after;
     return;
   }
@@ -496,8 +498,8 @@ void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
   for (Contact& contact : bearing) {
     if (contact.rests || stays(contact)) continue;
     const Gap gap = this->gap(contact, y);
-    const double across = contact.difference(y.data() + coordinates_).squaredNorm() - gap.rate * gap.rate;
-    const double falls = -gap.direction.dot(contact.difference(rates.data() + coordinates_)) - across / gap.distance;
+    const double across = contact.difference(y.data() + coordinates()).squaredNorm() - gap.rate * gap.rate;
+    const double falls = -gap.direction.dot(contact.difference(rates.data() + coordinates())) - across / gap.distance;
     if (!(falls > 0 && gap.rate * gap.rate < 2 * falls * least_bounce * unit)) continue;
     if (!model_.joints_rest) comes_to_rest(contact, t);
     contact.impact.restitution = 0;
@@ -558,7 +560,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
         hit(chain, y, t);
       } else {
         strike(y, t);
-        chain = this->chain(y);
+        chain = this->chain(y, t);
       }
       return {};
     case EventType::lift_off:
@@ -570,7 +572,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
           return contact.which == due.which && (contact.support < 0) == (due.direction == Direction::backward);
         });
         part(Contact(*parts), y);
-        chain = this->chain(y);
+        chain = this->chain(y, t);
       }
       return {};
     case EventType::passage:
@@ -582,6 +584,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
 
 template <int D>
 void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
+  if (moving_) stop_travelling(index, t);
   const auto started = std::chrono::steady_clock::now();
   impose(y, t);
   orient(t);
@@ -596,11 +599,11 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     records[i].t = t;
     records[i].type = dues[i].type;
     records[i].joint = rider_ ? 0 : index_[dues[i].which];
-    records[i].joint_position = y[rider_ ? nodal_ : places_[dues[i].which].mark];
+    records[i].joint_position = y[rider_ ? layout_.mark() : places_[dues[i].which].mark];
     records[i].restored = true;
   }
   EventRecord<D>& record = records.front();
-  record.before = chain(y);
+  record.before = chain(y, t);
   record.after = record.before;
   // an event of the mesh changes the two elements on either side, or, where slopes change too, one more
   const bool reshapes = type == EventType::reweighting || model_.length_control.merge == MergePolicy::least_change;
@@ -629,7 +632,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
           .total();
 
   const Eigen::VectorXd momenta_before = momenta(y, t);
-  const double work_before = model_.tallies().of(y).supports;
+  const double work_before = layout_.tallies.of(y).supports;
 
   if (dues.size() == 1) {
     records.front().merged = change(dues.front(), record.after, y, t);
@@ -654,7 +657,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     if (model_.length_control.velocities == VelocityTransfer::conservative) {
       restore(momenta_before, own_before, y, t);
     }
-    record.after = this->chain(y);
+    record.after = this->chain(y, t);
     record.jump = observe(y, t, ledger_points).energy - before;
     record.discrete_jump = observe(y, t, model_.quadrature_points).energy.total() - own_before;
     if (model_.length_control.velocities == VelocityTransfer::conservative) {
@@ -664,7 +667,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   } else if (everywhere) {
     if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
       project_velocities(record.before, lowest, lowest, y, t);
-      record.after = this->chain(y);
+      record.after = this->chain(y, t);
     }
     record.jump = observe(y, t, ledger_points).energy - before;
     record.discrete_jump = observe(y, t, model_.quadrature_points).energy.total() - own_before;
@@ -673,7 +676,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     record.discrete_jump = energies(record.after, model_.quadrature_points).total() - own_before;
   }
   if (model_.driven()) {  // what supports do in an impact is no jump
-    const double work = model_.tallies().of(y).supports - work_before;
+    const double work = layout_.tallies.of(y).supports - work_before;
     record.jump.kinetic -= work;
     record.jump.supplied -= work;
     record.discrete_jump -= work;

@@ -18,6 +18,7 @@ Eigen::MatrixXd free_directions(const BeamSystem<D>& system) {
   };
   hold(0, system.model().start);
   hold(Eigen::Index{node_size<D>} * system.mesh().last(), system.model().end);
+  for (const auto& [node, support] : system.model().held_nodes) hold(Eigen::Index{node_size<D>} * node, support);
   for (std::size_t i = 0; i < system.places().size(); ++i) {
     const Support<D>* held = system.held(i);
     if (held == nullptr) continue;

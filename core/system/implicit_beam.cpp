@@ -1,6 +1,7 @@
 #include "core/system/implicit_beam.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/element/active.hpp"
@@ -59,19 +60,30 @@ void ImplicitBeam<D>::rebuild() const {
   const auto old_conditions = std::move(slope_conditions_);
   slope_conditions_.clear();
   places_ = system_.places();
+  layout_ = system_.layout();
+  layout_.kinks = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     places_[i].behind = -1;
     places_[i].cut = (with_multipliers() && !system_.feeds(i)) || system_.kinked(i);
+    layout_.nodes += places_[i].cut ? 1 : 0;
   }
-  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].mark = after_nodes() + static_cast<Eigen::Index>(i);
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].mark = layout_.mark(static_cast<int>(i));
   reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
   contacts_ = system_.resting();
-  if (!with_multipliers()) return;
+  if (with_multipliers()) constrain(old_conditions);
+  layout_.multipliers = static_cast<Eigen::Index>(constraints_.size() + contacts_.size()) + condition_count();
+}
+
+template <int D>
+void ImplicitBeam<D>::constrain(const std::vector<Conditions>& old_conditions) const {
   at_held_nodes([&](int node, const Support<D>& support, int joint) {
-    const int end = joint >= 0 ? 2 + joint : node == 0 ? 0 : 1;
+    const bool at_inner_node = joint < 0 && node != 0 && node != nodes() - 1;  // of a beam whose nodes travel
+    const int end = joint >= 0 ? 2 + joint : at_inner_node ? -1 : node == 0 ? 0 : 1;
     const bool twice = joint >= 0;
-    const NodeVector& anchor = joint >= 0 ? system_.joint_anchor(static_cast<std::size_t>(joint))
-                                          : system_.anchors()[static_cast<std::size_t>(end)];
+    const NodeVector anchor = joint >= 0 ? system_.joint_anchor(static_cast<std::size_t>(joint))
+                              : at_inner_node
+                                  ? NodeVector(system_.initial_state().template segment<B>(Eigen::Index{B} * node))
+                                  : system_.anchors()[static_cast<std::size_t>(end)];
     for (int c = 0; c < D; ++c) {
       NodeVector direction = NodeVector::Zero();
       direction.template head<D>() = support.frame.col(c);
@@ -118,28 +130,9 @@ auto ImplicitBeam<D>::slope_conditions(const double* q) const -> const std::vect
 }
 
 template <int D>
-Eigen::Index ImplicitBeam<D>::multipliers() const {
-  refresh();
-  return static_cast<Eigen::Index>(constraints_.size() + contacts_.size()) + condition_count();
-}
-
-template <int D>
-Eigen::Index ImplicitBeam<D>::coordinates() const {
-  return system_.coordinates() + B * cuts() - kinks() + multipliers();
-}
-
-template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
-  refresh();
-  auto runs = nodal_fields(D, nodes());
-  for (const JointPlace& place : places()) runs.push_back({Field::mark, place.mark});
-  if (system_.rider()) runs.push_back({Field::mark, after_nodes()});
-  const auto left = static_cast<Eigen::Index>(system_.departed().size());
-  if (left > 0) runs.push_back({Field::mass, departed(), D * left});
-  if (const Spin* spin = system_.spin()) {
-    for (const FieldRun& run : spin->fields(angles())) runs.push_back(run);
-  }
-  Eigen::Index at = coordinates() - multipliers();
+  std::vector<FieldRun> runs = layout().fields(system_.spin());
+  Eigen::Index at = layout().multiplier();
   for (const auto& constraint : constraints_) {
     const bool place = !constraint.direction.template head<D>().isZero(0);
     runs.push_back({place ? Field::multiplier : Field::slope_multiplier, at++});
@@ -166,7 +159,7 @@ void ImplicitBeam<D>::for_each_run(const Run& run, const Second& second) const {
     here += B;
   }
   pass(Eigen::Index{B} * (system_.mesh().last() + 1) - own + static_cast<Eigen::Index>(places().size()));
-  own += kinks();
+  own += Eigen::Index{D} * system_.layout().kinks;
   pass(system_.coordinates() - own);
 }
 
@@ -247,6 +240,7 @@ template <int D>
 template <class Function>
 void ImplicitBeam<D>::at_held_nodes(const Function& function) const {
   at_end_nodes(function);
+  for (const auto& [node, support] : system_.model().held_nodes) function(node, support, -1);
   for (std::size_t i = 0; i < places().size(); ++i) {
     if (const Support<D>* held = system_.held(i)) function(first_copy(i), *held, static_cast<int>(i));
   }
@@ -285,7 +279,9 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     span.add_inertia(a.data() + shift, r.data() + shift);
   });
   const Eigen::Index extra = after_nodes();
-  if (system_.has_joint()) {
+  if (system_.moving_mesh() != nullptr) {
+    dissipation += system_.add_travelling_residual(q.data(), v.data(), a.data(), t, r.data());
+  } else if (system_.has_joint()) {
     const ChainView<D> beam = view(q, v), accelerations = view(q, a);
     auto law = system_.moving_law(t);
     for (const MovingPart& part : system_.moving_parts()) {
@@ -335,7 +331,7 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
     position<D>(r.data(), node + 1) += pull;
   });
   for (std::size_t i = 0; i < system_.departed().size(); ++i) {
-    const Eigen::Index at = departed() + D * static_cast<Eigen::Index>(i);
+    const Eigen::Index at = layout().departed_mass(static_cast<int>(i));
     const double mass = model.joints[static_cast<std::size_t>(system_.departed()[i])].law.mass;
     r.segment<D>(at) = mass * (a.segment<D>(at) - gravity);
   }
@@ -351,7 +347,11 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
                                  Eigen::VectorXd& r) {
   system_.count_evaluation();
   stand(t);
-  const Eigen::Index first = coordinates() - multipliers();
+  if (!system_.travel(t)) {
+    r.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return 0;
+  }
+  const Eigen::Index first = layout().multiplier();
   const double dissipation = free_residual(q, v, a, t, r);
   if (!with_multipliers()) project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
@@ -458,6 +458,10 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
 template <int D>
 Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                       double t) {
+  if (system_.moving_mesh() != nullptr) {
+    // by the elements of the last residual, which Newton's last correction is next to nothing away from
+    return system_.model().books_flow ? system_.flow_power(q.data(), v.data(), a.data(), t) : Tally{};
+  }
   Tally power;
   const Loads<D>& loads = system_.model().loads;
   if (loads.present()) {
@@ -506,9 +510,11 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
   if (system_.model().spin) {
     throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
   }
-  if (driven() || system_.model().loads.present() || system_.model().drag.present()) {
-    throw ModelError("integrator", "\"energy-momentum\"",
-                     "it keeps an energy that moving supports, loads and drag change: take any other integrator");
+  if (driven() || system_.moving_mesh() != nullptr || system_.model().loads.present() ||
+      system_.model().drag.present()) {
+    throw ModelError(
+        "integrator", "\"energy-momentum\"",
+        "it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
   }
   system_.count_evaluation();
   return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
@@ -518,6 +524,7 @@ template <int D>
 void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                double by_v, double by_a) {
   stand(t);
+  if (system_.moving_mesh() != nullptr) return assemble_travelling(q, v, a, t, {1, by_v, by_a});
   const auto& model = system_.model();
   tangent_.reset(nodes());
   auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
@@ -613,6 +620,58 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     if (system_.held(i) != nullptr) pull -= on_joint_node(i, free_);
     add_friction_tangent(i, pull, q, v, by_v, by_a);
   }
+}
+
+template <int D>
+void ImplicitBeam<D>::assemble_travelling(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                          double t, const TangentWeights& by) {
+  system_.travel(t);
+  const auto& model = system_.model();
+  const MovingMesh<D>& mesh = *system_.moving_mesh();
+  tangent_.reset(nodes());
+  const auto add = [&](int row, int column, const Block& block) {
+    const auto k = static_cast<std::size_t>(row);
+    auto& band = column == row ? tangent_.diagonal : column > row ? tangent_.upper : tangent_.lower;
+    band[k] += block;
+  };
+  const auto add_element = [&](int k, const auto& matrix) {
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) add(k + i, k + j, matrix.template block<B, B>(i * B, j * B));
+    }
+  };
+  const ChainView<D> beam = view(q, v);
+  auto law = system_.moving_law(t);
+  for (const MovingPart& part : system_.moving_parts()) {
+    const auto rest = system_.rest_of(part, q.data(), places());
+    law.rest = rest ? &*rest : nullptr;
+    const int k = part.element;
+    add_element(k, driven_tangent<D>(beam.coordinates(k), beam.rates(k), mesh.accelerations(a.data(), k), by,
+                                     beam.weights(k), part.table, law));
+    if (!model.rotary.present()) continue;
+    const auto i = static_cast<std::size_t>(k);
+    add_element(k, RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
+  }
+  model.loads.add_tangent(beam, t, [&](int k, const PointMatrix<D>& matrix) { add_element(k, by.q * matrix); });
+  model.drag.add_tangent(beam, 0, [&](int k, const PointMatrix<D>& matrix) { add_element(k, (by.q - by.v) * matrix); });
+  model.drag.add_tangent(beam, 1, [&](int k, const PointMatrix<D>& matrix) { add_element(k, by.v * matrix); });
+  mesh.add_inflow_tangent(beam, by, add);
+}
+
+template <int D>
+void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                         double t, const TangentWeights& by, Eigen::MatrixXd& axis,
+                                         Eigen::MatrixXd& angles) {
+  refresh();
+  assemble_travelling(q, v, a, t, by);
+  axis.setZero(after_nodes(), after_nodes());
+  tangent_.expand(axis);
+  angles.resize(0, 0);
+  const Spin* spin = system_.spin();
+  if (spin == nullptr) return;
+  spin->assemble(by, spin_tangent_);
+  const Eigen::Index size = 2 * Eigen::Index{nodes()};  // an angle and a twist a node
+  angles.setZero(size, size);
+  spin_tangent_.band.expand(angles);
 }
 
 template <int D>
@@ -918,6 +977,9 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
       torques -= nut_torque(*nut, q, v, free_[places()[*nut].mark]);
     }
     forces.drives = spin->drive_torques(torques.data());
+  }
+  for (const auto& [node, support] : system_.model().held_nodes) {
+    forces.guides.push_back(free_.segment<B>(Eigen::Index{B} * node));
   }
   const auto& joints = system_.model().joints;
   forces.on_masses.assign(joints.size(), Vec<double, D>::Zero());

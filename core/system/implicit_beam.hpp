@@ -26,8 +26,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   explicit ImplicitBeam(BeamSystem<D>& system)
       : system_(system), conserving_step_(system), standing_{system.model().start, system.model().end} {}
 
-  Eigen::Index coordinates() const override;
-  Eigen::Index multipliers() const override;
+  Eigen::Index coordinates() const override { return layout().coordinates(); }
+  Eigen::Index multipliers() const override { return layout().multipliers; }
   std::vector<FieldRun> fields() const override;
   void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
   void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override;
@@ -57,6 +57,11 @@ class ImplicitBeam final : public SecondOrderSystem {
   double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                              const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override;
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
+
+  /// The tangent of a beam whose nodes travel, with weights `by`, dense and before supports: of position and slope of
+  /// the nodes, and of angle and twist of the nodes, empty without spin. They do not couple.
+  void travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                          const TangentWeights& by, Eigen::MatrixXd& axis, Eigen::MatrixXd& angles);
 
   /// By the accelerations that belong to a state y at time t.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
@@ -109,6 +114,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   };
   /// Those at the coordinates q.
   const std::vector<Conditions>& slope_conditions(const double* q) const;
+  /// The constraints of supports and of joints that are cut, and the conditions on slopes.
+  void constrain(const std::vector<Conditions>& old_conditions) const;
   int condition_count() const {
     int count = 0;
     for (const Conditions& conditions : slope_conditions_) count += conditions.of.count();
@@ -156,29 +163,21 @@ class ImplicitBeam final : public SecondOrderSystem {
       if (system_.guides(i)) function(i);
     }
   }
+  /// Where all stands here: as in the state, but with second copies of nodes in the place of slopes behind joints, and
+  /// with multipliers.
+  const Layout<D>& layout() const {
+    refresh();
+    return layout_;
+  }
   /// How many joints have their node twice.
-  int cuts() const {
-    int count = 0;
-    for (const JointPlace& place : places()) count += place.cut ? 1 : 0;
-    return count;
-  }
-  /// Of the state: slopes behind joints.
-  Eigen::Index kinks() const {
-    Eigen::Index count = 0;
-    for (std::size_t i = 0; i < places().size(); ++i) count += system_.kinked(i) ? D : 0;
-    return count;
-  }
-  int nodes() const { return system_.mesh().last() + 1 + cuts(); }
+  int cuts() const { return nodes() - system_.layout().nodes; }
+  int nodes() const { return layout().nodes; }
   /// Where what follows the nodes stands: the joints' material coordinates, the masses that have left.
-  Eigen::Index after_nodes() const { return Eigen::Index{B} * nodes(); }
-  /// Where the masses that have left stand.
-  Eigen::Index departed() const { return after_nodes() + static_cast<Eigen::Index>(places().size()); }
-  /// Where the angles of a beam that spins stand: behind all but multipliers.
-  Eigen::Index angles() const {
-    return coordinates() - multipliers() - (system_.spin() ? system_.spin()->coordinates() : 0);
-  }
+  Eigen::Index after_nodes() const { return layout().mark(); }
+  /// Where the angles of a beam that spins stand.
+  Eigen::Index angles() const { return layout().angle(); }
   ChainView<D> view(const double* q, const double* v) const {
-    return {system_.mesh(), system_.model().transport, q, v, places()};
+    return {system_.mesh(), system_.model().transport, q, v, places(), system_.marks()};
   }
   ChainView<D> view(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const { return view(q.data(), v.data()); }
   /// The first copy of a joint's node.
@@ -209,6 +208,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// The tangent before constraints and factorization.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
                 double by_a);
+  /// The same of a beam whose nodes travel: block tridiagonal in the nodes, the angles couple to nothing else.
+  void assemble_travelling(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                           const TangentWeights& by);
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
@@ -243,7 +245,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable std::array<Support<D>, 2> standing_;  ///< the supports, at the time that was looked at last
   mutable DrivenPoints driven_points_;          ///< of that time
-  mutable std::vector<JointPlace> places_;      ///< of the joints in these coordinates
+  mutable Layout<D> layout_;
+  mutable std::vector<JointPlace> places_;  ///< of the joints in these coordinates
   mutable std::vector<Constraint> constraints_;
   mutable std::vector<Conditions> slope_conditions_;               ///< behind them
   mutable std::vector<typename BeamSystem<D>::Contact> contacts_;  ///< behind those

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
@@ -18,6 +19,9 @@ constexpr double of_mass_only = 0x1p180;
 
 template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
+  if (system_.spin() != nullptr) {
+    throw ModelError("integrator", "\"rosenbrock4\"", "its Jacobian knows no spin: take any other integrator");
+  }
   refresh();
   const Eigen::Index n = coordinates();
   Eigen::VectorXd exact = y;
@@ -55,7 +59,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   dfdt.setZero();
   const auto& model = system_.model();
   const bool rubs = model.rubs();
-  if (model.driven() || model.loads.present() || (rubs && t < model.gravity_ramp)) {
+  if (model.driven() || model.travels() || model.loads.present() || (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
   } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that
     weightless_.resize(y.size());

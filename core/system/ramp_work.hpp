@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/dynamics/memory.hpp"
+#include "core/geometry/prescribed.hpp"
 #include "core/geometry/vec.hpp"
 
 namespace vlbeam {

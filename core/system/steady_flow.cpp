@@ -10,7 +10,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/system/implicit_flow.hpp"
+#include "core/system/free_directions.hpp"
+#include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
 namespace {
@@ -26,8 +27,8 @@ double stretch_under(double force, double EA, StrainLaw law) {
   if (!(force > -EA / (3 * std::numbers::sqrt3))) {
     std::ostringstream text;
     text << force;
-    throw InvalidInput("/force", text.str(),
-                       "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses");
+    throw ModelError("tension", text.str(),
+                     "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses");
   }
   double stretch = 1;
   for (int i = 0; i < most_iterations; ++i) {
@@ -37,14 +38,71 @@ double stretch_under(double force, double EA, StrainLaw law) {
 }
 
 template <int D>
-Eigen::VectorXd steady_state(FlowingBeam<D>& beam, const Eigen::VectorXd& guess, double t, bool unstable) {
-  ImplicitFlow<D> flow(beam);
+ChainState<D> straight_chain(const BeamModel<D>& model, const Vec<double, D>& start, const Vec<double, D>& along,
+                             double stretch, double velocity, double t) {
+  std::vector<Prescribed> marks;
+  model.motion.at(t, marks);
+  ChainState<D> chain;
+  chain.q.resize(marks.size() * static_cast<std::size_t>(node_size<D>));
+  chain.rate.assign(chain.q.size(), 0);
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const int node = static_cast<int>(k);
+    const Prescribed& x = marks[k];
+    chain.mesh.x.push_back(x.value);
+    if (k > 0) chain.mesh.weights.push_back({unit_weights, marks[k - 1].value, x.value});
+    chain.mark_rates.push_back(x.rate);
+    position<D>(chain.q.data(), node) = start + along * (stretch * (x.value - marks.front().value));
+    slope<D>(chain.q.data(), node) = stretch * along;
+    position<D>(chain.rate.data(), node) = along * (velocity + stretch * x.rate);
+  }
+  return chain;
+}
+
+template <int D>
+Eigen::VectorXd straight_state(const BeamSystem<D>& beam, const Vec<double, D>& start, const Vec<double, D>& along,
+                               double stretch, double velocity, double spin, double t) {
+  const ChainState<D> chain = straight_chain(beam.model(), start, along, stretch, velocity, t);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(beam.size());
+  std::ranges::copy(chain.q, y.data());
+  std::ranges::copy(chain.rate, y.data() + beam.coordinates());
+  for (int k = 0; beam.spin() != nullptr && k <= chain.mesh.last(); ++k) y[beam.coordinates() + beam.angle(k)] = spin;
+  return y;
+}
+
+namespace {
+
+/// The matrix of travelling_tangent() with weights `by`, of free coordinates.
+template <int D>
+void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                const TangentWeights& by, Eigen::MatrixXd LinearFlow::*which, LinearFlows& flows) {
+  ImplicitBeam<D> view(beam);
+  Eigen::MatrixXd axis, angles;
+  view.travelling_tangent(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
+  const Spin* spin = beam.spin();
+  const Eigen::MatrixXd free = free_directions(beam);
+  const Eigen::Index turning = spin == nullptr ? 0 : spin->coordinates();
+  const Eigen::MatrixXd basis = free.topLeftCorner(axis.rows(), free.cols() - turning);
+  flows.axis.*which = basis.transpose() * axis * basis;
+  if (spin == nullptr) return;
+  std::vector<Eigen::Index> turns;
+  for (int k = 0; k <= beam.mesh().last(); ++k) {
+    if (!spin->driven(k)) turns.push_back(2 * Eigen::Index{k});
+    if (spin->model().field == AngleField::hermite) turns.push_back(2 * Eigen::Index{k} + 1);
+  }
+  flows.angles.*which = angles(turns, turns);
+}
+
+}  // namespace
+
+template <int D>
+Eigen::VectorXd steady_state(BeamSystem<D>& beam, const Eigen::VectorXd& guess, double t, bool unstable) {
+  ImplicitBeam<D> flow(beam);
   const Eigen::Index n = beam.coordinates();
   Eigen::VectorXd q = guess.head(n), r(n);
   const Eigen::VectorXd v = guess.segment(n, n), a = Eigen::VectorXd::Zero(n);
   const std::vector<FieldRun> fields = flow.fields();
-  const auto nodes = beam.nodes_at(t);
-  const double length = nodes.back().value - nodes.front().value;
+  beam.travel(t);
+  const double length = beam.marks()->back().value - beam.marks()->front().value;
   FieldNorms natural;  // sizes below which a field's rounding is no error
   natural.fill(1);
   natural[static_cast<std::size_t>(Field::position)] = length;
@@ -69,11 +127,12 @@ Eigen::VectorXd steady_state(FlowingBeam<D>& beam, const Eigen::VectorXd& guess,
     last = correction;
   }
   if (!unstable) {
-    const auto K = flow.free_tangent(q, v, a, t, {1, 0, 0});
+    LinearFlows stiffness;
+    add_matrix(beam, q, v, t, {1, 0, 0}, &LinearFlow::K, stiffness);
     auto positive = [](const Eigen::MatrixXd& k) {
       return k.size() == 0 || Eigen::LLT<Eigen::MatrixXd>((k + k.transpose()) / 2).info() == Eigen::Success;
     };
-    if (!positive(K.axis) || !positive(K.angles)) {
+    if (!positive(stiffness.axis.K) || !positive(stiffness.angles.K)) {
       throw ComputationFailed(
           "no stable steady state: the beam flows at or above its critical speed, or is loaded beyond buckling", t);
     }
@@ -84,14 +143,14 @@ Eigen::VectorXd steady_state(FlowingBeam<D>& beam, const Eigen::VectorXd& guess,
 }
 
 template <int D>
-LinearFlows linear_flows(FlowingBeam<D>& beam, const Eigen::VectorXd& y, double t) {
-  ImplicitFlow<D> flow(beam);
+LinearFlows linear_flows(BeamSystem<D>& beam, const Eigen::VectorXd& y, double t) {
   const Eigen::Index n = beam.coordinates();
-  const Eigen::VectorXd q = y.head(n), v = y.segment(n, n), a = Eigen::VectorXd::Zero(n);
-  const auto K = flow.free_tangent(q, v, a, t, {1, 0, 0});
-  const auto C = flow.free_tangent(q, v, a, t, {0, 1, 0});
-  const auto M = flow.free_tangent(q, v, a, t, {0, 0, 1});
-  return {{M.axis, C.axis, K.axis}, {M.angles, C.angles, K.angles}};
+  const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
+  LinearFlows flows;
+  add_matrix(beam, q, v, t, {1, 0, 0}, &LinearFlow::K, flows);
+  add_matrix(beam, q, v, t, {0, 1, 0}, &LinearFlow::C, flows);
+  add_matrix(beam, q, v, t, {0, 0, 1}, &LinearFlow::M, flows);
+  return flows;
 }
 
 std::vector<std::complex<double>> eigenvalues(const LinearFlow& flow) {
@@ -132,9 +191,17 @@ double growth_rate(const std::vector<std::complex<double>>& eigenvalues) {
   return largest;
 }
 
-template Eigen::VectorXd steady_state(FlowingBeam<2>&, const Eigen::VectorXd&, double, bool);
-template Eigen::VectorXd steady_state(FlowingBeam<3>&, const Eigen::VectorXd&, double, bool);
-template LinearFlows linear_flows(FlowingBeam<2>&, const Eigen::VectorXd&, double);
-template LinearFlows linear_flows(FlowingBeam<3>&, const Eigen::VectorXd&, double);
+template ChainState<2> straight_chain(const BeamModel<2>&, const Vec<double, 2>&, const Vec<double, 2>&, double, double,
+                                      double);
+template ChainState<3> straight_chain(const BeamModel<3>&, const Vec<double, 3>&, const Vec<double, 3>&, double, double,
+                                      double);
+template Eigen::VectorXd straight_state(const BeamSystem<2>&, const Vec<double, 2>&, const Vec<double, 2>&, double,
+                                        double, double, double);
+template Eigen::VectorXd straight_state(const BeamSystem<3>&, const Vec<double, 3>&, const Vec<double, 3>&, double,
+                                        double, double, double);
+template Eigen::VectorXd steady_state(BeamSystem<2>&, const Eigen::VectorXd&, double, bool);
+template Eigen::VectorXd steady_state(BeamSystem<3>&, const Eigen::VectorXd&, double, bool);
+template LinearFlows linear_flows(BeamSystem<2>&, const Eigen::VectorXd&, double);
+template LinearFlows linear_flows(BeamSystem<3>&, const Eigen::VectorXd&, double);
 
 }  // namespace vlbeam

@@ -26,11 +26,11 @@ bool BeamSystem<D>::solve_mass_apart(const JointElements& elements, const double
   if (elements.empty()) {
     solve_without_joint(*left_, *right_, p);
     if (!rider_) return true;
-    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(coordinates_);
-    const auto solved =
-        solve_with_rider<D>(rider_->mass, rider_law(), rider_motion(q, at_rest.data()),
-                            element_nodes<D>(p, rider_->element), Vector::Zero(), p[nodal_], rider_->held, false, p);
-    if (solved) p[nodal_] = solved->x;
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(coordinates());
+    const auto solved = solve_with_rider<D>(rider_->mass, rider_law(), rider_motion(q, at_rest.data()),
+                                            element_nodes<D>(p, rider_->element), Vector::Zero(), p[layout_.mark()],
+                                            rider_->held, false, p);
+    if (solved) p[layout_.mark()] = solved->x;
     return solved.has_value();
   }
   std::vector<JointMotion<D>> at_rest;
@@ -44,7 +44,7 @@ bool BeamSystem<D>::solve_mass_apart(const JointElements& elements, const double
 template <int D>
 void BeamSystem<D>::multiply_mass(const JointElements& elements, const double* q, const double* rate,
                                   double* out) const {
-  std::fill(out, out + coordinates_, 0.0);
+  std::fill(out, out + coordinates(), 0.0);
   left_->add_inertia(rate, out);
   right_->add_inertia(rate, out);
   for (const SpanBetween<D>& span : between_) span.span().add_inertia(rate, out);
@@ -84,13 +84,13 @@ void BeamSystem<D>::push_rider(const RiderMotion<double, D>& at, const Vector& f
   slope<D>(out, k) += at.s[1] * force;
   position<D>(out, k + 1) += at.s[2] * force;
   slope<D>(out, k + 1) += at.s[3] * force;
-  if (!rider_->held) out[nodal_] += at.r_x.dot(force);
+  if (!rider_->held) out[layout_.mark()] += at.r_x.dot(force);
 }
 
 template <int D>
 Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first,
                                                int last) const {
-  Eigen::VectorXd momentum = Eigen::VectorXd::Zero(coordinates_);
+  Eigen::VectorXd momentum = Eigen::VectorXd::Zero(coordinates());
   const auto& rule = gauss_legendre(transfer_points);
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
@@ -125,22 +125,22 @@ Eigen::VectorXd BeamSystem<D>::excess_momentum(const ChainState<D>& before, cons
 template <int D>
 void BeamSystem<D>::project_velocities(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y,
                                        double t) const {
-  Eigen::VectorXd correction = excess_momentum(before, chain(y), first, last);
+  Eigen::VectorXd correction = excess_momentum(before, chain(y, t), first, last);
   if (rider_ && !before.joints.empty()) {  // a node moves as its element does not
-    const auto at = rider_motion(y.data(), y.data() + coordinates_);
+    const auto at = rider_motion(y.data(), y.data() + coordinates());
     const Vector was = position<D>(before.rate.data(), before.joints.front().node);
     push_rider(at, rider_law().mass * (was - at.v), correction.data());
   }
   if (solve_mass(elements_at(y, t), y.data(), correction.data())) {
-    y.segment(coordinates_, coordinates_) += correction;
+    y.segment(coordinates(), coordinates()) += correction;
   }
 }
 
 template <int D>
 Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const {
   constexpr int rotations = D == 2 ? 1 : 3;
-  Eigen::MatrixXd momenta(coordinates_, D + rotations);
-  Eigen::VectorXd rigid(coordinates_);
+  Eigen::MatrixXd momenta(coordinates(), D + rotations);
+  Eigen::VectorXd rigid(coordinates());
   for (int mode = 0; mode < D + rotations; ++mode) {
     rigid.setZero();
     const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
@@ -148,7 +148,7 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements& elements, cons
       rigid[vector + a] = -y[vector + b];
       rigid[vector + b] = y[vector + a];
     };
-    for (Eigen::Index node = 0; node < nodal_; node += node_size<D>) {
+    for (Eigen::Index node = 0; node < layout_.mark(); node += node_size<D>) {
       if (mode < D) {
         rigid[node + mode] = 1;
       } else {
@@ -166,13 +166,13 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements& elements, cons
 
 template <int D>
 Eigen::VectorXd BeamSystem<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  return rigid_momenta(elements_at(y, t), y).transpose() * y.segment(coordinates_, coordinates_);
+  return rigid_momenta(elements_at(y, t), y).transpose() * y.segment(coordinates(), coordinates());
 }
 
 template <int D>
 void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const {
   const JointElements elements = elements_at(y, t);
-  auto rate = y.segment(coordinates_, coordinates_);
+  auto rate = y.segment(coordinates(), coordinates());
   // momenta of the rigid motions, and of these motions what the supports leave
   const Eigen::MatrixXd rigid = rigid_momenta(elements, y);
   Eigen::MatrixXd motion = rigid;
@@ -190,7 +190,7 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
 
   Eigen::VectorXd fluctuation = rate - motion * velocities_of(momenta);
   if (spin_) fluctuation.tail(spin_->coordinates()).setZero();
-  Eigen::VectorXd of_fluctuation(coordinates_);
+  Eigen::VectorXd of_fluctuation(coordinates());
   multiply_mass(elements, y.data(), fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);
   if (!(twice_kinetic > 0)) return;

@@ -47,15 +47,16 @@ struct Stem {
 
 /// `elements` of them, a third between table and guide, which the stem flows through; the others grow with the
 /// overhang.
-FlowingModel<D> model_of(const Stem& stem, int elements, bool ledger) {
+BeamModel<D> model_of(const Stem& stem, int elements, bool ledger) {
   const int guide = elements / 3;
-  FlowingModel<D> model;
+  BeamModel<D> model;
   model.section = stem.shaft.section();
   model.spin.emplace().section = stem.shaft.spin();
   model.motion = MeshMotion({{0, steadily(0, -stem.feed)},
                              {guide, steadily(stem.guide, -stem.feed)},
                              {elements, steadily(stem.guide + stem.overhang, 0)}});
-  model.supports = {{0, Support<D>::pin()}, {guide, Support<D>::slide(Vector::UnitZ())}};
+  model.start = Support<D>::pin();
+  model.held_nodes = {{guide, Support<D>::slide(Vector::UnitZ())}};
   model.spin->drives = {{0, steadily(0, stem.spin)}};
   auto turning = [=](double t) -> Vector {
     return stem.unbalance * Vector(std::cos(stem.spin * t), std::sin(stem.spin * t), 0);
@@ -66,12 +67,12 @@ FlowingModel<D> model_of(const Stem& stem, int elements, bool ledger) {
   };
   model.loads.points = {{.node = elements, .force = turning}};
   model.spin->torques.points = {{.node = elements, .torque = soil}};
-  model.ledger = ledger;
+  model.books_flow = ledger;
   return model;
 }
 
-Eigen::VectorXd at_rest(const FlowingBeam<D>& beam, const Stem& stem, double t = 0) {
-  return beam.straight_state(Vector::Zero(), Vector::UnitZ(), 1, stem.feed, stem.spin, t);
+Eigen::VectorXd at_rest(const BeamSystem<D>& beam, const Stem& stem, double t = 0) {
+  return straight_state<D>(beam, Vector::Zero(), Vector::UnitZ(), 1, stem.feed, stem.spin, t);
 }
 
 struct Sample {
@@ -82,15 +83,16 @@ struct Sample {
 };
 
 std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples) {
-  FlowingBeam<D> beam(model_of(stem, elements, false));
-  beam.check_motion(stem.duration);
+  const BeamModel<D> model = model_of(stem, elements, false);
+  BeamSystem<D> beam(model, straight_chain(model));
+  beam.moving_mesh()->check_motion(stem.duration);
   std::vector<Sample> history;
   std::vector<double> times;
   for (int i = 0; i <= samples; ++i) times.push_back(stem.duration * i / samples);
   beam.on_sample = [&](const Eigen::VectorXd& y, double t) {
     const Vector bit = position<D>(y.data(), elements);
     const double angle = y[beam.angle(elements)] - y[beam.angle(0)];
-    FlowingBeam<D> frozen(model_of(stem, elements, false));
+    BeamSystem<D> frozen(model, straight_chain(model));
     const auto modes = frequencies(eigenvalues(linear_flows(frozen, at_rest(frozen, stem, t), t).axis));
     history.push_back({stem.overhang + stem.feed * t, std::hypot(bit[0], bit[1]), -angle, modes.front()});
   };
@@ -111,17 +113,18 @@ struct Gap {
 };
 
 Gap ledger(const Stem& stem, int elements, double duration) {
-  FlowingBeam<D> beam(model_of(stem, elements, true));
+  const BeamModel<D> model = model_of(stem, elements, true);
+  BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = at_rest(beam, stem);
-  const auto before = beam.observe(y, 0);
+  const auto before = beam.observe(y, 0, model.quadrature_points);
   IntegrationOptions options;
   options.type = IntegratorType::fehlberg78;
   options.tolerances = {1e-9, 1e-11};
   SolverCounters counters;
   double t = 0;
   integrate(beam, y, t, duration, {}, options, counters);
-  const auto after = beam.observe(y, t);
-  const Tally book = beam.ledger(y);
+  const auto after = beam.observe(y, t, model.quadrature_points);
+  const Tally book = model.tallies().of(y);
   const double passed = std::abs(book.ends) + std::abs(book.loads);
   return {
       .energy = std::abs(after.energy.total() - before.energy.total() - book.ends - book.loads - book.mesh) / passed,

@@ -32,8 +32,8 @@ struct Span {
 };
 
 /// `span` between two pins; its nodes stand still in space and move along the beam.
-FlowingBeam<D> model_of(const Span& span) {
-  FlowingModel<D> model;
+BeamModel<D> model_of(const Span& span) {
+  BeamModel<D> model;
   model.section = span.shaft.section();
   model.section.stiffness.EA *= span.stiffening;
   if (!span.bends) model.section.stiffness.EI = 0;
@@ -41,14 +41,15 @@ FlowingBeam<D> model_of(const Span& span) {
   const double stretch = stretch_under(span.tension, model.section.stiffness.EA);
   model.motion = MeshMotion({{0, steadily(0, -span.speed / stretch)},
                              {span.elements, steadily(span.length / stretch, -span.speed / stretch)}});
-  model.supports = {{0, Support<D>::pin()}, {span.elements, Support<D>::pin()}};
+  model.start = model.end = Support<D>::pin();
+  model.books_flow = false;
   if (span.spins) model.spin->drives = {{0, steadily(0, 0)}, {span.elements, steadily(0, 0)}};
-  return FlowingBeam<D>(model);
+  return model;
 }
 
-Eigen::VectorXd straight(const FlowingBeam<D>& beam, const Span& span) {
-  return beam.straight_state(Vector::Zero(), Vector::UnitX(),
-                             stretch_under(span.tension, beam.model().section.stiffness.EA), span.speed, 0);
+Eigen::VectorXd straight(const BeamSystem<D>& beam, const Span& span) {
+  return straight_state<D>(beam, Vector::Zero(), Vector::UnitX(),
+                           stretch_under(span.tension, beam.model().section.stiffness.EA), span.speed, 0);
 }
 
 struct Modes {
@@ -57,7 +58,8 @@ struct Modes {
 };
 
 Modes modes_of(const Span& span) {
-  FlowingBeam<D> beam = model_of(span);
+  const BeamModel<D> model = model_of(span);
+  BeamSystem<D> beam(model, straight_chain(model));
   const Eigen::VectorXd y = steady_state(beam, straight(beam, span), 0, true);
   LinearFlow transverse = linear_flows(beam, y).axis;
   // Along and across the straight beam nothing couples: the first transverse plane is every third coordinate, the pins'
@@ -76,7 +78,8 @@ Modes modes_of(const Span& span) {
 
 /// Deflection of the middle node, at equal intervals, after the inner nodes were given a transverse velocity.
 std::vector<double> deflections(const Span& span, double velocity, double interval, int samples) {
-  FlowingBeam<D> beam = model_of(span);
+  const BeamModel<D> model = model_of(span);
+  BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = straight(beam, span);
   for (int k = 1; k < span.elements; ++k) position<D>(y.data() + beam.coordinates(), k)[1] = velocity;
   std::vector<double> times, result;

@@ -9,8 +9,9 @@
 
 #include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
+#include "core/length_control/chain_motion.hpp"
 #include "core/scene/options.hpp"
-#include "core/system/flowing_beam.hpp"
+#include "core/system/steady_flow.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/rotating_load/closed_form.hpp"
 
@@ -41,6 +42,11 @@ struct History {
   std::array<std::vector<std::array<double, 3>>, 4> shapes;  ///< z/l, U1, U2 at each quarter of the way
 };
 
+/// Where the material point x is.
+Vector place_of(const ChainState<D>& chain, double x) {
+  return motion_at(chain, chain.mesh.element_at(x), x, WeightTransport::frozen).r;
+}
+
 class Shaft {
  public:
   explicit Shaft(const Json& config)
@@ -63,7 +69,7 @@ class Shaft {
     const double force = 48 * EJ * deflection_ / (length_ * length_ * length_);
     const int middle = run.elements / 2;
 
-    FlowingModel<D> model;
+    BeamModel<D> model;
     model.section = shaft.section();
     model.spin.emplace().section = shaft.spin();
     if (run.spin >= 0) {
@@ -72,28 +78,31 @@ class Shaft {
     }
     model.motion = MeshMotion(
         {{0, steadily(0, 0)}, {middle, steadily(margin * length_, speed)}, {run.elements, steadily(length_, 0)}});
-    model.supports = {{0, Support<D>::pin()}, {run.elements, Support<D>::slide(Vector::UnitZ())}};
+    model.start = Support<D>::pin();
+    model.end = Support<D>::slide(Vector::UnitZ());
+    model.books_flow = false;
     model.spin->drives = {{0, steadily(0, spin)}};
     auto turning = [=](double t) -> Vector {
       const double angle = omega * (t + margin * duration);
       return {force * std::cos(angle), force * std::sin(angle), 0};
     };
     model.loads.points = {{.node = middle, .force = turning}};
-    FlowingBeam<D> beam(model);
-    beam.check_motion((1 - 2 * margin) * duration);
+    BeamSystem<D> beam(model, straight_chain(model));
+    beam.moving_mesh()->check_motion((1 - 2 * margin) * duration);
 
     std::vector<double> times;
     for (int i = 1; i < samples; ++i) times.push_back(duration * (static_cast<double>(i) / samples - margin));
     for (const int k : {3, 2}) times.push_back(duration * (1 - k * margin));
     History history;
     beam.on_sample = [&](const Eigen::VectorXd& y, double t) {
+      const ChainState<D> chain = beam.chain(y, t);
       const Vector load = position<D>(y.data(), middle) / deflection_;
-      const Vector half = beam.position_at(y, t, length_ / 2) / deflection_;
+      const Vector half = place_of(chain, length_ / 2) / deflection_;
       history.at.push_back({load[0], load[1], half[0], half[1]});
       const std::size_t count = history.at.size();
       if (count % (samples / 4) != 0) return;
       for (int i = 0; i <= points; ++i) {
-        const Vector r = beam.position_at(y, t, length_ * i / points);
+        const Vector r = place_of(chain, length_ * i / points);
         history.shapes[count / (samples / 4) - 1].push_back({r[2] / length_, r[0] / deflection_, r[1] / deflection_});
       }
     };
@@ -102,7 +111,7 @@ class Shaft {
     options.generalized_alpha.step = duration / run.steps;
     SolverCounters counters;
     double t = 0;
-    Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitZ(), 1, 0, spin);
+    Eigen::VectorXd y = straight_state<D>(beam, Vector::Zero(), Vector::UnitZ(), 1, 0, spin);
     integrate(beam, y, t, times.back(), times, options, counters);
 
     const auto last = history.at.back();

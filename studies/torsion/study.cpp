@@ -24,17 +24,17 @@ using Vector = Vec<double, D>;
 /// Torsional frequencies [Hz] of a shaft held at the start, at the end too where `both`, that flows at `speed` [m/s].
 std::vector<double> torsion(const CircularShaft& shaft, double length, int elements, bool both, double speed,
                             Formulation formulation, AngleField field = AngleField::linear) {
-  FlowingModel<D> model;
+  BeamModel<D> model;
   model.section = shaft.section();
   model.spin.emplace().section = shaft.spin();
   model.spin->field = field;
   model.formulation = formulation;
   model.motion = MeshMotion({{0, steadily(0, -speed)}, {elements, steadily(length, -speed)}});
-  model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
+  model.start = model.end = Support<D>::pin();
   model.spin->drives = {{0, steadily(0, 0)}};
   if (both) model.spin->drives.push_back({elements, steadily(0, 0)});
-  FlowingBeam<D> beam(model);
-  const Eigen::VectorXd y = beam.straight_state(Vector::Zero(), Vector::UnitX(), 1, speed, 0);
+  BeamSystem<D> beam(model, straight_chain(model));
+  const Eigen::VectorXd y = straight_state<D>(beam, Vector::Zero(), Vector::UnitX(), 1, speed, 0);
   return frequencies(eigenvalues(linear_flows(beam, y).angles));
 }
 

@@ -40,16 +40,19 @@ Scene soft_beam(ElementKind element, int dimension) {
   return scene;
 }
 
+/// A scene by an explicit and by an implicit method.
+void add_laws(const char* name, Scene scene, std::vector<Law>& laws) {
+  test::set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
+  laws.push_back({name, scene});
+  scene.integrator = {};
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.newton_tolerance = 1e-10;
+  laws.push_back({name, scene});
+}
+
 std::vector<Law> laws() {
   std::vector<Law> result;
-  const auto with_integrators = [&](const char* name, Scene scene) {
-    test::set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
-    result.push_back({name, scene});
-    scene.integrator = {};
-    scene.integrator.type = IntegratorType::generalized_alpha;
-    scene.integrator.newton_tolerance = 1e-10;
-    result.push_back({name, scene});
-  };
+  const auto with_integrators = [&](const char* name, const Scene& scene) { add_laws(name, scene, result); };
   with_integrators("RANCF", soft_beam(ElementKind::rancf, 2));
   with_integrators("ANCF", soft_beam(ElementKind::ancf, 2));
   with_integrators("ALE-RANCF", soft_beam(ElementKind::ale_rancf, 2));
@@ -65,10 +68,40 @@ std::vector<Law> laws() {
   return result;
 }
 
-/// Those of other beams, too: with a sliding mass, curved, moved.
-/// Those whose nodes may move along the beam.
+Scene soft_arc() {
+  Scene arc = soft_beam(ElementKind::ale_rancf, 2);
+  arc.beam.weights = {1, 1, 1, 1};
+  arc.beam.curve = {.type = CurveType::arc, .center = {0, 0, 0}, .radius = 1, .from_degrees = 90, .to_degrees = 180};
+  return arc;
+}
+
+Scene shaken_beam() {
+  Scene shaken = soft_beam(ElementKind::ale_ancf, 2);
+  shaken.start.motion = {.direction = {0, 1, 0},
+                         .displacement = {.amplitude = 0.01, .frequency = 5, .phase_degrees = 90}};
+  return shaken;
+}
+
+/// Those whose nodes may move along the beam: with all else that a beam may have then.
 std::vector<Law> movable_laws() {
   std::vector<Law> result = laws();
+  const auto with_methods = [&](const char* name, const Scene& scene) {
+    add_laws(name, scene, result);
+    Scene cut = result.back().scene;
+    cut.constraints = Constraints::multipliers;
+    result.push_back({name, cut});
+  };
+  with_methods("arc", soft_arc());
+  with_methods("moving support", shaken_beam());
+  Scene braked = soft_beam(ElementKind::ale_rancf, 3);
+  braked.drag = DragSpec{{0.4, 0.1}, {0.3, 0.05}};
+  braked.beam.material.mass_damping = 2;
+  with_methods("drag", braked);
+  Scene turned = soft_beam(ElementKind::ale_ancf, 2);
+  turned.start.type = SupportType::pin;
+  turned.initial_velocity = {.rotation = 3, .about = {0, 1, 0}};
+  turned.loads = {{.type = LoadType::moment, .node = 6, .x = {}, .magnitude = {.value = 0.01}, .turn = {}}};
+  with_methods("moment and initial velocity", turned);
   std::erase_if(result, [](const Law& law) {
     const ElementKind element = law.scene.beam.element;
     return element == ElementKind::rancf || element == ElementKind::ancf;
@@ -76,12 +109,10 @@ std::vector<Law> movable_laws() {
   return result;
 }
 
+/// Those of other beams, too: with a sliding mass, curved, moved.
 std::vector<Law> all_laws() {
   std::vector<Law> result = laws();
-  Scene arc = soft_beam(ElementKind::ale_rancf, 2);
-  arc.beam.weights = {1, 1, 1, 1};
-  arc.beam.curve = {.type = CurveType::arc, .center = {0, 0, 0}, .radius = 1, .from_degrees = 90, .to_degrees = 180};
-  result.push_back({"arc", arc});
+  result.push_back({"arc", soft_arc()});
   for (const ElementKind element : {ElementKind::ale_rancf, ElementKind::ale_ancf}) {
     Scene falling = falling_beam(element, 8);
     falling.duration = 0.1;
@@ -90,10 +121,7 @@ std::vector<Law> all_laws() {
     falling.integrator.type = IntegratorType::generalized_alpha;
     result.push_back({"falling beam, multipliers", falling});
   }
-  Scene shaken = soft_beam(ElementKind::ale_ancf, 2);
-  shaken.start.motion = {.direction = {0, 1, 0},
-                         .displacement = {.amplitude = 0.01, .frequency = 5, .phase_degrees = 90}};
-  result.push_back({"moving support", shaken});
+  result.push_back({"moving support", shaken_beam()});
   return result;
 }
 
@@ -163,8 +191,9 @@ class MarkTest : public testing::TestWithParam<Law> {};
 TEST_P(MarkTest, AMarkThatRestsChangesNothing) {
   const Scene& bare = GetParam().scene;
   Scene prescribed = bare;
+  const double length = beam_length(bare);
   prescribed.flow.emplace().nodes = {
-      {.node = 0, .x = {}}, {.node = 2, .x = {.value = 2.0 / 6}}, {.node = 6, .x = {.value = 1}}};
+      {.node = 0, .x = {}}, {.node = 2, .x = {.value = 2 * length / 6}}, {.node = 6, .x = {.value = length}}};
   const RunResult without = simulate(bare), with = simulate(prescribed);
   expect_same(bare, without, with, 0, at_once);
   expect_same(bare, without, with, bare.duration, in_space_of_time);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <sstream>
 #include <vector>
 
@@ -102,8 +103,11 @@ const std::vector<Feature>& features() {
        true},
       {"curved axis, as built",
        [](Scene& s) {
-         s.beam.curve = {
-             .type = CurveType::arc, .center = {-1, 0, 0}, .radius = 1, .from_degrees = 0, .to_degrees = 60};
+         s.beam.curve = {.type = CurveType::arc,
+                         .center = {-1, 0, 0},
+                         .radius = 1,
+                         .from_degrees = 0,
+                         .to_degrees = 180 / std::numbers::pi};
        }},
       {"uneven weights",
        [](Scene& s) {

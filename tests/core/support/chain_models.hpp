@@ -59,7 +59,7 @@ PointMasses<D> masses_on(double length) {
 template <int D>
 Vec<double, 3> angular_momentum(const BeamSystem<D>& system, const Eigen::VectorXd& y) {
   const auto& model = system.model();
-  const auto chain = system.chain(y);
+  const auto chain = system.chain(y, 0);
   auto in_space = [](const Vec<double, D>& v) {
     Vec<double, 3> result = Vec<double, 3>::Zero();
     result.template head<D>() = v;

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "core/element/circular_shaft.hpp"
-#include "core/system/flowing_beam.hpp"
 #include "core/system/steady_flow.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -13,45 +12,44 @@ namespace vlbeam::test {
 /// A span of 1 m between two pins, stretched by 1000 N, through which the beam flows at 40 m/s: the axially moving beam
 /// of the shaft element's first example (r = 5 mm, aluminium). `raise` multiplies EA.
 template <int D>
-FlowingModel<D> moving_span(int elements, bool bends, double speed, double raise = 1) {
+BeamModel<D> moving_span(int elements, bool bends, double speed, double raise = 1) {
   const CircularShaft shaft{.radius = 0.005, .density = 2700, .youngs_modulus = 70e9};
-  FlowingModel<D> model;
+  BeamModel<D> model;
   model.section = shaft.section();
   model.section.stiffness.EA *= raise;
   if (!bends) model.section.stiffness.EI = 0;
   const double stretch = stretch_under(1000, model.section.stiffness.EA);
   model.motion = MeshMotion({{0, steadily(0, -speed / stretch)}, {elements, steadily(1 / stretch, -speed / stretch)}});
-  model.supports = {{0, Support<D>::pin()}, {elements, Support<D>::pin()}};
+  model.start = model.end = Support<D>::pin();
   return model;
 }
 
 /// Its steady state as a guess.
 template <int D>
-Eigen::VectorXd moving_span_state(const FlowingBeam<D>& beam, double speed) {
-  const auto nodes = beam.nodes_at(0);
-  const double stretch = 1 / (nodes.back().value - nodes.front().value);
-  return beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), stretch, speed, 0);
+Eigen::VectorXd moving_span_state(const BeamSystem<D>& beam, double speed) {
+  const double stretch = 1 / beam.mesh().length();
+  return straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), stretch, speed, 0);
 }
 
 /// First torsional frequency of a rod fixed at both ends that flows at half the speed of its waves; l = c = 1.
 inline double flowing_rod(int elements, Formulation formulation, AngleField field = AngleField::linear) {
-  FlowingModel<2> model;
+  BeamModel<2> model;
   model.section = {.rhoA = 1, .stiffness = {1, 1}};
   model.spin.emplace().section = {.rhoIp = 1, .GIp = 1};
   model.spin->field = field;
   model.formulation = formulation;
   model.motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
-  model.supports = {{0, Support<2>::pin()}, {elements, Support<2>::pin()}};
+  model.start = model.end = Support<2>::pin();
   model.spin->drives = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
-  FlowingBeam<2> beam(model);
-  const Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
+  BeamSystem<2> beam(model, straight_chain(model));
+  const Eigen::VectorXd y = straight_state<2>(beam, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
   return frequencies(eigenvalues(linear_flows(beam, y).angles)).front();
 }
 
 /// A state in which everything moves: a curved, stretched, twisted beam with random rates.
 template <int D>
-Eigen::VectorXd random_state(const FlowingBeam<D>& beam, Random& random, double size = 0.05) {
-  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
+Eigen::VectorXd random_state(const BeamSystem<D>& beam, Random& random, double size = 0.05) {
+  Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
   for (Eigen::Index i = 0; i < 2 * beam.coordinates(); ++i) y[i] += random.uniform(-size, size);
   return y;
 }

@@ -154,15 +154,14 @@ TEST(GeneralizedAlphaStep, AllocatesNothingOnceItIsGoing) {
 TEST(RightHandSide, OfAFlowingBeamAllocatesNothing) {
   if (!VLBEAM_COUNTS_ALLOCATIONS) GTEST_SKIP() << "not under a sanitizer";
   Random random(4);
-  FlowingModel<3> model = moving_span<3>(6, true, 10);
+  BeamModel<3> model = moving_span<3>(6, true, 10);
   model.spin.emplace().section = {.rhoIp = 1, .GIp = 1, .damping = 0.1};
   model.loads.points = {
       {.node = 3, .force = [](double t) { return Eigen::Vector3d(t, 1, 0); }, .follower = [](double) { return 1.0; }}};
   model.spin->torques.points = {{.node = 3, .torque = [](double) { return 1.0; }}};
   model.loads.line_force = [](double t) { return Eigen::Vector3d(0, t, 1); };
   model.spin->torques.line = [](double) { return 1.0; };
-  model.ledger = true;
-  FlowingBeam<3> beam(model);
+  BeamSystem<3> beam(model, straight_chain(model));
   const Eigen::VectorXd y = random_state(beam, random);
   Eigen::VectorXd dydt(beam.size());
   beam.rhs(y, dydt, 0);

@@ -154,7 +154,7 @@ class AtRest {
     equations->expand(y_, q, v);
     equations->residual(q, Eigen::VectorXd::Zero(q.size()), Eigen::VectorXd::Zero(q.size()), 0, r);
     force_ = std::max(force_, r.cwiseAbs().maxCoeff() / k.EA);
-    const ChainState<D> chain = system_.chain(y_);
+    const ChainState<D> chain = system_.chain(y_, 0);
     for (int node = 0; node <= chain.mesh.last(); ++node) {
       const auto at = axis_.derivatives(chain.mesh.x[static_cast<std::size_t>(node)]);
       off_curve_ = std::max({off_curve_, (position<D>(chain.rest.data(), node) - at[0]).norm(),

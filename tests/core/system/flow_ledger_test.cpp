@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "core/system/flowing_beam.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"
 
@@ -9,9 +8,9 @@ namespace {
 
 /// A soft beam that flows through its ends, one of them free, with every kind of load, in curved motion.
 template <int D>
-FlowingModel<D> everything(WeightTransport transport) {
+BeamModel<D> everything(WeightTransport transport) {
   const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e6, .poisson_ratio = 0.4};
-  FlowingModel<D> model;
+  BeamModel<D> model;
   model.section = shaft.section();
   model.spin.emplace().section = shaft.spin();
   model.transport = transport;
@@ -27,8 +26,7 @@ FlowingModel<D> everything(WeightTransport transport) {
   };
   model.motion =
       MeshMotion({{0, wavering(0, -0.7, 0.02)}, {2, wavering(0.5, 0.1, -0.03)}, {5, wavering(1, 0.5, 0.05)}});
-  model.weights.assign(5, {{1, 1.1, 0.95, 1.05}, -0.5, 1.5});
-  model.supports = {{0, Support<D>::direction_clamp(Vec<double, D>::UnitX())}};
+  model.start = Support<D>::direction_clamp(Vec<double, D>::UnitX());
   model.spin->drives = {{0, steadily(0, 6)}};
   model.loads.points = {
       {.node = 2,
@@ -47,7 +45,6 @@ FlowingModel<D> everything(WeightTransport transport) {
       {.x = [](double t) { return 0.3 + 1.4 * t; }, .torque = [](double t) { return 0.2 * std::cos(6 * t); }}};
   model.loads.line_force = [](double t) { return Vec<double, D>(Vec<double, D>::UnitY() * 3 * std::cos(4 * t)); };
   model.spin->torques.line = [](double t) { return 0.2 * std::cos(3 * t); };
-  model.ledger = true;
   return model;
 }
 
@@ -55,24 +52,26 @@ template <class Dimension>
 class FlowLedgerTest : public ::testing::Test {};
 TYPED_TEST_SUITE(FlowLedgerTest, Dimensions, DimensionNames);
 
-/// What the ledger misses after 0.3 s, relative to the energy, mass and momentum that passed.
+/// What the ledger misses after `duration` [s], relative to the energy, mass and momentum that passed.
 struct Gap {
   double energy, mass, momentum, spin_momentum;
 };
 
 template <int D>
-Gap gap_of(const FlowingModel<D>& model, const IntegrationOptions& options) {
-  FlowingBeam<D> beam(model);
-  Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0.3, 6);
+Gap gap_of(const BeamModel<D>& model, const IntegrationOptions& options, double duration = 0.3) {
+  ChainState<D> chain = straight_chain(model);
+  chain.mesh.weights.assign(5, {{1, 1.1, 0.95, 1.05}, -0.5, 1.5});
+  BeamSystem<D> beam(model, chain);
+  Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0.3, 6);
   position<D>(y.data() + beam.coordinates(), 0).setZero();
-  const Observation<D> before = beam.observe(y, 0);
+  const Observation<D> before = beam.observe(y, 0, model.quadrature_points);
   SolverCounters counters;
   double t = 0;
-  integrate(beam, y, t, 0.3, {}, options, counters);
-  const Observation<D> after = beam.observe(y, t);
-  const Tally ledger = beam.ledger(y);
-  EXPECT_GT(std::abs(ledger.ends), 1e-2);
-  EXPECT_GT(std::abs(ledger.loads), 1e-2);
+  integrate(beam, y, t, duration, {}, options, counters);
+  const Observation<D> after = beam.observe(y, t, model.quadrature_points);
+  const Tally ledger = model.tallies().of(y);
+  EXPECT_GT(std::abs(ledger.ends), 1e-3);
+  EXPECT_GT(std::abs(ledger.loads), 1e-3);
   const double passed = std::abs(ledger.ends) + std::abs(ledger.loads) + std::abs(ledger.mesh) + ledger.dissipated;
   return {std::abs(after.energy.total() - before.energy.total() - ledger.ends - ledger.loads - ledger.mesh) / passed,
           std::abs(after.mass - before.mass - ledger.mass) / std::abs(ledger.mass),
@@ -91,7 +90,7 @@ TYPED_TEST(FlowLedgerTest, ClosesWithInflowOutflowAndEveryLoad) {
   constexpr int D = TypeParam::value;
   for (const auto transport : {WeightTransport::frozen, WeightTransport::transported}) {
     for (const bool damped : {false, true}) {
-      FlowingModel<D> model = everything<D>(transport);
+      BeamModel<D> model = everything<D>(transport);
       model.spin->field = damped ? AngleField::hermite : AngleField::linear;
       if (damped) {
         model.section.damping = D == 2 ? 0.01 : 0;
@@ -108,12 +107,13 @@ TYPED_TEST(FlowLedgerTest, ClosesWithInflowOutflowAndEveryLoad) {
 
 TYPED_TEST(FlowLedgerTest, DoesNotCloseWithoutTheFluxAndTheConfigurationalForce) {
   constexpr int D = TypeParam::value;
-  FlowingModel<D> model = everything<D>(WeightTransport::frozen);
+  BeamModel<D> model = everything<D>(WeightTransport::frozen);
   model.formulation = Formulation::virtual_work;
   model.rotary = {};
   EXPECT_GT(gap_of(model, closely()).energy, 1e-4);
 }
 
+// While the motion is smooth for these steps: later the soft beam whips, and gaps of single runs scatter.
 TYPED_TEST(FlowLedgerTest, ClosesWithGeneralizedAlphaToItsOrder) {
   constexpr int D = TypeParam::value;
   IntegrationOptions options;
@@ -121,11 +121,13 @@ TYPED_TEST(FlowLedgerTest, ClosesWithGeneralizedAlphaToItsOrder) {
   std::vector<Gap> gaps;
   for (const double step : {1e-4, 5e-5, 2.5e-5}) {
     options.generalized_alpha.step = step;
-    gaps.push_back(gap_of(everything<D>(WeightTransport::frozen), options));
+    gaps.push_back(gap_of(everything<D>(WeightTransport::frozen), options, 0.03));
   }
   for (std::size_t i = 1; i < gaps.size(); ++i) {
-    EXPECT_GE(std::log2(gaps[i - 1].energy / gaps[i].energy), 1.5) << gaps[i].energy;
+    EXPECT_NEAR(std::log2(gaps[i - 1].energy / gaps[i].energy), 2, 0.1) << gaps[i].energy;
     EXPECT_NEAR(std::log2(gaps[i - 1].mass / gaps[i].mass), 2, 0.1) << gaps[i].mass;
+    EXPECT_NEAR(std::log2(gaps[i - 1].momentum / gaps[i].momentum), 2, 0.1) << gaps[i].momentum;
+    EXPECT_NEAR(std::log2(gaps[i - 1].spin_momentum / gaps[i].spin_momentum), 2, 0.1) << gaps[i].spin_momentum;
   }
 }
 

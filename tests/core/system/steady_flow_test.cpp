@@ -11,7 +11,8 @@ namespace {
 
 template <int D>
 std::vector<double> span_frequencies(int elements, bool bends, double raise = 1, double speed = 40) {
-  FlowingBeam<D> beam(moving_span<D>(elements, bends, speed, raise));
+  const BeamModel<D> model = moving_span<D>(elements, bends, speed, raise);
+  BeamSystem<D> beam(model, straight_chain(model));
   const Eigen::VectorXd y = steady_state(beam, moving_span_state(beam, speed));
   return frequencies(eigenvalues(linear_flows(beam, y).axis));
 }
@@ -34,16 +35,17 @@ TEST(SteadyFlow, InSpaceEveryTransverseFrequencyIsThereTwice) {
 
 TEST(SteadyFlow, ThereIsNoStableOneAtOrAboveTheCriticalSpeed) {
   const double critical = 80;  // of the beam above: sqrt((F + EI pi^2/l^2)/rhoA), 79.6 m/s
-  FlowingBeam<2> beam(moving_span<2>(8, true, critical));
+  const BeamModel<2> model = moving_span<2>(8, true, critical);
+  BeamSystem<2> beam(model, straight_chain(model));
   EXPECT_THROW(steady_state(beam, moving_span_state(beam, critical)), ComputationFailed);
   const Eigen::VectorXd y = steady_state(beam, moving_span_state(beam, critical), 0, true);
   EXPECT_GT(growth_rate(eigenvalues(linear_flows(beam, y).axis)), 1);
 }
 
 TEST(SteadyFlow, OfAHangingBeamIsItsStaticShape) {
-  FlowingModel<2> model = moving_span<2>(8, true, 0);
+  BeamModel<2> model = moving_span<2>(8, true, 0);
   model.gravity = {0, -9.81};
-  FlowingBeam<2> beam(model);
+  BeamSystem<2> beam(model, straight_chain(model));
   const Eigen::VectorXd y = steady_state(beam, moving_span_state(beam, 0));
   Eigen::VectorXd dydt(y.size());
   beam.rhs(y, dydt, 0);
@@ -67,14 +69,15 @@ TEST(SteadyFlow, RotaryInertiaSplitsTheWhirlOfASpinningShaft) {
   EXPECT_GT(forward / backward, 1.01);
   std::vector<double> errors;
   for (const int elements : {4, 8, 16}) {
-    FlowingModel<3> model;
+    BeamModel<3> model;
     model.section = shaft.section();
     model.spin.emplace().section = section;
     model.rotary = {section.rhoIp / 2, section.rhoIp * spin, Eigen::Vector3d::UnitX()};
     model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
-    model.supports = {{0, Support<3>::pin()}, {elements, Support<3>::slide(Eigen::Vector3d::UnitX())}};
-    FlowingBeam<3> beam(model);
-    const Eigen::VectorXd y = beam.straight_state(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1, 0, spin);
+    model.start = Support<3>::pin();
+    model.end = Support<3>::slide(Eigen::Vector3d::UnitX());
+    BeamSystem<3> beam(model, straight_chain(model));
+    const Eigen::VectorXd y = straight_state<3>(beam, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1, 0, spin);
     const auto found = frequencies(eigenvalues(linear_flows(beam, y).axis));
     errors.push_back(std::hypot(found[0] / backward - 1, found[1] / forward - 1));
   }

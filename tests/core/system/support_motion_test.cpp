@@ -144,7 +144,7 @@ struct DrivenRun {
       ++seen.events;
     };
     system.on_sample = [&](const Eigen::VectorXd& y, double t) {
-      const auto chain = system.chain(y);
+      const auto chain = system.chain(y, t);
       seen.position = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), static_cast<Eigen::Index>(chain.q.size()));
       seen.rate = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), static_cast<Eigen::Index>(chain.rate.size()));
       seen.energy = system.observe(y, t, system.model().quadrature_points).energy;

@@ -30,17 +30,17 @@ Return there_and_back(const Scene& scene, double tolerance = 1e-12) {
   options.tolerances = {tolerance, tolerance};
   SolverCounters counters;
   Eigen::VectorXd y = system.initial_state();
-  const ChainState<2> start = system.chain(y);
+  const ChainState<2> start = system.chain(y, 0);
   const auto run = [&] {
     double t = 0;
     EXPECT_TRUE(integrate(system, y, t, scene.duration, {}, options, counters));
   };
   run();
-  const ChainState<2> turn = system.chain(y);
+  const ChainState<2> turn = system.chain(y, 0);
   const Eigen::Index n = system.coordinates();
   y.segment(n, n) *= -1;
   run();
-  const ChainState<2> end = system.chain(y);
+  const ChainState<2> end = system.chain(y, 0);
   const WeightTransport transport = system.model().transport;
   for (int i = 0; i <= 200; ++i) {
     const double x = start.mesh.length() * i / 200;

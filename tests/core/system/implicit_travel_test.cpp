@@ -1,4 +1,4 @@
-#include "core/system/implicit_flow.hpp"
+#include "core/system/implicit_beam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@ namespace vlbeam::test {
 namespace {
 
 template <int D>
-FlowingModel<D> whirling() {
+BeamModel<D> whirling() {
   const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e6};
   Vec<double, D> along = Vec<double, D>::UnitX();
   along[1] = 0.3;
-  FlowingModel<D> model;
+  BeamModel<D> model;
   model.section = shaft.section();
   model.section.damping = D == 2 ? 0.01 : 0;
   model.spin.emplace().section = shaft.spin();
@@ -29,7 +29,8 @@ FlowingModel<D> whirling() {
                                 return Prescribed{0.5 + 0.3 * t * t, 0.6 * t, 0.6};
                               }},
                              {4, steadily(1, 0.4)}});
-  model.supports = {{0, Support<D>::direction_clamp(along)}, {2, Support<D>::pin()}, {3, Support<D>::slide(along)}};
+  model.start = Support<D>::direction_clamp(along);
+  model.held_nodes = {{2, Support<D>::pin()}, {3, Support<D>::slide(along)}};
   model.spin->drives = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
   model.loads.points = {{.node = 4, .follower = [](double) { return 0.7; }}};
   model.spin->torques.points = {{.node = 4, .torque = [](double) { return 0.1; }}};
@@ -43,21 +44,21 @@ constexpr std::pair<Formulation, AngleField> choices[] = {{Formulation::variatio
                                                           {Formulation::virtual_work, AngleField::hermite}};
 
 template <class Dimension>
-class ImplicitFlowTest : public ::testing::Test {
+class ImplicitTravelTest : public ::testing::Test {
  protected:
   Random random_{5};
 };
-TYPED_TEST_SUITE(ImplicitFlowTest, Dimensions, DimensionNames);
+TYPED_TEST_SUITE(ImplicitTravelTest, Dimensions, DimensionNames);
 
-TYPED_TEST(ImplicitFlowTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm) {
+TYPED_TEST(ImplicitTravelTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm) {
   constexpr int D = TypeParam::value;
   for (const auto& [formulation, field] : choices) {
-    FlowingModel<D> model = whirling<D>();
+    BeamModel<D> model = whirling<D>();
     model.formulation = formulation;
     if (formulation == Formulation::virtual_work) model.rotary = {};
     model.spin->field = field;
-    FlowingBeam<D> beam(model);
-    ImplicitFlow<D> flow(beam);
+    BeamSystem<D> beam(model, straight_chain(model));
+    ImplicitBeam<D> flow(beam);
     const Eigen::Index n = beam.coordinates();
     const Eigen::VectorXd y = random_state(beam, this->random_);
     const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
@@ -69,15 +70,15 @@ TYPED_TEST(ImplicitFlowTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm
   }
 }
 
-TYPED_TEST(ImplicitFlowTest, TangentIsTheDerivativeOfTheResidual) {
+TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   for (const auto& [formulation, field] : choices) {
-    FlowingModel<D> model = whirling<D>();
+    BeamModel<D> model = whirling<D>();
     model.formulation = formulation;
     if (formulation == Formulation::virtual_work) model.rotary = {};
     model.spin->field = field;
-    FlowingBeam<D> beam(model);
-    ImplicitFlow<D> flow(beam);
+    BeamSystem<D> beam(model, straight_chain(model));
+    ImplicitBeam<D> flow(beam);
     const Eigen::Index n = beam.coordinates();
     const Eigen::VectorXd y = random_state(beam, this->random_);
     const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
@@ -99,14 +100,17 @@ TYPED_TEST(ImplicitFlowTest, TangentIsTheDerivativeOfTheResidual) {
   }
 }
 
-TYPED_TEST(ImplicitFlowTest, GeneralizedAlphaFollowsAnExplicitMethod) {
+TYPED_TEST(ImplicitTravelTest, GeneralizedAlphaFollowsAnExplicitMethod) {
   constexpr int D = TypeParam::value;
   auto final_state = [](const IntegrationOptions& options) {
-    FlowingBeam<D> beam(whirling<D>());
+    const BeamModel<D> model = whirling<D>();
+    BeamSystem<D> beam(model, straight_chain(model));
     Vec<double, D> along = Vec<double, D>::UnitX();
     along[1] = 0.3;
-    Eigen::VectorXd y = beam.straight_state(Vec<double, D>::Zero(), along.normalized(), 1, 0, 2);
-    for (const auto& [node, support] : beam.model().supports) {
+    Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), along.normalized(), 1, 0, 2);
+    auto held = model.held_nodes;
+    held.push_back({0, model.start});
+    for (const auto& [node, support] : held) {
       auto rate = position<D>(y.data() + beam.coordinates(), node);
       rate = support.out_of_frame(support.free_position.matrix().cwiseProduct(support.into_frame(rate)));
     }
@@ -130,10 +134,11 @@ TYPED_TEST(ImplicitFlowTest, GeneralizedAlphaFollowsAnExplicitMethod) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.3);
 }
 
-TEST(ImplicitFlow, RefusesMethodsThatDoNotApply) {
+TEST(ImplicitTravel, RefusesMethodsThatDoNotApply) {
   for (const IntegratorType type : {IntegratorType::rosenbrock4, IntegratorType::energy_momentum}) {
-    FlowingBeam<2> beam(whirling<2>());
-    Eigen::VectorXd y = beam.straight_state(Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0, 0);
+    const BeamModel<2> model = whirling<2>();
+    BeamSystem<2> beam(model, straight_chain(model));
+    Eigen::VectorXd y = straight_state<2>(beam, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0, 0);
     IntegrationOptions options;
     options.type = type;
     SolverCounters counters;
