@@ -87,11 +87,11 @@ void check_guides(const Scene& scene) {
 
 /// The curve says how the beam is built: there is none beyond its ends.
 void check_within_curve(const Scene& scene, const MeshMotion& motion) {
-  constexpr int instants = 2000;
+  constexpr int looks = 2000;
   const double length = beam_length(scene), slack = 1e-9 * length;
   std::vector<Prescribed> nodes;
-  for (int i = 0; i <= instants; ++i) {
-    const double t = scene.duration * i / instants;
+  for (int i = 0; i <= looks; ++i) {
+    const double t = scene.duration * i / looks;
     motion.at(t, nodes);
     for (const std::size_t end : {std::size_t{0}, nodes.size() - 1}) {
       const double x = nodes[end].value;
