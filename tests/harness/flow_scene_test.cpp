@@ -138,6 +138,9 @@ const BadFlow bad[] = {
     {"/sliding_mass", R"({"mass": 1, "position": 0.5})", "/sliding_mass"},
     {"/beam", R"({"curve": {"type": "arc", "center": [0,0,0], "radius": 1, "from_degrees": 0, "to_degrees": 90},
                   "rest_shape": "paper", "elements": 6})",
+     "/flow/nodes"},  // they are not as far apart as it is long
+    {"/beam", R"({"curve": {"type": "arc", "center": [0,0,0], "radius": 1, "from_degrees": 0, "to_degrees": 90},
+                  "rotary_inertia": "rayleigh", "elements": 6})",
      "/beam/curve/type"},
     {"/beam/section/radius", "0", "/beam/section/radius"},
     {"/beam/material/poisson_ratio", "0.5", "/beam/material/poisson_ratio"},
@@ -159,7 +162,7 @@ const BadFlow bad[] = {
     {"/flow/nodes/2/x/value", "2", "/flow/nodes"},  // not the curve's length
     {"/flow/nodes/1/x/rate", "8", "/flow/nodes"},   // tangles at 0.0875 s
     {"/flow/nodes/1/x/ramp", "-1", "/flow/nodes/1/x/ramp"},
-    {"/flow/tension", "-1e9", "/force"},
+    {"/flow/tension", "-1e9", "/flow/tension"},
     {"/spin/drives/0/node", "9", "/spin/drives"},
     {"/spin/drives/1", R"({"node": 0})", "/spin/drives"},                        // driven twice
     {"/spin/drives/1", R"({"node": 4, "angle": {"rate": 5}})", "/spin/drives"},  // at two places, at two rates
