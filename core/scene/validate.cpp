@@ -10,6 +10,7 @@
 #include "core/scene/build_flow.hpp"
 #include "core/scene/model_errors.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/scene_options.hpp"
 #include "core/scene/time_function.hpp"
 #include "core/scene/validate_feed.hpp"
 #include "core/scene/validate_flow.hpp"

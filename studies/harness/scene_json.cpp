@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/scene_options.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
 #include "studies/harness/files.hpp"

@@ -10,6 +10,7 @@
 
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
+#include "core/scene/scene_options.hpp"
 #include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
 
