@@ -140,7 +140,7 @@ const BadFlow bad[] = {
                   "rest_shape": "paper", "elements": 6})",
      "/flow/nodes"},  // they are not as far apart as it is long
     {"/beam", R"({"curve": {"type": "arc", "center": [0,0,0], "radius": 1, "from_degrees": 0, "to_degrees": 90},
-                  "rotary_inertia": "rayleigh", "elements": 6})",
+                  "rest_shape": "paper", "rotary_inertia": "rayleigh", "elements": 6})",
      "/beam/curve/type"},
     {"/beam/section/radius", "0", "/beam/section/radius"},
     {"/beam/material/poisson_ratio", "0.5", "/beam/material/poisson_ratio"},
