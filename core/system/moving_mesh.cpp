@@ -154,14 +154,9 @@ template <int D>
 void MovingMesh<D>::add_residual(const Elements& elements, const double* a, double* r) const {
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const int element = static_cast<int>(k);
-    const MovingEquations<double, D>& eq = elements[k];
     const auto e = element_nodes<D>(a, element);
-    const std::array<Vector, 4> nodal = RotaryElement::nodal(e);
-    std::array<Vector, 4> rows;
-    for (std::size_t i = 0; i < 4; ++i) {
-      rows[i] = -eq.force[i];
-      for (std::size_t j = 0; j < 4; ++j) rows[i] += nodal[j] * eq.mass[i][j];
-    }
+    auto rows =
+        nodal_residual(elements[k], MovingCoordinates<double, D>{e, 0, 0});  // the ends' inertia is in the force
     if (model_.rotary.present()) {
       const auto inertia = rotary_[k].inertia(model_.rotary, e);
       for (std::size_t i = 0; i < 4; ++i) rows[i] += inertia[i];

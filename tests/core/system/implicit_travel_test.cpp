@@ -11,7 +11,7 @@ namespace vlbeam::test {
 namespace {
 
 template <int D>
-BeamModel<D> whirling() {
+BeamModel<D> whirling(Formulation formulation = Formulation::variational, AngleField field = AngleField::linear) {
   const CircularShaft shaft{.radius = 0.02, .density = 1300, .youngs_modulus = 1e6};
   Vec<double, D> along = Vec<double, D>::UnitX();
   along[1] = 0.3;
@@ -35,6 +35,9 @@ BeamModel<D> whirling() {
   model.loads.points = {{.node = 4, .follower = [](double) { return 0.7; }}};
   model.spin->torques.points = {{.node = 4, .torque = [](double) { return 0.1; }}};
   model.loads.points.push_back({.x = [](double t) { return 0.8 - t; }, .follower = [](double) { return -0.4; }});
+  model.formulation = formulation;
+  if (formulation == Formulation::virtual_work) model.rotary = {};
+  model.spin->field = field;
   return model;
 }
 
@@ -53,10 +56,7 @@ TYPED_TEST_SUITE(ImplicitTravelTest, Dimensions, DimensionNames);
 TYPED_TEST(ImplicitTravelTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm) {
   constexpr int D = TypeParam::value;
   for (const auto& [formulation, field] : choices) {
-    BeamModel<D> model = whirling<D>();
-    model.formulation = formulation;
-    if (formulation == Formulation::virtual_work) model.rotary = {};
-    model.spin->field = field;
+    const BeamModel<D> model = whirling<D>(formulation, field);
     BeamSystem<D> beam(model, straight_chain(model));
     ImplicitBeam<D> flow(beam);
     const Eigen::Index n = beam.coordinates();
@@ -73,10 +73,7 @@ TYPED_TEST(ImplicitTravelTest, ResidualVanishesAtTheAccelerationsOfTheExplicitFo
 TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   for (const auto& [formulation, field] : choices) {
-    BeamModel<D> model = whirling<D>();
-    model.formulation = formulation;
-    if (formulation == Formulation::virtual_work) model.rotary = {};
-    model.spin->field = field;
+    const BeamModel<D> model = whirling<D>(formulation, field);
     BeamSystem<D> beam(model, straight_chain(model));
     ImplicitBeam<D> flow(beam);
     const Eigen::Index n = beam.coordinates();
