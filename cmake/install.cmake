@@ -27,6 +27,8 @@ if(VLBEAM_BUILD_STUDIES)
     add_custom_target(vlbeam_man ALL DEPENDS ${pages}/vlbeam.1)
     add_dependencies(vlbeam_program vlbeam_man)
     install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  else()
+    install(CODE "message(STATUS \"No man pages: help2man is not installed\")")
   endif()
   install(FILES ${PROJECT_SOURCE_DIR}/cmake/completion.bash
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vlbeam)

@@ -3,6 +3,7 @@
 
     scripts/mutants.py [NAME ...] [--jobs N]   run those of tests/mutants/mutants.json that have no result yet
     scripts/mutants.py --check                 only see whether each mistake can still be put in
+    scripts/mutants.py --start                 that, and whether the copy builds and passes without any mistake
 
 A mistake is looked for first by the tests it names, then by all tests, then by the gates of profile ci, then by those
 of profile full. Results are kept in build-mutants/results.json until the mistake or the code changes; the table goes to
@@ -23,8 +24,8 @@ root = pathlib.Path(__file__).resolve().parent.parent
 work = root / "build-mutants"
 source = work / "source"
 build = source / "build"
-folders = ("bench", "cmake", "core", "include", "reference", "scripts", "studies", "tests")
-of_the_tree = r"^(mutants|documents|install|python|program\.claims)"  # tests of what the copy lacks, or has changed
+code_folders = ("cmake", "core", "include", "reference", "scripts", "studies", "tests")  # what a result depends on
+of_the_tree = r"^(mutants|documents|install|python|program\.claims)"  # tests of documents, not of code, and of this script
 hang = 900  # [s] for one stage: a mutant may never end
 
 head = """# Mutants
@@ -48,29 +49,34 @@ def applied(mutant, text):
     return text.replace(mutant["find"], mutant["replace"])
 
 
+def tree():
+    """The files of the project: what git tracks or would, by path."""
+    listed = subprocess.run(["git", "-c", f"safe.directory={root}", "ls-files", "-co", "--exclude-standard", "-z"], cwd=root,
+                            stdout=subprocess.PIPE, check=True, text=True).stdout
+    return sorted(path for path in map(pathlib.Path, filter(None, listed.split("\0"))) if (root / path).is_file())
+
+
 def digest():
     total = hashlib.sha256()
-    for folder in folders:
-        for path in sorted((root / folder).rglob("*")):
-            if path.is_file() and path.suffix in (".cpp", ".hpp", ".json", ".txt", ".sh", ".cmake", ".py"):
-                if path.parent.name != "mutants":
-                    total.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+    for path in tree():
+        if path.parts[0] in code_folders and path.parent.name != "mutants":
+            total.update(path.as_posix().encode() + (root / path).read_bytes())
     return total.hexdigest()
 
 
 def copy_code():
-    """Touches only what differs, so that little is compiled again."""
-    tree = {path.relative_to(root) for folder in folders for path in (root / folder).rglob("*") if path.is_file()}
-    tree |= {pathlib.Path("CMakeLists.txt"), pathlib.Path("LICENSE")}
-    for path in tree:
+    """All of the project, for tests read documents, scenes and reports, too. Touches only what differs, so that little
+    is compiled again."""
+    files = tree()
+    for path in files:
         there, here = source / path, root / path
         if not there.exists() or there.read_bytes() != here.read_bytes():
             there.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(here, there)
-    for folder in folders:
-        for path in (source / folder).rglob("*"):
-            if path.is_file() and path.relative_to(source) not in tree:
-                path.unlink()
+    known = set(files)
+    for path in source.rglob("*"):
+        if path.is_file() and build not in path.parents and path.relative_to(source) not in known:
+            path.unlink()
 
 
 def run(command, **options):
@@ -96,9 +102,13 @@ def failed_tests(output):
     return list(dict.fromkeys(name for name in names))
 
 
+def program(target):
+    return next((build / "tests").glob(f"*/{target}"))
+
+
 def run_tests(targets):
     for target in targets:
-        code, output = run([build / "tests" / "core" / target])
+        code, output = run([program(target), "--gtest_brief=1"], cwd=program(target).parent)
         if code != 0:
             return found(failed_tests(output) or [target + (" (never ends)" if code is None else " (crashes)")], "ci")
     return None
@@ -167,6 +177,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="*")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--start", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     choice = parser.parse_args()
     mutants = json.loads((root / "tests" / "mutants" / "mutants.json").read_text())
@@ -185,8 +196,10 @@ def main():
     tests = sorted({target for mutant in mutants for target in mutant["tests"]})
     if not compile_targets(tests, choice.jobs):
         fail("the copy does not compile")
-    if run_tests(tests):
-        fail("a test fails without any mistake")
+    if noticed := run_tests(tests):
+        fail("without any mistake there fails " + noticed["by"])
+    if choice.start:
+        return 0
 
     kept = work / "results.json"
     results = json.loads(kept.read_text()) if kept.exists() else {}

@@ -20,7 +20,7 @@ if [[ ${1:-build} == api || ${1:-build} == ci ]]; then
   packages+=(doxygen)
 fi
 if [[ ${1:-build} == ci ]]; then
-  packages+=(dpkg-dev pkg-config help2man python3-pytest python3-matplotlib)
+  packages+=(ccache dpkg-dev pkg-config help2man python3-pytest python3-matplotlib)
   packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
 fi
 

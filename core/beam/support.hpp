@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/vec.hpp"
 
 namespace vlbeam {
@@ -65,7 +65,7 @@ struct Support {
   Support turned(double angle) const {
     Support support = *this;
     if (D != 2 || angle == 0) return support;
-    support.frame = quarter_turn<D>(frame) * std::sin(angle) + frame * std::cos(angle);
+    support.frame = quarter_turn<D>(frame) * portable::sin(angle) + frame * portable::cos(angle);
     support.aligned = false;
     return support;
   }

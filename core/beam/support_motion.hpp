@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/beam/support.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/prescribed.hpp"
 
 namespace vlbeam {
@@ -22,7 +23,7 @@ struct DrivenPoint {
   /// Where the slope `anchor` that it held at t = 0 is now.
   Vec<double, D> turned(const Vec<double, D>& anchor) const {
     if (D != 2 || angle.value == 0) return anchor;
-    return std::cos(angle.value) * anchor + std::sin(angle.value) * quarter_turn<D>(anchor);
+    return portable::cos(angle.value) * anchor + portable::sin(angle.value) * quarter_turn<D>(anchor);
   }
   Vec<double, D> slope_rate(const Vec<double, D>& slope) const { return angle.rate * quarter_turn<D>(slope); }
   Vec<double, D> slope_acceleration(const Vec<double, D>& slope, const Vec<double, D>& turning) const {

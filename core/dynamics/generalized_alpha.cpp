@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/dynamics/newton_stop.hpp"
+#include "core/geometry/elementary.hpp"
 
 namespace vlbeam {
 namespace {
@@ -63,7 +64,7 @@ class GeneralizedAlpha final : public Stepper {
     double next = options_.step;
     if (options_.adaptive) {
       const double ratio = error_ratio(h);
-      const double factor = std::clamp(safety / std::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
+      const double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
       if (ratio > 1) {
         dt = h * factor;
         return false;

@@ -1,4 +1,10 @@
-// The only file that includes Boost.Odeint.
+// The only file of core that includes Boost.Odeint. Its step control calls pow and log10, whose digits depend on the
+// processor: declared before all else by these names, the calls reach the functions at the end of this file.
+extern "C" {
+double pow(double, double) noexcept __asm__("vlbeam_pow");
+double log10(double) noexcept __asm__("vlbeam_log10");
+}
+
 #define BOOST_UBLAS_NDEBUG  // uBLAS would check each factorization by multiplying it out
 
 #include <boost/numeric/odeint/stepper/adams_bashforth_moulton.hpp>
@@ -22,6 +28,7 @@
 #include <vector>
 
 #include "core/dynamics/stepper.hpp"
+#include "core/geometry/elementary.hpp"
 
 namespace vlbeam {
 namespace {
@@ -270,3 +277,8 @@ std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Toleranc
 }
 
 }  // namespace vlbeam
+
+extern "C" {
+double vlbeam_pow(double x, double power) { return vlbeam::portable::pow(x, power); }
+double vlbeam_log10(double x) { return vlbeam::portable::log10(x); }
+}

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "core/geometry/elementary.hpp"
+
 namespace vlbeam {
 
 /// A number with its derivatives by `N` variables: forward automatic differentiation. Operation by operation it rounds
@@ -66,14 +68,16 @@ class Active {
     return chain(root, a, 0.5 / root);
   }
   friend Active exp(const Active& a) {
-    const double power = std::exp(a.value_);
+    const double power = portable::exp(a.value_);
     return chain(power, a, power);
   }
   friend Active tanh(const Active& a) {
-    const double cosine = std::cosh(a.value_);
-    return chain(std::tanh(a.value_), a, 1 / (cosine * cosine));
+    const double cosine = portable::cosh(a.value_);
+    return chain(portable::tanh(a.value_), a, 1 / (cosine * cosine));
   }
-  friend Active asin(const Active& a) { return chain(std::asin(a.value_), a, 1 / std::sqrt(1 - a.value_ * a.value_)); }
+  friend Active asin(const Active& a) {
+    return chain(portable::asin(a.value_), a, 1 / std::sqrt(1 - a.value_ * a.value_));
+  }
 
  private:
   double by(int i) const { return derivatives_.data()[i]; }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cmath>
-
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/rational_cubic.hpp"
 
 namespace vlbeam {
@@ -10,12 +9,12 @@ namespace vlbeam {
 /// the first two axes; |turn| < pi. Weights (1, w, w, 1), w = (1 + 2 cos(turn/2))/3 (Ding & Ouyang 2022, Eq. 43).
 template <int D>
 RationalCubic<double, D> circular_arc(const Vec<double, D>& center, double radius, double angle, double turn) {
-  const double w = (1 + 2 * std::cos(turn / 2)) / 3;
-  const double reach = 2 * radius * std::sin(turn / 2) / (3 * w);  // from an end to the next control point
+  const double w = (1 + 2 * portable::cos(turn / 2)) / 3;
+  const double reach = 2 * radius * portable::sin(turn / 2) / (3 * w);  // from an end to the next control point
   auto at = [&](double phi, double outwards, double along) -> Vec<double, D> {
     Vec<double, D> point = center;
-    point[0] += outwards * std::cos(phi) - along * std::sin(phi);
-    point[1] += outwards * std::sin(phi) + along * std::cos(phi);
+    point[0] += outwards * portable::cos(phi) - along * portable::sin(phi);
+    point[1] += outwards * portable::sin(phi) + along * portable::cos(phi);
     return point;
   };
   return {
@@ -29,9 +28,9 @@ RationalCubic<double, D> circular_arc(const Vec<double, D>& center, double radiu
 template <int D>
 Weights<double> even_arc_weights(const Vec<double, D>& s_a, const Vec<double, D>& s_b) {
   const Vec<double, D> a = s_a.normalized(), b = s_b.normalized();
-  const double turn = 2 * std::atan2((a - b).norm(), (a + b).norm());
+  const double turn = 2 * portable::atan2((a - b).norm(), (a + b).norm());
   if (turn == 0) return unit_weights;
-  const double w = (turn / std::tan(turn / 4) - 1) / 3;
+  const double w = (turn / portable::tan(turn / 4) - 1) / 3;
   return {1, w, w, 1};
 }
 

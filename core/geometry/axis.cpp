@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/geometry/arc.hpp"
+#include "core/geometry/elementary.hpp"
 
 namespace vlbeam {
 namespace {
@@ -108,7 +109,7 @@ std::array<Vec<double, D>, 4> Axis<D>::derivatives(double x) const {
   if (const auto* shape = std::get_if<Arc>(&shape_)) {
     const double angle = shape->from + x * shape->turn_per_length, sign = shape->turn_per_length > 0 ? 1 : -1;
     Vector out = none, along = none;
-    out.template head<2>() << std::cos(angle), std::sin(angle);
+    out.template head<2>() << portable::cos(angle), portable::sin(angle);
     along.template head<2>() << -sign * out[1], sign * out[0];
     const double curvature = 1 / shape->radius;
     return {shape->center + shape->radius * out, along, -curvature * out, -curvature * curvature * along};
@@ -150,7 +151,7 @@ CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x) {
   // log of the slopes at the nodes, +-first + offset with alternating sign; the first makes them least, the mean over
   // the elements of the mean of their ends, so that equal elements get equal slopes
   std::vector<double> offset{0};
-  for (const double p : product) offset.push_back(std::log(p) - offset.back());
+  for (const double p : product) offset.push_back(portable::log(p) - offset.back());
   double first = 0, sign = 1;
   for (std::size_t k = 0; k < product.size(); ++k, sign = -sign) {
     first -= sign * (offset[k] - offset[k + 1]) / (2 * static_cast<double>(product.size()));
@@ -158,7 +159,7 @@ CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x) {
   sign = 1;
   for (std::size_t k = 0; k < x.size(); ++k, sign = -sign) {
     const bool last = k + 1 == x.size();
-    const double size = std::exp(sign * first + offset[k]);
+    const double size = portable::exp(sign * first + offset[k]);
     const auto& P = cubics[last ? k - 1 : k].points;
     chain.r.push_back(P[last ? 3 : 0]);
     chain.r_x.push_back((last ? Vec<double, D>(P[3] - P[2]) : Vec<double, D>(P[1] - P[0])).normalized() * size);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include "core/geometry/elementary.hpp"
 
 namespace vlbeam {
 
@@ -13,7 +13,7 @@ struct AxialFriction {
   /// Share of the normal force that resists the relative velocity `v` [m/s]: of its sign.
   template <class Real>
   Real share(const Real& v) const {
-    using std::tanh;
+    using portable::tanh;
     return tanh(Real(v / velocity)) * coefficient;
   }
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/vec.hpp"
 #include "core/joint/axial_friction.hpp"
 
@@ -21,9 +22,9 @@ namespace vlbeam {
 /// the sliding.
 template <class Real>
 Real capstan_share(const Real& mu, const Real& k) {
-  using std::asin;
+  using portable::asin;
+  using portable::tanh;
   using std::sqrt;
-  using std::tanh;
   constexpr double slight = 1e-8, full = 1 - 1e-14;  // of k: where series are exact, and where asin has no derivative
   Real tau;                                          // over sqrt(k)
   if (k < slight) {
@@ -31,7 +32,7 @@ Real capstan_share(const Real& mu, const Real& k) {
     tau = z * Real(1 - z * z * k / 3);
   } else {
     const Real root = sqrt(k);
-    const Real half_turn = k < full ? Real(asin(root)) : Real(std::asin(1.0));
+    const Real half_turn = k < full ? Real(asin(root)) : Real(portable::asin(1.0));
     tau = tanh(Real(mu * half_turn)) / root;
   }
   return tau / sqrt(Real(1 + (1 - k) * tau * tau));

@@ -7,6 +7,7 @@
 
 #include "core/element/active.hpp"
 #include "core/geometry/arc.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/rotation.hpp"
 #include "core/length_control/chain_motion.hpp"
 
@@ -214,7 +215,7 @@ class Search {
         if (chain_.curved_at_rest()) {
           for (int d = 0; d < D; ++d) change -= now.rest_r[d] * rotation_(c, d);
         }
-        add(change * std::sqrt(w * scale_ / std::pow(length_, 4)));
+        add(change * std::sqrt(w * scale_ / portable::pow(length_, 4)));
       }
     }
     for (std::size_t i = first_weight; i < first_weight + 4; ++i) {
@@ -252,7 +253,7 @@ class Search {
     if (point.element == merged_) {
       move(s_a, 0);
       move(s_b, D);
-      using std::exp;
+      using portable::exp;
       Weights<Real> w;
       for (std::size_t i = 0; i < 4; ++i) w[i] = exp(unknown[first_weight + i]) * base_[i];
       f = rational_shape(w, Real(u));
@@ -310,7 +311,7 @@ MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, in
   slope<D>(chain.q.data(), merged) += p.template head<D>();
   slope<D>(chain.q.data(), merged + 1) += p.template segment<D>(D);
   for (std::size_t k = 0; k < 3; ++k) {
-    weights.k[k] = std::exp(p[2 * D + static_cast<int>(k)] - p[2 * D + 3]) * search.base()[k];  // base()[3] is 1
+    weights.k[k] = portable::exp(p[2 * D + static_cast<int>(k)] - p[2 * D + 3]) * search.base()[k];  // base()[3] is 1
   }
   chain.mesh.weights[i].w = weights.weights();
   return weights;

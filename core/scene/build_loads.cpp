@@ -1,8 +1,8 @@
 #include "core/scene/build_loads.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/time_function.hpp"
 
@@ -23,7 +23,7 @@ PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis, Analys
     const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
     const TimeFunction turn = beside_loads(spec.turn, analysis);
     load.force = [=](double t) -> Vec<double, D> {
-      const double angle = turn(t).value, c = std::cos(angle), s = std::sin(angle);
+      const double angle = turn(t).value, c = portable::cos(angle), s = portable::sin(angle);
       if constexpr (D == 2) {
         return size(t) * Vec<double, D>(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]);
       } else {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/validate.hpp"
@@ -59,7 +60,7 @@ ElementFrequencies element_frequencies(const Scene& scene) {
 /// Rounded down, to be read.
 double two_digits(double value) {
   if (!(value > 0) || !std::isfinite(value)) return value;
-  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  const double unit = portable::pow(10, std::floor(portable::log10(value)) - 1);
   std::ostringstream text;
   text.precision(2);
   text << std::floor(value / unit * (1 + 1e-12)) * unit;
@@ -80,7 +81,7 @@ double mean_largest_frequency(const Scene& scene) {
   if (!remeshed) return std::max(of.axial, of.bending);
   // the shorter element at a joint that passes has each length from `least` L_std to L_std for as long
   const double least = 2 - control.upper * (1 + control.hysteresis);
-  return std::max(of.axial * std::log(1 / least) / (1 - least), of.bending / least);
+  return std::max(of.axial * portable::log(1 / least) / (1 - least), of.bending / least);
 }
 
 double longest_implicit_step(const Scene& scene) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/prescribed.hpp"
 #include "core/scene/scene.hpp"
 
@@ -13,7 +13,7 @@ inline TimeFunction time_function(const TimeSpec& spec) {
   const auto function = [spec](double t) -> Prescribed {
     const double omega = 2 * std::numbers::pi * spec.frequency;
     const double angle = omega * t + spec.phase_degrees * (std::numbers::pi / 180);
-    const double sine = spec.amplitude * std::sin(angle), cosine = spec.amplitude * std::cos(angle);
+    const double sine = spec.amplitude * portable::sin(angle), cosine = spec.amplitude * portable::cos(angle);
     const double value = spec.value + t * (spec.rate + t * spec.acceleration / 2) + sine;
     const double rate = spec.rate + t * spec.acceleration + omega * cosine;
     const double acceleration = spec.acceleration - omega * omega * sine;

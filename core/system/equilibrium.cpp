@@ -26,6 +26,7 @@ constexpr double slack = 1e-10;              // over the axial stiffness: of a b
 constexpr double unheld = 1e-11;             // over the stiffest
 constexpr double largest_turn = 0.5;         // of a step from the mean of the path's directions at its ends
 constexpr double no_force = 1e-12;           // over EA
+constexpr double force_by_rounding = 2e-15;  // over EA
 constexpr int most_points = 50;              // on an arc-length path, over the steps asked for
 constexpr double dominant = 0x1p100;         // times the mass matrix, leaves it alone
 constexpr int most_events = 9;               // of length control at one instant
@@ -117,11 +118,9 @@ class Path {
     equations_.choose_conditions(q);
     if (const auto free = free_joints(); !free.empty()) which_ = free.front();
     residual(q, 0);
-    const auto& section = system_.model().section;
     // without what is softer than that, the tangent still has no negative pivot
-    const double soft = slack * section.stiffness.EA / (section.rhoA * length_ * length_);
-    holds_at_start_ = linearize(q, 0, -soft) && equations_.negative_pivots(0) == 0;
-    const bool at_rest = r_.norm() <= no_force * section.stiffness.EA;
+    holds_at_start_ = linearize(q, 0, -soft()) && equations_.negative_pivots(0) == 0;
+    const bool at_rest = r_.norm() <= no_force * system_.model().section.stiffness.EA;
     if (at_rest && !on_point(point(q, 0))) return;
     const bool grown = options_.arc_length ? follow_arc(q, on_point) : follow_load(q, on_point);
     if (!grown || !options_.release) return;
@@ -198,6 +197,12 @@ class Path {
     for (const std::size_t i : free_joints()) r_[equations_.mark(i)] -= (1 - factor) * held_by_[i];
   }
 
+  /// What counts as holding nothing, over inertia [1/s^2].
+  double soft() const {
+    const auto& section = system_.model().section;
+    return slack * section.stiffness.EA / (section.rhoA * length_ * length_);
+  }
+
   bool linearize(const Eigen::VectorXd& q, double factor, double by_a = 0) {
     ++counters_.newton.tangents;
     return equations_.linearize(q, load(factor), by_a);
@@ -214,9 +219,11 @@ class Path {
     for (int i = 0; i < most_corrections; ++i) {
       ++counters_.newton.iterations;
       residual(q, factor);
-      if (!linearize(q, factor)) return false;
+      const bool at_rest = r_.norm() <= force_by_rounding * system_.model().section.stiffness.EA;
+      if (!linearize(q, factor)) return at_rest && !tangled(q);
       equations_.solve(r_);
       const double correction = size(r_);
+      if (at_rest && !(correction <= by_rounding)) return !tangled(q);  // rounding, where nothing holds the beam
       if (!(correction <= largest_correction)) return false;
       q -= r_;
       if (is_last(correction, previous)) return !tangled(q);
@@ -478,10 +485,11 @@ class Path {
     double stiffness = 0;  ///< of x [N/m]: negative where the energy falls along it
   };
 
-  /// A unit force on a joint that is free moves it by one over its stiffness.
+  /// A unit force on a joint that is free moves it by one over its stiffness. Where that is zero, and not by luck of
+  /// rounding next to it, a little inertia stands in for it.
   std::optional<Slide> slide_at(const Eigen::VectorXd& q) {
     equations_.hold_joints(false);
-    const bool factored = linearize(q, 1);
+    const bool factored = linearize(q, 1) || linearize(q, 1, soft());
     Eigen::VectorXd moved = Eigen::VectorXd::Unit(q.size(), equations_.mark(which_));
     if (factored) equations_.solve(moved);
     equations_.hold_joints(true);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
@@ -95,7 +96,7 @@ void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::Mat
 template <int D>
 void ImplicitBeam<D>::rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size,
                                      Eigen::VectorXd& result) {
-  const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * size;
+  const double step = portable::cbrt(std::numeric_limits<double>::epsilon()) * size;
   Eigen::VectorXd at = y, less(y.size());
   at[k] = y[k] + step;
   const double above = at[k];

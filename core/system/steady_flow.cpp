@@ -172,14 +172,14 @@ std::vector<std::complex<double>> eigenvalues(const LinearFlow& flow) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(companion, false);
   if (solver.info() != Eigen::Success) throw ComputationFailed("the eigenvalue solver does not converge", 0);
   for (Eigen::Index i = 0; i < 2 * n; ++i) values.push_back(1.0 / (time * solver.eigenvalues()[i]));
-  std::ranges::sort(values, {}, [](const std::complex<double>& z) { return std::abs(z); });
+  std::ranges::sort(values, {}, [](const std::complex<double>& z) { return portable::abs(z); });
   return values;
 }
 
 std::vector<double> frequencies(const std::vector<std::complex<double>>& eigenvalues) {
   std::vector<double> result;
   for (const auto& z : eigenvalues) {
-    if (z.imag() > oscillating * std::abs(z)) result.push_back(z.imag() / (2 * std::numbers::pi));
+    if (z.imag() > oscillating * portable::abs(z)) result.push_back(z.imag() / (2 * std::numbers::pi));
   }
   std::ranges::sort(result);
   return result;

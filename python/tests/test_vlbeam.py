@@ -195,3 +195,12 @@ def test_examples_run(example, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "argv", [example, str(figure)])
     runpy.run_path(str(SOURCES / "python/examples" / f"{example}.py"), run_name="__main__")
     assert figure.stat().st_size > 10000
+
+
+@pytest.mark.parametrize("missing, sentence", [("numpy", "needs numpy, which"), ("vlbeam._vlbeam", "not built for this interpreter")])
+def test_an_interpreter_that_cannot_import_it_is_told_why(missing, sentence):
+    code = f"import sys; sys.modules[{missing!r}] = None; import vlbeam"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 1
+    last = done.stderr.strip().splitlines()[-1]
+    assert last.startswith("ImportError: ") and sentence in last and sys.executable in last

@@ -10,9 +10,20 @@ Scenes are dictionaries, as `vlbeam schema scene` (here: `vlbeam.schema("scene")
 """
 
 import json as _json
+import sys as _sys
 from pathlib import Path as _Path
 
-from . import _vlbeam
+try:
+    import numpy as _numpy  # noqa: F401: the module's arrays are numpy's
+except ImportError:
+    raise ImportError(f"vlbeam needs numpy, which {_sys.executable} does not have (Debian: python3-numpy, for /usr/bin/python3)") from None
+try:
+    from . import _vlbeam
+except ImportError as _error:
+    _built = ", ".join(path.name for path in _Path(__file__).parent.glob("_vlbeam*")) or "none"
+    raise ImportError(
+        f"vlbeam was not built for this interpreter: {_sys.executable}, Python {_sys.version.split()[0]}; modules here: {_built}. "
+        f"Use the Python it was built for, or build with OPTIONS=-DPython_EXECUTABLE={_sys.executable} ({_error})") from None
 from ._vlbeam import InvalidInput
 
 __version__ = _vlbeam.version

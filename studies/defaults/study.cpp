@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/build.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -63,11 +64,11 @@ struct Ratios {
   int count = 0;
 
   void add(double ratio) {
-    logarithms += std::log(ratio);
+    logarithms += portable::log(ratio);
     worst = std::max(worst, ratio);
     ++count;
   }
-  double mean() const { return std::exp(logarithms / count); }
+  double mean() const { return portable::exp(logarithms / count); }
 };
 
 StudyReport run(const StudyContext& context) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/element/circular_shaft.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/system/steady_flow.hpp"
 
 namespace vlbeam {
@@ -59,7 +60,7 @@ BeamModel<D> model_of(const Stem& stem, int elements, bool ledger) {
   model.held_nodes = {{guide, Support<D>::slide(Vector::UnitZ())}};
   model.spin->drives = {{0, steadily(0, stem.spin)}};
   auto turning = [=](double t) -> Vector {
-    return stem.unbalance * Vector(std::cos(stem.spin * t), std::sin(stem.spin * t), 0);
+    return stem.unbalance * Vector(portable::cos(stem.spin * t), portable::sin(stem.spin * t), 0);
   };
   auto soil = [=](double t) {
     const double s = std::min(1.0, t / stem.ramp);
@@ -94,7 +95,7 @@ std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples)
     const double angle = y[beam.angle(elements)] - y[beam.angle(0)];
     BeamSystem<D> frozen(model, straight_chain(model));
     const auto modes = frequencies(eigenvalues(linear_flows(frozen, at_rest(frozen, stem, t), t).axis));
-    history.push_back({stem.overhang + stem.feed * t, std::hypot(bit[0], bit[1]), -angle, modes.front()});
+    history.push_back({stem.overhang + stem.feed * t, portable::hypot(bit[0], bit[1]), -angle, modes.front()});
   };
   IntegrationOptions options;
   options.type = IntegratorType::generalized_alpha;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/elementary.hpp"
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
@@ -31,7 +32,7 @@ LoadSpec at_node(LoadType type, int node, double magnitude, const Point& directi
 /// An arc from (0, 0) to (1, 0) that rises by `rise`, or sags by minus that.
 CurveSpec arc(double rise) {
   const double radius = (0.25 + rise * rise) / (2 * std::abs(rise)), side = rise > 0 ? 1 : -1;
-  double half = std::asin(0.5 / radius);
+  double half = portable::asin(0.5 / radius);
   if (std::abs(rise) > 0.5) half = pi - half;
   const double degrees = half * 180 / pi;
   return {.type = CurveType::arc,
@@ -52,7 +53,7 @@ double roll_up_error(const Scene& scene, const RunResult& result) {
   const double EA = scene.beam.section.EA, EI = scene.beam.section.EI, M = scene.loads[0].magnitude.value;
   const double stretch = std::sqrt(1 + 2 * M * M / (EA * EI)), curvature = M * stretch / EI, turn = curvature * stretch;
   const Point& end = result.samples.back().end;
-  return std::hypot(end[0] - std::sin(turn) / curvature, end[1] - (1 - std::cos(turn)) / curvature);
+  return portable::hypot(end[0] - portable::sin(turn) / curvature, end[1] - (1 - portable::cos(turn)) / curvature);
 }
 
 Scene elastica(int n) {
@@ -68,7 +69,7 @@ Scene cable(int n) {
   scene.gravity = {0, -1, 0};
   const double half = 1.4957815682221;  // of the angle of the arc it starts from, sin(half)/half = 1/1.5
   const double radius = 0.75 / half;
-  scene.beam.curve = arc(-radius * (1 - std::cos(half)));
+  scene.beam.curve = arc(-radius * (1 - portable::cos(half)));
   scene.beam.strain_law = StrainLaw::engineering;
   scene.start.type = scene.end.type = SupportType::pin;
   scene.statics.steps = 4;
@@ -78,11 +79,11 @@ Scene cable(int n) {
 /// Height of the middle of the cable by Irvine's closed form, which has this law.
 double irvine_height() {
   const double EA = 10, length = 1.5, weight = 1, V = weight * length / 2;
-  const auto span = [&](double H) { return H * length / EA + 2 * H / weight * std::asinh(V / H); };
+  const auto span = [&](double H) { return H * length / EA + 2 * H / weight * portable::asinh(V / H); };
   double low = 1e-3, high = 10;
   for (int i = 0; i < 200; ++i) (span((low + high) / 2) < 1 ? low : high) = (low + high) / 2;
   const double H = (low + high) / 2;
-  return -(V * V / (2 * EA * weight) + (std::hypot(H, V) - H) / weight);
+  return -(V * V / (2 * EA * weight) + (portable::hypot(H, V) - H) / weight);
 }
 
 Scene arch(int n, const Json& reference, int steps) {
@@ -123,7 +124,7 @@ class Report {
     const Json& tip = reference_.at("elastica");
     errors_of("elastica", elastica, [&](const Scene&, const RunResult& result) {
       const Point& end = result.samples.back().end;
-      return std::hypot(end[0] - tip.at("x").get<double>(), end[1] - tip.at("y").get<double>());
+      return portable::hypot(end[0] - tip.at("x").get<double>(), end[1] - tip.at("y").get<double>());
     });
     errors_of("catenary", cable, [](const Scene& scene, const RunResult& result) {
       const auto middle = static_cast<std::size_t>(scene.beam.elements) / 2;

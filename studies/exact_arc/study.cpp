@@ -8,6 +8,7 @@
 
 #include "core/element/moving_element.hpp"
 #include "core/geometry/axis.hpp"
+#include "core/geometry/elementary.hpp"
 
 namespace vlbeam {
 namespace exact_arc {
@@ -249,7 +250,7 @@ class Report {
           gap = std::max(gap, largest(elements, [&](const Element<3>& e, double u) {
                            const Vec<double, 3> r = e.at(u)[0];
                            const double f = r[0] * r[0] / (a * a) + r[1] * r[1] / (b * b) - 1;
-                           return f / (2 * std::hypot(r[0] / (a * a), r[1] / (b * b)));
+                           return f / (2 * portable::hypot(r[0] / (a * a), r[1] / (b * b)));
                          }));
         }
         double least = 1e300, most = 0;

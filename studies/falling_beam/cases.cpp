@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/run_report.hpp"
@@ -17,7 +18,7 @@ constexpr double report_times[] = {0.3, 0.4, 0.5, 0.6, 0.65, 0.7};  // [s]
 double cost(const Case& item) {
   const Scene& scene = item.scene;
   const double n = scene.beam.elements;
-  const double accuracy = std::pow(1e-6 / scene.integrator.rtol, 0.2);
+  const double accuracy = portable::pow(1e-6 / scene.integrator.rtol, 0.2);
   const double steps = std::max(n * n / 1600, n / 60 * accuracy);
   return steps * n * (3 + quadrature_points(scene)) * scene.duration * scene.duration;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
@@ -266,7 +267,7 @@ void add_temporal_convergence(StudyReport& report, const Runs& runs, const Times
     const double error = position_error(*run->result, *tightest.result, times.error);
     const double tolerance = run->scene.integrator.rtol;
     if (run != &tightest) {
-      report.measured["temporal_error_1e" + std::to_string(std::lround(std::log10(tolerance)))] = error;
+      report.measured["temporal_error_1e" + std::to_string(std::lround(portable::log10(tolerance)))] = error;
     }
     table.rows.push_back({run->scene.beam.elements, to_string(run->scene.beam.element), tolerance,
                           run == &tightest ? Json() : Json(error), run->result->solver.steps,

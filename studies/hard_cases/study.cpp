@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
@@ -103,14 +104,14 @@ double energy_error(const RunResult& result) {
 double shortest_tangent(const RunResult& result) {
   double shortest = std::numeric_limits<double>::infinity();
   const auto look = [&](const Configuration& shape) {
-    for (const Point& slope : shape.r_x) shortest = std::min(shortest, std::hypot(slope[0], slope[1]));
+    for (const Point& slope : shape.r_x) shortest = std::min(shortest, portable::hypot(slope[0], slope[1]));
   };
   for (const Configuration& shape : result.configurations) look(shape);
   for (const Event& event : result.events) look(event.after);
   return shortest;
 }
 
-double apart(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double apart(const Point& a, const Point& b) { return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 /// How two runs differ at their ends, over how far each of joint, end and mass has come in the first of them at most:
 /// the worst of the three.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
@@ -261,6 +262,11 @@ std::vector<double> numbers_of(const Json& value, const std::string& study, Repo
   refuse(value, "this is no operation");
 }
 
+/// The next power of ten that is three times the number at least: another machine's rounding is not this one's.
+std::string bound_of(double number) {
+  return "1e" + std::to_string(static_cast<int>(std::ceil(portable::log10(3 * std::abs(number)))));
+}
+
 double four_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3e", value);
@@ -367,17 +373,27 @@ ClaimsVerdict check_claims(const Json& claims, const std::string& document, Repo
     for (std::size_t i = 0; i < found.front().numbers.size(); ++i) {
       const Span& span = found.front().numbers[i];
       const Json& value = claim.at("values").at(i);
+      const bool bounded = value.is_object() && value.contains("at_most");
       ++verdict.numbers;
       double number = 0;
       try {
-        number = claimed_value(value, study, reports);
+        number = claimed_value(bounded ? value.at("at_most") : value, study, reports);
       } catch (const InvalidInput& error) {
         verdict.failures.push_back("\"" + text + "\": " + error.what());
         claim["recorded"].push_back(nullptr);
         continue;
       }
-      claim["recorded"].push_back(four_digits(number));
       const std::string written = flat.text.substr(span.begin, span.length);
+      if (bounded) {  // what is rounding has no digits to record
+        claim["recorded"].push_back(nullptr);
+        if (std::abs(number) <= std::strtod(written.c_str(), nullptr)) continue;
+        const std::string wanted = bound_of(number);
+        verdict.failures.push_back("\"" + text + "\" says at most " + written + ", the report has " +
+                                   Json(number).dump() + " (" + value.dump() + ")");
+        changes.push_back({flat.from[span.begin], span.length, wanted});
+        continue;
+      }
+      claim["recorded"].push_back(four_digits(number));
       const std::string wanted = number_like(number, written);
       if (wanted != written) {
         verdict.failures.push_back("\"" + text + "\" says " + written + ", the report " + wanted + " (" + value.dump() +

@@ -32,6 +32,8 @@ namespace vlbeam {
 //   {"gates": kind}, with "in": "*" of all reports                       how many gates of a kind; "all" counts any
 //   {"ratio": [a, b]}, {"difference": [a, b]}, {"product": [...]}, {"sum": [...]}, {"max": [...]}, {"min": [...]},
 //   {"abs": a}
+//   {"at_most": VALUE}            the number in the text is a bound on its size: for what is rounding or a solver's
+//                                 tolerance, whose digits another machine does not share
 // A name that ends in * stands for all names that begin so; several numbers may stand only in max, min and sum.
 
 /// Reads reports as claims need them.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
@@ -494,7 +495,7 @@ Scene with_setting(const Scene& scene, const Setting& setting) {
     const double share = setting.accuracy / scene.integrator.rtol;
     // where the longest step allowed holds, the tolerance alone would refine nothing
     if (scene.integrator.adaptive) {
-      changed.integrator.step = std::min(scene.integrator.step * std::cbrt(share), scene.duration);
+      changed.integrator.step = std::min(scene.integrator.step * portable::cbrt(share), scene.duration);
     }
     changed.integrator.atol *= share;
     if (auto& atol = changed.integrator.atol_by_kind) {

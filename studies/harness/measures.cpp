@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/geometry/elementary.hpp"
 #include "core/geometry/rational_cubic.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) { return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 Vec<double, 2> planar(const Point& p) { return {p[0], p[1]}; }
 
@@ -148,7 +149,7 @@ Displacement displacement_by(const Event& event) {
     const double x = stretch.begin + (stretch.end - stretch.begin) * i / points;
     const auto a = point_at(event.before, x), b = point_at(event.after, x);
     double& side = (x <= stretch.cut) == stretch.forward ? largest.segmented : largest.merged;
-    side = std::max(side, std::hypot(a[0] - b[0], a[1] - b[1]));
+    side = std::max(side, portable::hypot(a[0] - b[0], a[1] - b[1]));
   }
   return largest;
 }

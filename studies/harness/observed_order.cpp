@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/json.hpp"
 
@@ -44,19 +45,19 @@ std::array<double, 2> least_squares(const OrderFit& fit, const std::vector<doubl
   const auto n = static_cast<double>(fit.last - fit.first);
   double x_mean = 0, y_mean = 0;
   for (std::size_t i = fit.first; i < fit.last; ++i) {
-    x_mean += std::log(sizes[i]) / n;
-    y_mean += std::log(fit.errors[i]) / n;
+    x_mean += portable::log(sizes[i]) / n;
+    y_mean += portable::log(fit.errors[i]) / n;
   }
   double xy = 0, xx = 0;
   for (std::size_t i = fit.first; i < fit.last; ++i) {
-    const double x = std::log(sizes[i]) - x_mean;
-    xy += x * (std::log(fit.errors[i]) - y_mean);
+    const double x = portable::log(sizes[i]) - x_mean;
+    xy += x * (portable::log(fit.errors[i]) - y_mean);
     xx += x * x;
   }
   const double slope = xy / xx;
   double residuals = 0;
   for (std::size_t i = fit.first; i < fit.last; ++i) {
-    const double r = std::log(fit.errors[i]) - y_mean - slope * (std::log(sizes[i]) - x_mean);
+    const double r = portable::log(fit.errors[i]) - y_mean - slope * (portable::log(sizes[i]) - x_mean);
     residuals += r * r;
   }
   return {slope, n > 2 ? std::sqrt(residuals / (n - 2) / xx) : 0};
@@ -78,7 +79,7 @@ std::optional<double> order_of(std::span<const double, 3> h, std::span<const dou
   const double observed = (values[0] - values[1]) / (values[1] - values[2]);
   // The ratio an order p would show; it grows with p.
   const auto ratio = [&h](double p) {
-    return (std::pow(h[0] / h[2], p) - std::pow(h[1] / h[2], p)) / (std::pow(h[1] / h[2], p) - 1);
+    return (portable::pow(h[0] / h[2], p) - portable::pow(h[1] / h[2], p)) / (portable::pow(h[1] / h[2], p) - 1);
   };
   double low = least_order, high = largest_order;
   if (!(observed >= ratio(low) && observed <= ratio(high))) return std::nullopt;
@@ -143,8 +144,8 @@ OrderFit fit_order(std::string quantity, std::vector<double> levels, std::vector
   if (fit.first > 0 || within < n) fit.excluded = rule.reason;
 
   for (std::size_t i = fit.first + 1; i < fit.last; ++i) {
-    const double refinement = std::log(sizes[i - 1] / sizes[i]);
-    fit.pairwise_orders.push_back(std::log(fit.errors[i - 1] / fit.errors[i]) / refinement);
+    const double refinement = portable::log(sizes[i - 1] / sizes[i]);
+    fit.pairwise_orders.push_back(portable::log(fit.errors[i - 1] / fit.errors[i]) / refinement);
     fit.pair_uncertainties.push_back(fit.floor * (1 / fit.errors[i - 1] + 1 / fit.errors[i]) / refinement);
   }
   fit.refusal = all_numbers ? refusal_of(fit) : "an error is not a number";
@@ -152,7 +153,7 @@ OrderFit fit_order(std::string quantity, std::vector<double> levels, std::vector
   if (all_numbers && fit.last - fit.first >= 2) {
     const auto [slope, standard_error] = least_squares(fit, sizes);
     fit.slope = slope;
-    const double range = std::log(sizes[fit.first] / sizes[fit.last - 1]);
+    const double range = portable::log(sizes[fit.first] / sizes[fit.last - 1]);
     const double known_to = fit.floor * (1 / fit.errors[fit.first] + 1 / fit.errors[fit.last - 1]) / range;
     fit.slope_uncertainty = std::max(standard_error, known_to);
   }
@@ -236,11 +237,11 @@ GridConvergence grid_convergence(std::string quantity, std::vector<double> level
     return found;
   }
   found.order = *order;
-  found.limit = f[n - 1] - last / (std::pow(h[n - 2] / h[n - 1], *order) - 1);
+  found.limit = f[n - 1] - last / (portable::pow(h[n - 2] / h[n - 1], *order) - 1);
   found.safety_factor = near ? near_safety : far_safety;
   const double no_better = expected > 0 ? std::min(*order, expected) : *order;
   found.uncertainty =
-      std::max(found.safety_factor * std::abs(last) / (std::pow(h[n - 2] / h[n - 1], no_better) - 1), floor);
+      std::max(found.safety_factor * std::abs(last) / (portable::pow(h[n - 2] / h[n - 1], no_better) - 1), floor);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
@@ -72,7 +73,7 @@ std::vector<Json> values_of(const Json& json, const std::string& where) {
   for (double i = 0; i < count; ++i) {
     const double share = i / (count - 1);
     const double value = i + 1 == count ? to
-                         : logarithmic  ? from * std::pow(to / from, share)
+                         : logarithmic  ? from * portable::pow(to / from, share)
                                         : from + share * (to - from);
     // To 15 digits, which is what was asked for: 1e-8, not 9.999999999999999e-9.
     values.emplace_back(whole ? Json(static_cast<long>(std::round(value))) : Json(rounded(value)));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/geometry/elementary.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double distance(const Point& a, const Point& b) { return portable::hypot(a[0] - b[0], a[1] - b[1]); }
 
 LoadSpec pull(int node, double force, const Point& direction, double ramp = 0) {
   return {.node = node, .x = {}, .magnitude = {.value = force, .ramp = ramp}, .direction = direction, .turn = {}};
@@ -78,7 +79,7 @@ class Report {
     const double length = beyond * outside;
     Scene scene = library("rod_through_sleeve");
     scene.beam.elements = elements;
-    scene.beam.curve.end = {length * std::cos(beta), length * std::sin(beta), 0};
+    scene.beam.curve.end = {length * portable::cos(beta), length * portable::sin(beta), 0};
     scene.beam.section.EA = known.at("EA");
     scene.sliding_joints.front().position = length - outside + off;
     scene.loads = {pull(elements, known.at("load"), {0, -1, 0})};
@@ -121,7 +122,7 @@ class Report {
       add("sleeve_" + degrees, "elements", meshes, errors, 1e-11);
       worst = std::max(worst, errors.back());
       for (std::size_t i = 1; i < errors.size(); ++i) {
-        least = std::min(least, std::log(errors[i - 1] / errors[i]) / std::log(meshes[i] / meshes[i - 1]));
+        least = std::min(least, portable::log(errors[i - 1] / errors[i]) / portable::log(meshes[i] / meshes[i - 1]));
       }
     }
     report_.measured["sleeve_worst_error"] = worst;
@@ -136,7 +137,7 @@ class Report {
   /// A slack cable through a ring: where it comes to rest, and with which forces at its ends.
   void ring() {
     const Json& known = statics_.at("ring").at("green");
-    const auto size = [](const Json& force) { return std::hypot(force[0].get<double>(), force[1].get<double>()); };
+    const auto size = [](const Json& force) { return portable::hypot(force[0].get<double>(), force[1].get<double>()); };
     std::vector<double> places, forces;
     for (const double n : levels("cable_elements")) {
       Scene scene = library("cable_through_ring");
@@ -145,7 +146,7 @@ class Report {
       places.push_back(std::abs(*balanced.joint_position - known.at("x").get<double>()));
       const auto off = [&](std::size_t end, const char* name) {
         const Point& force = balanced.reactions[end].position;
-        return std::abs(std::hypot(force[0], force[1]) / size(known.at(name)) - 1);
+        return std::abs(portable::hypot(force[0], force[1]) / size(known.at(name)) - 1);
       };
       forces.push_back(std::max(off(0, "start_force"), off(1, "end_force")));
     }

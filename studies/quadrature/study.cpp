@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/element/moving_element.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -41,7 +42,9 @@ std::string key_of(const SceneCase& item) {
   return (item.sweep == "unequal" ? "unequal" : element) + "_n" + std::to_string(item.scene.beam.elements);
 }
 
-double cost(const SceneCase& item) { return std::pow(item.scene.beam.elements, 2) * quadrature_points(item.scene); }
+double cost(const SceneCase& item) {
+  return portable::pow(item.scene.beam.elements, 2) * quadrature_points(item.scene);
+}
 
 class Report {
  public:

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/build.hpp"
 #include "studies/harness/measures.hpp"
+#include "studies/harness/rigid_wire.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_sweep.hpp"
 
@@ -38,24 +39,11 @@ double cost(const Case& c) {
   return scene.integrator.type == IntegratorType::dopri5 ? n * n : 10 * n;
 }
 
-/// Arc length at the times of the samples along a rigid wire, an arc that starts to the left of its centre: a bead let
-/// go at rest, R angle'' = g cos(angle).
-std::vector<double> on_rigid_wire(const Scene& scene, const std::vector<Sample>& samples) {
-  using State = std::array<double, 2>;
-  const double R = scene.beam.curve.radius, g = -scene.gravity[1];
-  State angle{scene.sliding_mass->position / R, 0};
-  const auto rate = [&](const State& at, State& out, double) { out = {at[1], g / R * std::cos(at[0])}; };
-  std::vector<double> lengths, times;
-  for (const Sample& sample : samples) times.push_back(sample.t);
-  using namespace boost::numeric::odeint;
-  integrate_times(make_controlled<runge_kutta_fehlberg78<State>>(1e-13, 1e-13), rate, angle, times, 1e-3,
-                  [&](const State& at, double) { lengths.push_back(R * at[0]); });
-  return lengths;
-}
-
 /// Largest error of the bead's arc length over the samples, over the length of the wire.
 double wire_error(const Scene& scene, const RunResult& run) {
-  const auto exact = on_rigid_wire(scene, run.samples);
+  std::vector<double> times;
+  for (const Sample& sample : run.samples) times.push_back(sample.t);
+  const auto exact = on_rigid_arc(scene, times);
   double largest = 0;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     const auto& x = run.samples[i].joint_position;
@@ -235,7 +223,7 @@ class Report {
       }
       if (jumps.contains(finest / 4)) {
         report_.measured["jump_order_" + problem + "_" + kind] =
-            std::log(jumps[finest / 4] / jumps[finest]) / std::log(4);
+            portable::log(jumps[finest / 4] / jumps[finest]) / portable::log(4);
       }
       if (levels.size() > 1) {
         report_.fits.push_back(fit_order(problem + ", " + kind, levels, errors,

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/elementary.hpp"
+
 namespace vlbeam {
 namespace {
 
@@ -12,10 +14,12 @@ using namespace std::complex_literals;
 constexpr int modes = 400;  // amplitudes fall with the fourth power
 constexpr double pi = std::numbers::pi;
 
+std::complex<double> turned(double angle) { return {portable::cos(angle), portable::sin(angle)}; }  // exp(i angle)
+
 /// (exp(i a t) - exp(i b t))/(a - b), also where a and b meet.
 std::complex<double> difference(double a, double b, double t) {
-  if (std::abs(a - b) < 1e-9 * std::max(std::abs(a), std::abs(b))) return 1i * t * std::exp(1i * a * t);
-  return (std::exp(1i * a * t) - std::exp(1i * b * t)) / (a - b);
+  if (std::abs(a - b) < 1e-9 * std::max(std::abs(a), std::abs(b))) return 1i * t * turned(a * t);
+  return (turned(a * t) - turned(b * t)) / (a - b);
 }
 
 /// One mode: m q'' - i g q' + k q.
@@ -38,10 +42,10 @@ std::complex<double> closed_form(const RotatingLoad& set, double load, double z)
   std::complex<double> sum = 0;
   for (int n = 1; n <= modes; ++n) {
     const double natural = n * n * pi / set.a, passing = n * pi;
-    const double turning = std::pow(set.slenderness * passing / 2, 2);  // J k^2/A
+    const double turning = portable::pow(set.slenderness * passing / 2, 2);  // J k^2/A
     const Mode mode{1 + turning, 2 * turning * set.spin, natural * natural};
     const auto q = (mode.response(omega + passing, load) - mode.response(omega - passing, load)) / 1i;
-    sum += q * std::sin(passing * z);
+    sum += q * portable::sin(passing * z);
   }
   return sum * 48.0 / (pi * set.a * pi * set.a);
 }

@@ -9,6 +9,7 @@
 
 #include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/scene/options.hpp"
 #include "core/system/steady_flow.hpp"
@@ -84,7 +85,7 @@ class Shaft {
     model.spin->drives = {{0, steadily(0, spin)}};
     auto turning = [=](double t) -> Vector {
       const double angle = omega * (t + margin * duration);
-      return {force * std::cos(angle), force * std::sin(angle), 0};
+      return {force * portable::cos(angle), force * portable::sin(angle), 0};
     };
     model.loads.points = {{.node = middle, .force = turning}};
     BeamSystem<D> beam(model, straight_chain(model));

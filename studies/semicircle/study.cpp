@@ -3,17 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <iterator>
 #include <map>
 
 #include "core/beam/mesh_motion.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/scene/build.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/histories.hpp"
 #include "studies/harness/measures.hpp"
+#include "studies/harness/rigid_wire.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_sweep.hpp"
 
@@ -47,19 +48,6 @@ RunResult run_case(const SceneCase& item) {
   return run;
 }
 
-/// Arc length along a rigid semicircular wire, at the time t, of a bead let go at rest: R angle'' = g(t) cos(angle).
-double on_rigid_wire(const Scene& scene, double t) {
-  using State = std::array<double, 2>;
-  const double R = scene.beam.curve.radius, g = -scene.gravity[1];
-  State angle{scene.sliding_mass->position / R, 0};
-  const auto rate = [&](const State& at, State& out, double now) {
-    out = {at[1], g / R * smooth_ramp(now, scene.gravity_ramp).value * std::cos(at[0])};
-  };
-  using namespace boost::numeric::odeint;
-  integrate_adaptive(make_controlled<runge_kutta_fehlberg78<State>>(1e-13, 1e-13), rate, angle, 0.0, t, 1e-3);
-  return R * angle[0];
-}
-
 double cost(const SceneCase& item) {
   const double n = item.scene.beam.elements;
   return n * n * item.scene.duration * (item.scene.integrator.type == IntegratorType::dopri5 ? 1 : 10);
@@ -75,8 +63,8 @@ double radius_error(const Scene& scene) {
     const auto curve =
         RationalCubic<double, 2>::from_nodal(q.e, q.x_b - q.x_a, current_weights(chain, k, weight_transport(scene)));
     for (int i = 0; i <= 50; ++i) {
-      largest =
-          std::max(largest, std::abs(std::hypot(curve.evaluate(i / 50.0)[0][0], curve.evaluate(i / 50.0)[0][1]) - R));
+      largest = std::max(largest,
+                         std::abs(portable::hypot(curve.evaluate(i / 50.0)[0][0], curve.evaluate(i / 50.0)[0][1]) - R));
     }
   }
   return largest / R;
@@ -224,7 +212,7 @@ class Report {
       double jumps = 0;
       for (const Event& event : run.events) jumps += std::abs(event.energy_jump.axial + event.energy_jump.bending);
       const double place =
-          last.joint_position ? (*last.joint_position - on_rigid_wire(scene, last.t)) / beam_length(scene) : 1;
+          last.joint_position ? (*last.joint_position - on_rigid_arc(scene, {last.t}).front()) / beam_length(scene) : 1;
       const std::string element = scene.beam.element == ElementKind::ale_rancf ? "rancf" : "ancf";
       runs[element][scene.beam.elements] = {place, run.events.size(), jumps};
     }

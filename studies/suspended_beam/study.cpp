@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/json.hpp"
@@ -114,7 +115,7 @@ double length_of(const Configuration& shape) {
   auto last = point_at(shape, shape.x.front());
   for (int i = 1; i <= pieces; ++i) {
     const auto next = point_at(shape, shape.x.front() + length * i / pieces);
-    sum += std::hypot(next[0] - last[0], next[1] - last[1]);
+    sum += portable::hypot(next[0] - last[0], next[1] - last[1]);
     last = next;
   }
   return sum;
@@ -130,8 +131,9 @@ SlopesAtMass slopes_at_mass(const Configuration& shape, double joint) {
   const auto node = static_cast<std::size_t>(std::ranges::lower_bound(shape.x, joint - 1e-9) - shape.x.begin());
   const Point before = shape.r_x[node], behind = shape.kinks.empty() ? before : shape.kinks.front().r_x;
   const double turn =
-      std::atan2(before[0] * behind[1] - before[1] * behind[0], before[0] * behind[0] + before[1] * behind[1]);
-  return {std::hypot(before[0], before[1]), std::hypot(behind[0], behind[1]), turn * 180 / std::acos(-1.0)};
+      portable::atan2(before[0] * behind[1] - before[1] * behind[0], before[0] * behind[0] + before[1] * behind[1]);
+  return {portable::hypot(before[0], before[1]), portable::hypot(behind[0], behind[1]),
+          turn * 180 / portable::acos(-1.0)};
 }
 
 class Report {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -60,7 +61,7 @@ std::vector<Case> read_cases(const Json& config) {
   return cases;
 }
 
-double cost(const Case& item) { return std::pow(item.scene.beam.elements, 2); }
+double cost(const Case& item) { return portable::pow(item.scene.beam.elements, 2); }
 
 /// Shortest element over the standard length: at the start and on either side of every event.
 double shortest_element(const Scene& scene, const RunResult& run) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/geometry/elementary.hpp"
 #include "core/scene/options.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -18,7 +19,7 @@ constexpr double beam_length_m = 1;  // of every problem
 constexpr double short_run = 0.1;    // [s]: shorter ones are repeated and the fastest counts
 constexpr int repeats = 3;
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) { return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 Point point_from_json(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>(), 0}; }
 

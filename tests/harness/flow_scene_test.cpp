@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/scene/energy_ledger.hpp"
 #include "core/scene/simulate.hpp"
 #include "core/scene/validate.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -51,6 +52,7 @@ TEST(FlowScene, KeepsEnergyByItsLedger) {
   const FlowSample& last = *result.samples.back().flow;
   EXPECT_GT(std::abs(last.ledger.ends), 1e-2);
   EXPECT_LE(result.max_energy_drift, 1e-9 * std::abs(last.ledger.ends));
+  EXPECT_LE(energy_ledger(result).largest_unexplained, 1e-6 * std::abs(last.ledger.ends));
   EXPECT_NEAR(last.mass, result.samples.front().flow->mass + last.ledger.mass, 1e-12);
   EXPECT_NEAR((*last.end_angles)[0], 0.6, 0.1);
   ASSERT_EQ(last.loads.size(), 3U);  // the distributed ones have no place

@@ -230,6 +230,8 @@ TEST(EnergyLedger, GrowingGravityDoesWork) {
   const RunResult loaded = simulate(scene);
   EXPECT_EQ(loaded.samples.front().energy.gravity, 0) << "there is none yet";
   EXPECT_LE(loaded.max_energy_drift, 2e-9 * loaded.max_kinetic);
+  EXPECT_GT(std::abs(loaded.samples.back().flow->ledger.loads), 1e-4 * loaded.max_kinetic);
+  EXPECT_LE(energy_ledger(loaded).largest_unexplained, 1e-6 * loaded.max_kinetic);
   scene.loads.clear();
   scene.integrator.type = IntegratorType::generalized_alpha;
   scene.integrator.rho_inf = 1;

@@ -150,6 +150,20 @@ TEST(Statics, MechanismIsNamed) {
   EXPECT_NE(result.failure.find("nothing holds it along (1, 0)"), std::string::npos) << result.failure;
 }
 
+/// What rounding leaves of no force must not move a beam that nothing holds.
+TEST(Statics, FreeBeamWithoutLoadsIsInEquilibriumOnEveryMesh) {
+  for (int n = 2; n <= 40; ++n) {
+    for (const double angle : {0.0, 0.7, 2.0}) {
+      Scene scene = straight(n, 1e4, 1);
+      scene.start.type = SupportType::free;
+      scene.beam.curve.end = {std::cos(angle), std::sin(angle), 0};
+      scene.statics.steps = 1;
+      const RunResult result = completed(scene);
+      EXPECT_LT(distance(result.samples.back().end, std::cos(angle), std::sin(angle)), 1e-9) << n << ", " << angle;
+    }
+  }
+}
+
 /// (b/L)^2 sqrt(EI/rhoA)/2 pi, b of the characteristic equations.
 TEST(Frequencies, OfBeams) {
   struct Case {

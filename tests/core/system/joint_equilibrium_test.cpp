@@ -290,6 +290,31 @@ TEST(SleeveStatics, FrequenciesOfAStraightRod) {
   }
 }
 
+/// A mass M held in the middle of a taut cable of material length 2 l: M w^2 = 2 K (w/c) cot(w l/c), c^2 = K/rhoA, with
+/// K = EA (s^2 - 1)/2 across the cable and EA (3 s^2 - 1)/2 along it, at the stretch s.
+TEST(MassStatics, FrequenciesOfABeadOnATautCable) {
+  constexpr double EA = 100, mass = 5, stretch = 1.1;
+  Scene scene = statics(EA, 0, 40);
+  scene.beam.curve.end = {2, 0, 0};
+  scene.start = {.type = SupportType::pin, .motion = SupportMotionSpec{{-1, 0, 0}, {.value = 0.1}}};
+  scene.end = {.type = SupportType::pin, .motion = SupportMotionSpec{{1, 0, 0}, {.value = 0.1}}};
+  scene.sliding_joints = {joint_at(1, SupportType::free, mass)};
+  scene.sliding_joints.front().slopes = JointSlopes::equal_stretch;
+  scene.statics.joints = StaticJoints::held;
+  scene.statics.frequencies = 2;
+  const RunResult result = completed(scene);
+  ASSERT_EQ(result.frequencies.size(), 2U);
+  for (const std::size_t i : {0, 1}) {
+    const double K = EA * ((i == 0 ? 1 : 3) * stretch * stretch - 1) / 2, c = std::sqrt(K);
+    double low = 1e-6, high = std::numbers::pi / 2 * c;  // of w; the difference of the two sides changes its sign once
+    for (int k = 0; k < 100; ++k) {
+      const double w = (low + high) / 2;
+      (mass * w < 2 * K / c / std::tan(w / c) ? low : high) = w;
+    }
+    EXPECT_NEAR(result.frequencies[i] / (low / (2 * std::numbers::pi)), 1, 1e-6) << i;
+  }
+}
+
 /// A trolley rolls to where a taut cable is lowest, and the cable bears it there.
 TEST(MassStatics, TrolleyRestsInTheMiddle) {
   Scene scene = statics(1000, 0, 20);

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# The program and the library ask no processor what it can do: they call no function of the C library whose digits depend
+# on it (core/geometry/elementary.hpp has these), and hold no `cpuid` (Eigen would block products by the caches' sizes).
+#   portable_test.sh PROGRAM
+set -euo pipefail
+names='sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|sincos|exp|exp2|exp10|expm1|log|log2|log10|log1p'
+names+='|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|fma'
+complex='cabs|cexp|clog|csqrt|cpow|carg|csin|ccos|ctanh'
+called=$(nm --dynamic --undefined-only "$1" | sed -E 's/^ +[Uw] +//; s/@.*//' | grep -xE "($names|$complex)f?" || true)
+if [[ -n $called ]]; then
+  echo "calls whose digits depend on the processor:" $called
+  exit 1
+fi
+asked=$(objdump --disassemble --no-show-raw-insn "$1" | grep -cw cpuid || true)
+if [[ $asked -ne 0 ]]; then
+  echo "the program asks the processor what it can do, at $asked places"
+  exit 1
+fi
