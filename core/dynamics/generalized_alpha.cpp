@@ -13,6 +13,7 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
+constexpr double least_motion = 1e-3;                                     // of Tolerances::motion
 
 class GeneralizedAlpha final : public Stepper {
  public:
@@ -63,7 +64,7 @@ class GeneralizedAlpha final : public Stepper {
     stalled_ = false;
     double next = options_.step;
     if (options_.adaptive) {
-      const double ratio = error_ratio(h);
+      const double ratio = error_ratio(t, h);
       const double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
       if (ratio > 1) {
         dt = h * factor;
@@ -87,6 +88,9 @@ class GeneralizedAlpha final : public Stepper {
     if (!started_) return;
     end_.exchange(memory);
     memory(allowed_);
+    memory(from_q_);
+    memory(motion_);
+    memory(motion_until_event_);
     memory(noise_step_);
     if (memory.reads()) {
       stop_.set_fields(system_.fields());
@@ -105,6 +109,9 @@ class GeneralizedAlpha final : public Stepper {
       system_.follow(main.system_);
       stop_.set_fields(main.stop_.fields());
       allowed_ = main.allowed_;
+      from_q_ = main.from_q_;
+      motion_ = main.motion_;
+      motion_until_event_ = main.motion_until_event_;
     }
     end_ = main.start_;
     started_ = true;
@@ -164,6 +171,8 @@ class GeneralizedAlpha final : public Stepper {
       });
     }
     for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(n);
+    from_q_ = base_q_;
+    motion_until_event_ = motion_;
     started_ = true;
     tangent_by_a_ = 0;
   }
@@ -261,14 +270,42 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
-  double error_ratio(double h) const {
+  double error_ratio(double t, double h) {
     const double share = h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6);
+    const Eigen::Index count = q_.size() - system_.multipliers();
+    error_ = share * (next_a_ - start_.a);
+    if (options_.error_estimate == ErrorEstimate::filtered) filter_error(t + h, h, count);
+    const double scale = share_of_motion();
     double largest = 0;
-    for (Eigen::Index i = 0; i < q_.size() - system_.multipliers(); ++i) {
-      const double allowed = allowed_[i] + options_.tolerances.rtol * std::max(std::abs(base_q_[i]), std::abs(q_[i]));
-      largest = std::max(largest, share * std::abs(next_a_[i] - start_.a[i]) / allowed);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double allowed =
+          scale * allowed_[i] + options_.tolerances.rtol * std::max(std::abs(base_q_[i]), std::abs(q_[i]));
+      largest = std::max(largest, std::abs(error_[i]) / allowed);
     }
     return largest;
+  }
+
+  /// r is linear in the accelerations, and next to 0 at the end of the step: with more acceleration it is that of this.
+  void filter_error(double t, double h, Eigen::Index count) {
+    other_r_.resize(q_.size());
+    other_a_ = acceleration_;
+    other_a_.head(count) += by_a(h) * error_.head(count);
+    system_.residual(q_, v_, other_a_, t, other_r_);
+    system_.solve(other_r_);
+    error_ = other_r_;
+  }
+
+  /// Of the tolerances, by the largest displacement so far. At an event nodes become others: what they move from then
+  /// on is added to the largest before.
+  double share_of_motion() {
+    const double whole = options_.tolerances.motion;
+    if (whole == 0) return 1;
+    other_q_ = q_ - from_q_;
+    const FieldNorms moved = field_norms(stop_.fields(), other_q_);
+    for (const Field field : {Field::position, Field::mark, Field::mass}) {
+      motion_ = std::max(motion_, motion_until_event_ + moved[static_cast<std::size_t>(field)]);
+    }
+    return std::clamp(motion_ / whole, least_motion, 1.0);
   }
 
   /// A step of next to no length, up to an event or a sample: the last accelerations go on.
@@ -314,9 +351,12 @@ class GeneralizedAlpha final : public Stepper {
   Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;
   Eigen::VectorXd other_q_, other_v_, other_a_, other_r_;  ///< perturbed by rounding
   NewtonStop stop_;
-  Eigen::VectorXd allowed_;      ///< absolute tolerances of the coordinates
-  double noise_step_ = 0;        ///< [s], that its noise belongs to
-  std::vector<double> history_;  ///< corrections of the current step, relative to its increment
+  Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates
+  Eigen::VectorXd error_;                       ///< estimated, of the positions
+  Eigen::VectorXd from_q_;                      ///< where the coordinates started, or were at the last event
+  double motion_ = 0, motion_until_event_ = 0;  ///< [m], largest displacement so far
+  double noise_step_ = 0;                       ///< [s], that its noise belongs to
+  std::vector<double> history_;                 ///< corrections of the current step, relative to its increment
 };
 
 }  // namespace

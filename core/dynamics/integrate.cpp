@@ -51,7 +51,10 @@ struct Method {
 
 double first_step(const IntegrationOptions& options) {
   if (!has_fixed_step(options.type)) return options.first_step;
-  if (options.type == IntegratorType::generalized_alpha) return options.generalized_alpha.step;
+  if (options.type == IntegratorType::generalized_alpha) {
+    const GeneralizedAlphaOptions& method = options.generalized_alpha;
+    return method.first_step > 0 ? std::min(method.first_step, method.step) : method.step;
+  }
   return options.type == IntegratorType::energy_momentum ? options.energy_momentum.step : options.step;
 }
 
@@ -205,9 +208,14 @@ Eigen::VectorXd state_at(EventedOde& ode, SideStepper& side, const Stepper& main
   }
 }
 
-/// The first event in the step, or index -1. Without `exactly` its time is the end of the step.
-Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, bool exactly) {
+/// The first event in the step, or index -1. Without `locate_events` its time is the end of the step.
+Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step,
+                    const IntegrationOptions& options) {
+  const bool exactly = options.locate_events;
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
+  if (std::ranges::any_of(at_end, [&](const Guard& guard) { return guard.value > options.largest_overshoot; })) {
+    throw SideStepUnderflow{step.t0, 0};
+  }
   Located first;
   for (std::size_t k = 0; k < at_end.size(); ++k) {
     if (at_end[k].value <= event_tolerance) continue;
@@ -364,7 +372,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
 
     Located event;
     try {
-      event = first_event(ode, side, *stepper, {t_before, before, t, y}, options.locate_events);
+      event = first_event(ode, side, *stepper, {t_before, before, t, y}, options);
     } catch (const SideStepUnderflow& stuck) {  // a step too long to be looked into
       y = before;
       t = t_before;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "core/dynamics/checkpoint.hpp"
@@ -35,6 +36,8 @@ struct IntegrationOptions {
   GeneralizedAlphaOptions generalized_alpha;
   EnergyMomentumOptions energy_momentum;
   bool locate_events = true;  ///< false: an event happens at the end of the step in which it is due
+  /// Of a guard at the end of a step: one that is farther beyond zero makes the step too long, and it is halved.
+  double largest_overshoot = std::numeric_limits<double>::infinity();
 };
 
 /// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start

@@ -33,4 +33,10 @@ enum class NewtonKind {
   full,      ///< at every iteration
 };
 
+/// What of the estimated error of a step limits its length.
+enum class ErrorEstimate {
+  all,
+  filtered,  ///< without what the method damps by itself: vibrations whose period is shorter than the step
+};
+
 }  // namespace vlbeam

@@ -19,6 +19,9 @@ struct Tolerances {
   double rtol = 1e-9;
   double atol = 1e-9;                            ///< of every entry of the state in its own unit
   std::optional<FieldTolerances> by_field = {};  ///< in place of it
+  /// [m] of displacement, from which those of `by_field` hold in full; until something has moved as far they are
+  /// smaller in proportion, down to a thousandth. 0: they always hold. Of generalized-alpha alone.
+  double motion = 0;
 };
 
 /// One step of a method.

@@ -112,6 +112,9 @@ constexpr auto names(Constraints) {
   using enum Constraints;
   return std::to_array<Named<Constraints>>({{eliminated, "eliminated"}, {multipliers, "multipliers"}});
 }
+constexpr auto names(ErrorEstimate) {
+  return std::to_array<Named<ErrorEstimate>>({{ErrorEstimate::all, "all"}, {ErrorEstimate::filtered, "filtered"}});
+}
 constexpr auto names(NewtonKind) {
   return std::to_array<Named<NewtonKind>>({{NewtonKind::modified, "modified"}, {NewtonKind::full, "full"}});
 }

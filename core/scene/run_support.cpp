@@ -11,6 +11,7 @@
 namespace vlbeam {
 namespace {
 
+constexpr double largest_overshoot = 0.25;   // over L_std: of a step that chooses its length by the motion
 constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
 
 std::vector<double> sample_times(const Scene& scene) {
@@ -28,6 +29,7 @@ Tolerances tolerances_of(const Scene& scene) {
   if (!integrator.atol_by_kind) return tolerances;
   const AbsoluteTolerances atol = with_defaults(*integrator.atol_by_kind, scene);
   const double length = atol.length, velocity = atol.velocity, unit = standard_length(scene);
+  tolerances.motion = atol.motion.value_or(0);
   FieldTolerances& by_field = tolerances.by_field.emplace();
   const auto set = [&](Field field, double value, double rate) {
     by_field.of[static_cast<std::size_t>(field)] = value;
@@ -72,13 +74,16 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   options.tolerances = tolerances_of(scene);
   options.first_step = first_step_courant * wave_time;
   options.locate_events = integrator.locate_events;
+  if (options.tolerances.motion > 0) options.largest_overshoot = largest_overshoot;
   options.step = options.energy_momentum.step = integrator.step;
   options.generalized_alpha = {.step = integrator.step,
                                .rho_inf = integrator.rho_inf,
                                .newton = integrator.newton,
                                .newton_tolerance = integrator.newton_tolerance,
                                .adaptive = integrator.adaptive,
-                               .tolerances = options.tolerances};
+                               .tolerances = options.tolerances,
+                               .error_estimate = integrator.error_estimate,
+                               .first_step = options.tolerances.motion > 0 ? wave_time : 0};
   return options;
 }
 

@@ -260,6 +260,8 @@ struct AbsoluteTolerances {
   double velocity = 0;          ///< of their rates [m/s]
   std::optional<double> angle;  ///< about the axis [rad]; if not given that of slopes
   std::optional<double> spin;   ///< of its rate [rad/s]; if not given that of the rates of slopes
+  /// [m] of displacement, from which they hold in full (generalized-alpha): see Tolerances
+  std::optional<double> motion = {};
 };
 
 /// The time integrator; the comments say which methods use what.
@@ -273,8 +275,11 @@ struct IntegratorSpec {
   NewtonKind newton = NewtonKind::modified;             ///< generalized-alpha
   double newton_tolerance = 1e-8;                       ///< generalized-alpha: what Newton leaves, over the increment
   bool adaptive = false;                                ///< generalized-alpha: the step follows rtol and atol
+  ErrorEstimate error_estimate = ErrorEstimate::all;    ///< generalized-alpha, adaptive
   bool locate_events = true;
-  bool automatic = false;  ///< chosen for the scene ("auto"), not by its writer
+  bool automatic = false;   ///< chosen for the scene ("auto"), not by its writer
+  double accuracy = 1e-4;   ///< asked of an automatic run, of the beam's length and of the motion
+  std::string reason = {};  ///< why it was chosen
 };
 
 /// What is recorded.

@@ -838,6 +838,14 @@ struct SceneOptions {
 
   void integrator() {
     const std::string_view integrator_type = "/integrator/type";
+    timed(Option{.pointer = "/integrator/accuracy",
+                 .unit = "-",
+                 .description =
+                     "of positions in time, over the beam's length, and over its motion where that is smaller: "
+                     "what else the integrator needs is chosen for it; excludes all other keys",
+                 .range = Range::closed(1e-10, 1e-2),
+                 .when = {.pointer = {}, .values = {}, .holds = scene.integrator.automatic, .or_else = {}}},
+          scene.integrator.accuracy);
     timed(Option{.pointer = integrator_type,
                  .unit = "",
                  .description = "time integrator; ida, cvode and arkode need a build with SUNDIALS"},
@@ -883,6 +891,15 @@ struct SceneOptions {
                      .description = "of their rates; if not given that of the rates of slopes",
                      .range = Range::positive()},
               atol.spin);
+      visitor(
+          Option{.pointer = "/integrator/atol/motion",
+                 .unit = "m",
+                 .description = "displacement from which these tolerances hold in full: until something has moved as "
+                                "far they are smaller in proportion, down to a thousandth, and the first step is "
+                                "one in which a wave crosses the shortest element; if not given they always hold",
+                 .range = Range::positive(),
+                 .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+          atol.motion);
     }
     timed(Option{.pointer = "/integrator/step",
                  .unit = "s",
@@ -916,6 +933,13 @@ struct SceneOptions {
                  .description = "the step follows rtol and atol of the positions, up to the length given",
                  .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
           scene.integrator.adaptive);
+    timed(
+        Option{.pointer = "/integrator/error_estimate",
+               .unit = "",
+               .description = "what of the estimated error limits an adaptive step: all of it, or what the method does "
+                              "not damp by itself (filtered)",
+               .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)},
+        scene.integrator.error_estimate);
     timed(Option{.pointer = "/integrator/locate_events",
                  .unit = "",
                  .description = "whether events happen when they are due, or at the end of the step in which they are, "

@@ -17,17 +17,6 @@ double largest_frequency(const Scene& scene);
 /// times those of L_std, 1.39 and 2.0 by default. What bends stiffly (EI large against EA l^2/50) feels the latter.
 double mean_largest_frequency(const Scene& scene);
 
-/// The longest step of "generalized-alpha" that follows what a scene is known to do without running it [s]: 1/250 of
-/// the periods of its first bending vibration, of a cantilever or else of a beam with two clamps, of torsion of what
-/// spins, and of what is driven or loaded periodically; 1/500 of a swing under gravity, and of the duration; 1/10 of
-/// the time that a body takes to pass through where friction fades.
-double longest_implicit_step(const Scene& scene);
-
-/// What `"integrator": "auto"` stands for: "generalized-alpha" where stability would force "dopri5" to more than 1e5
-/// steps, of which at least 20 go into one of its longest; they are as short as tolerances of 1e-7 of each position and
-/// of the beam's length ask for. Else, or where the scene has what it cannot do, "dopri5".
-IntegratorSpec automatic_integrator(const Scene& scene);
-
 /// Where an explicit run has taken many steps, and stability, not accuracy, made them as short as they are.
 std::optional<Warning> stability_warning(const Scene& scene, const RunResult& result);
 

@@ -10,6 +10,7 @@
 
 #include "core/geometry/elementary.hpp"
 #include "core/scene/build.hpp"
+#include "studies/defaults/cost.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -147,6 +148,7 @@ StudyReport run(const StudyContext& context) {
   }
   report.tables.push_back(std::move(means));
   report.measured["defaults_finish"] = finished;
+  add_cost(context, report);
   return report;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
+#include "core/scene/automatic_integrator.hpp"
 #include "core/scene/derived.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/options.hpp"
@@ -27,6 +28,9 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // of 
 constexpr double mesh_order = 4;       // of displacements of cubic elements; what converges faster is not trusted to
 constexpr double step_order = 2;       // of generalized-alpha and energy-momentum
 constexpr double tolerance_order = 1;  // the global error follows the tolerance of a step
+// Accuracies of an automatic integrator that refinement starts from, so that time errs less than the mesh: tolerances
+// of 1e-9 for dopri5 and of 1e-7 of the length for generalized-alpha.
+constexpr double explicit_start = 1e-6, implicit_start = 1.4e-5;
 constexpr double adaptive_order = 2.0 / 3;  // that of steps h of generalized-alpha, h^2, whose own error is h^3
 constexpr int most_points = 20, extra_points = 2;
 constexpr double least_tolerance = 1e-13, most_steps = 1e7;
@@ -469,12 +473,25 @@ std::string digits(double value, int count) {
 
 }  // namespace
 
-Setting setting_of(const Scene& scene) {
+Scene to_converge(const Scene& scene) {
+  if (!scene.integrator.automatic || scene.analysis != Analysis::dynamics) return scene;
+  Scene start = scene;
+  start.integrator = automatic_integrator(scene, explicit_start);
+  if (start.integrator.type == IntegratorType::generalized_alpha) {
+    start.integrator = automatic_integrator(scene, implicit_start);
+  }
+  start.integrator.automatic = false;
+  return start;
+}
+
+Setting setting_of(const Scene& given) {
+  const Scene scene = to_converge(given);
   return {scene.beam.elements, quadrature_points(scene),
           has_step(scene) ? scene.integrator.step : scene.integrator.rtol};
 }
 
-Scene with_setting(const Scene& scene, const Setting& setting) {
+Scene with_setting(const Scene& given, const Setting& setting) {
+  const Scene scene = to_converge(given);
   Scene changed = scene;
   const int from = scene.beam.elements, to = setting.elements;
   changed.beam.elements = to;
@@ -510,9 +527,13 @@ Scene with_setting(const Scene& scene, const Setting& setting) {
   return changed;
 }
 
-Convergence converge(const Scene& scene, const ConvergeOptions& options) { return Converger(scene, options)(); }
+Convergence converge(const Scene& scene, const ConvergeOptions& options) {
+  const Scene start = to_converge(scene);
+  return Converger(start, options)();
+}
 
-Json convergence_to_json(const Scene& scene, const Convergence& found) {
+Json convergence_to_json(const Scene& given, const Convergence& found) {
+  const Scene scene = to_converge(given);
   Json json = {{"schema_version", "vlbeam.converge/1"},
                {"title", scene.title},
                {"quantity", found.quantity},
@@ -549,7 +570,8 @@ Json convergence_to_json(const Scene& scene, const Convergence& found) {
   return json;
 }
 
-std::string convergence_table(const Scene& scene, const Convergence& found) {
+std::string convergence_table(const Scene& given, const Convergence& found) {
+  const Scene scene = to_converge(given);
   std::string text = "refined,elements,quadrature_points," + accuracy_name(scene) +
                      (has_step(scene) ? " [s]" : " [-]") + ",value [" + found.unit + "],difference [" + found.unit +
                      "],error_bound [" + found.unit + "],work [element evaluations],events\n";
@@ -572,7 +594,8 @@ std::string level_line(const Scene& scene, const ConvergeLevel& level) {
          (level.failure.empty() ? digits(level.value, 10) : level.failure) + ", " + digits(level.seconds, 2) + " s\n";
 }
 
-std::string convergence_summary(const Scene& scene, const Convergence& found) {
+std::string convergence_summary(const Scene& given, const Convergence& found) {
+  const Scene scene = to_converge(given);
   std::ostringstream text;
   text << found.quantity << " at t = " << number_text(found.t) << " s: " << digits(found.answer, 10) << " +- "
        << digits(found.uncertainty, 2) << " " << found.unit << '\n';

@@ -25,6 +25,9 @@ struct Setting {
 /// The scene's own.
 Setting setting_of(const Scene& scene);
 
+/// The scene that refinement starts from: where the integrator is automatic, one that errs less in time than meshes do.
+Scene to_converge(const Scene& scene);
+
 /// The scene in another setting. Node numbers name the same material points on the new mesh. Throws InvalidInput where
 /// a node would fall between two others, or the scene cannot be modelled so.
 Scene with_setting(const Scene& scene, const Setting& setting);

@@ -282,6 +282,13 @@ std::string integrator_text(const IntegratorSpec& integrator) {
   return type + ", rtol " + short_number(integrator.rtol) + ", atol " + atol + longest;
 }
 
+/// What was asked of an automatic run, what error that means, and why this method was taken.
+std::string choice_text(const Scene& scene) {
+  const IntegratorSpec& integrator = scene.integrator;
+  return "for an accuracy of " + short_number(integrator.accuracy) + ", in time, so " +
+         short_number(integrator.accuracy * beam_length(scene), 2) + " m: " + integrator.reason;
+}
+
 std::string events_text(const std::vector<Event>& events) {
   std::map<std::string_view, int> counts;
   for (const Event& event : events) ++counts[to_string(event.type)];
@@ -379,6 +386,9 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
     value("initial_equilibrium", {{"negative_pivots", start.negative_pivots}, {"holding_force", start.holding_force}});
   }
   value("solver", solver(result));
+  if (!scene.integrator.reason.empty()) {
+    value("integrator_choice", {{"accuracy", scene.integrator.accuracy}, {"reason", scene.integrator.reason}});
+  }
   for (const auto& item : more.items()) value(item.key().c_str(), item.value());
   out << "\n}\n";
   out.flush();
@@ -470,6 +480,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   line("status", std::string(to_string(result.status)) + when_text(result));
   line("beam", beam_text(scene));
   line("integrator", integrator_text(scene.integrator));
+  if (!scene.integrator.reason.empty()) line("", choice_text(scene));
   if (!result.samples.empty()) {
     const Sample &first = result.samples.front(), &last = result.samples.back();
     if (first.equilibrium) line("start", start_text(*first.equilibrium, sliding_joint(scene) != nullptr));

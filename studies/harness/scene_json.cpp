@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/scene/automatic_integrator.hpp"
 #include "core/scene/derived.hpp"
 #include "core/scene/options.hpp"
 #include "core/scene/scene_options.hpp"
-#include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/nearest.hpp"
@@ -370,11 +370,23 @@ Scene scene_with_every_part() {
   return scene;
 }
 
+/// Whether an integrator is asked for by the accuracy alone. Throws InvalidInput where other keys stand beside it.
+bool asks_for_accuracy(const Json& integrator) {
+  if (!integrator.is_object() || !integrator.contains("accuracy")) return false;
+  for (const auto& [key, value] : integrator.items()) {
+    if (key == "accuracy") continue;
+    throw InvalidInput("/integrator/" + key, excerpt(value),
+                       "\"accuracy\" chooses the integrator: leave out one of the two");
+  }
+  return true;
+}
+
 Scene scene_from_json(Json json) {
   const bool in_time = !json.is_object() || !json.contains("analysis") || json.at("analysis") != "statics";
-  const bool automatic =
-      in_time && json.is_object() && (!json.contains("integrator") || json.at("integrator") == "auto");
-  if (automatic) json.erase("integrator");
+  const bool left_out = in_time && json.is_object() && !json.contains("integrator");
+  const bool asked_for = in_time && json.is_object() && !left_out && asks_for_accuracy(json.at("integrator"));
+  const bool automatic = left_out || asked_for || (in_time && json.is_object() && json.at("integrator") == "auto");
+  if (automatic && !asked_for) json.erase("integrator");
   if (json.is_object() && json.contains("integrator") && json.at("integrator").is_string()) {
     throw InvalidInput("/integrator", excerpt(json.at("integrator")),
                        "it must be \"auto\", or an object like {\"type\": \"dopri5\"}");
@@ -386,15 +398,17 @@ Scene scene_from_json(Json json) {
   }
   const Reader reader(std::move(json));
   Scene scene;
+  scene.integrator.automatic = automatic;
   visit_options(reader, scene);
-  if (scene.setting != SceneSetting::standard) {  // the same keys, and others for those left out
+  const bool published = scene.setting != SceneSetting::standard;
+  if (published) {  // the same keys, and others for those left out
     scene = scene_in(scene.setting);
+    scene.integrator.automatic = automatic;
     visit_options(reader, scene);
   }
   try {
-    if (automatic) {
-      validate(scene);
-      scene.integrator = automatic_integrator(scene);
+    if (automatic && !(published && left_out)) {
+      scene.integrator = automatic_integrator(scene, scene.integrator.accuracy);
     }
     validate(scene);
   } catch (const InvalidInput& error) {
@@ -412,6 +426,7 @@ Scene read_scene(const std::filesystem::path& file) {
 
 Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
+  filled.integrator.automatic = false;  // what was chosen, as one may write it
   filled.beam.quadrature_points = quadrature_points(scene);
   if (auto& mass = filled.sliding_mass) mass->separation_distance = separation_distance(scene, *mass);
   for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene, joint);

@@ -395,7 +395,7 @@ Json scene_schema() {
   const Json automatic = {
       {"const", "auto"},
       {"description",
-       "generalized-alpha where stability would force dopri5 to 20 times as many steps, and many, else dopri5"}};
+       "generalized-alpha or dopri5, which takes less work for an accuracy of 1e-4; the same as {\"accuracy\": 1e-4}"}};
   integrator = {{"description", integrator.at("description")},
                 {"default", automatic.at("const")},
                 {"anyOf", {automatic, integrator}}};
@@ -526,9 +526,13 @@ Json run_schema() {
                                described(any_number, "on the joint's material coordinate until t = 0", "N")}}),
                       "of a motion that starts from one: stable where the first is 0")},
            {"solver", described(solver, "what the integrator did")},
+           {"integrator_choice",
+            described(record({{"accuracy", described(any_number, "asked of positions in time, over the length", "-")},
+                              {"reason", described(any_text, "why this method was taken")}}),
+                      "of a run whose scene leaves the integrator to the program")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
-          {"failure", "frequencies", "initial_equilibrium"}));
+          {"failure", "frequencies", "initial_equilibrium", "integrator_choice"}));
 }
 
 Json study_schema() {

@@ -144,6 +144,7 @@ TEST(Converge, TheLongestStepIsRefinedWithTheTolerance) {
   Scene scene = library_scene("pendulum");
   scene.integrator.type = IntegratorType::generalized_alpha;
   scene.integrator.adaptive = true;
+  scene.integrator.automatic = false;
   scene.integrator.rtol = scene.integrator.atol = 1e-3;
   scene.integrator.step = 1e-2;
   Setting setting = setting_of(scene);

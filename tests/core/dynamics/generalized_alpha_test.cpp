@@ -109,5 +109,55 @@ TEST(GeneralizedAlpha, RejectsAStepThatNewtonCannotSolveAndGoesOn) {
   EXPECT_GT(result.solver.rejected, 0u);
 }
 
+/// A steel cantilever that vibrates in its first mode under a weight `share` of its own that is there at once.
+Scene vibrating(double share) {
+  Scene scene;
+  scene.start.type = SupportType::clamp;
+  scene.beam.elements = 8;
+  scene.beam.material.youngs_modulus = 2.1e11;
+  scene.gravity = {0, -9.81 * share, 0};
+  scene.gravity_ramp = 0.02;
+  scene.duration = 0.3;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.adaptive = true;
+  scene.integrator.step = 0.01;
+  scene.integrator.rtol = 1e-14;
+  scene.integrator.atol_by_kind = AbsoluteTolerances{.length = 1e-7, .velocity = 1e-5, .angle = {}, .spin = {}};
+  return scene;
+}
+
+// A vibration that the steps resolve is limited as before; what the method damps by itself is not.
+TEST(GeneralizedAlpha, FilteredErrorsLeaveResolvedVibrationsAlone) {
+  Scene resolved = vibrating(1);
+  const RunResult all = simulate(resolved);
+  resolved.integrator.error_estimate = ErrorEstimate::filtered;
+  const RunResult filtered = simulate(resolved);
+  EXPECT_GT(static_cast<double>(filtered.solver.steps), 0.85 * static_cast<double>(all.solver.steps));
+  EXPECT_LE(filtered.solver.steps, all.solver.steps);
+
+  Scene ringing = vibrating(1);  // a thin wire with a mass on it: waves along the axis, after each event
+  ringing.beam.section.radius = 1e-3;
+  ringing.beam.elements = 32;
+  ringing.sliding_mass = SlidingMassSpec{};
+  ringing.sliding_mass->mass = 0.02;
+  const RunResult resolving = simulate(ringing);
+  ringing.integrator.error_estimate = ErrorEstimate::filtered;
+  const RunResult damping = simulate(ringing);
+  EXPECT_LT(2 * damping.solver.steps, resolving.solver.steps);
+  EXPECT_NEAR(*damping.samples.back().joint_position, *resolving.samples.back().joint_position, 1e-5);
+}
+
+// A tenth of the motion, a tenth of the tolerance: as many steps.
+TEST(GeneralizedAlpha, TolerancesFollowTheMotion) {
+  const auto steps = [](double share, bool of_motion) {
+    Scene scene = vibrating(share);
+    scene.integrator.atol_by_kind->length = 1e-5;
+    if (of_motion) scene.integrator.atol_by_kind->motion = 0.1;
+    return static_cast<double>(simulate(scene).solver.steps);
+  };
+  EXPECT_NEAR(steps(0.1, true) / steps(1, true), 1, 0.1);
+  EXPECT_LT(steps(0.1, false) / steps(1, false), 0.7);
+}
+
 }  // namespace
 }  // namespace vlbeam::test

@@ -123,6 +123,7 @@ TYPED_TEST(FlowLedgerTest, EndsThatRestDoNoWork) {
   BeamModel<D> model = everything<D>(WeightTransport::frozen);
   model.motion = MeshMotion({{0, steadily(0, 0)}, {2, wavering(0.5, 0.1, -0.03)}, {5, steadily(1, 0)}});
   model.spin->drives.clear();
+  model.rotary = {};
   BeamSystem<D> beam = system_of(model);
   Eigen::VectorXd y = start_of(beam);
   SolverCounters counters;
