@@ -30,7 +30,8 @@ constexpr double steps_of_fading = 10;    // while friction passes through where
 constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drives it
 
 // Tolerances of a step over the accuracy asked: errors of many steps add up.
-constexpr double implicit_share = 0.05, explicit_share = 1e-3;
+constexpr double implicit_share = 0.05, explicit_share = 0.05;
+constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
 constexpr double newton_share = 1e-2, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
 constexpr double whole_motion = 0.1;       // of the beam's length: displacement from which tolerances hold in full
@@ -84,8 +85,8 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.step = std::min(two_digits(longest_implicit_step(scene) * std::sqrt(accuracy / usual_accuracy)), scene.duration);
   spec.rho_inf = automatic_rho_inf;
   spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
-  // what errors of steps add up to falls with the square root of their tolerance
-  const double share = implicit_share * std::min(1.0, accuracy / usual_accuracy);
+  // what errors of steps add up to falls with the power 2/3 of their tolerance
+  const double share = implicit_share * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;
   // next to nothing, for positions have no size of their own: it keeps its ratio where tolerances are refined
   spec.rtol = two_digits(std::max(relative_share * allowed / length, rounding));
@@ -101,7 +102,7 @@ IntegratorSpec explicit_method(double accuracy) {
   IntegratorSpec spec;
   spec.automatic = true;
   spec.accuracy = accuracy;
-  spec.rtol = spec.atol = std::max(explicit_share * accuracy, least_tolerance);
+  spec.rtol = spec.atol = std::clamp(explicit_share * accuracy, least_tolerance, largest_explicit_tolerance);
   return spec;
 }
 

@@ -21,6 +21,7 @@ constexpr double bending = 8400;
 
 constexpr double many_steps = 1e4;
 constexpr double too_many_steps = 1e5;  // seconds of a run
+constexpr double short_share = 20;      // of the longest step: shorter ones are short
 constexpr double near = 0.6;            // of the limit: a mean step as long is held by stability at least now and then
 
 /// Mean step times largest frequency of runs that stability limits, measured on steel wires at tolerances of 1e-9 to
@@ -84,6 +85,20 @@ std::optional<Warning> stability_warning(const Scene& scene, const RunResult& re
   return Warning{WarningKind::stability_limits_steps, message.str(),
                  std::string("/integrator/type \"generalized-alpha\", whose steps no wave limits") +
                      (scene.integrator.automatic ? "" : ", or \"integrator\": \"auto\"")};
+}
+
+std::string why_slow(const Scene& scene, double step) {
+  std::ostringstream why;
+  why.precision(2);
+  const double limit = stability_limit(scene.integrator.type);
+  if (limit > 0 && step * largest_frequency(scene) >= near * limit) {
+    why << "waves in the elements limit the step: " << step << " s; generalized-alpha has no such limit";
+  } else if (scene.integrator.adaptive && step < scene.integrator.step / short_share) {
+    why << "vibrations limit the step: " << step << " s; "
+        << (scene.integrator.error_estimate == ErrorEstimate::all ? "error_estimate filtered, " : "")
+        << "a coarser accuracy or material damping would help";
+  }
+  return why.str();
 }
 
 }  // namespace vlbeam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/scene/result.hpp"
 #include "core/scene/scene.hpp"
@@ -19,5 +20,8 @@ double mean_largest_frequency(const Scene& scene);
 
 /// Where an explicit run has taken many steps, and stability, not accuracy, made them as short as they are.
 std::optional<Warning> stability_warning(const Scene& scene, const RunResult& result);
+
+/// What makes the steps of a run short, `step` [s] in the mean, and what would help; empty where nothing is known to.
+std::string why_slow(const Scene& scene, double step);
 
 }  // namespace vlbeam

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/simulate.hpp"
+#include "core/scene/stiffness.hpp"
 #include "studies/app/registry.hpp"
 #include "studies/app/run_outputs.hpp"
 #include "studies/harness/checkpoint_file.hpp"
@@ -118,11 +119,15 @@ int run_command(const RunArguments& arguments) {
   RunResult result;
   {
     Progress progress(printable(scene.title.empty() ? arguments.scene : scene.title));
+    constexpr int many_steps = 2000;
+    int steps = 0;
+    std::string slow;
     result = simulate(
         scene,
         [&](double t) {
           if (in_time) {
-            progress.update(t / scene.duration, "t = " + std::to_string(t) + " s");
+            if (++steps % many_steps == 0) slow = why_slow(scene, t / steps);
+            progress.update(t / scene.duration, "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow));
           } else {
             progress.update(t, "load factor " + std::to_string(t));
           }

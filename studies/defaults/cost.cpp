@@ -15,7 +15,6 @@
 #include "studies/harness/claims.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/json.hpp"
-#include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam::defaults {
@@ -103,11 +102,36 @@ std::vector<CostCase> read_cases(const StudyContext& context) {
   return cases;
 }
 
-/// Largest difference of end, joint and mass over all samples, over the beam's length.
+/// Positions of a sample over the beam's length, and angles about the axis [rad].
+std::vector<double> places(const Sample& sample, double length) {
+  std::vector<double> all;
+  const auto add = [&](const Point& point) {
+    for (const double coordinate : point) all.push_back(coordinate / length);
+  };
+  add(sample.end);
+  if (sample.joint_position) all.push_back(*sample.joint_position / length);
+  if (sample.mass_position) add(*sample.mass_position);
+  for (const SlidingSample& joint : sample.joints) {
+    if (joint.position) all.push_back(*joint.position / length);
+    if (joint.mass_position) add(*joint.mass_position);
+  }
+  if (sample.flow) {
+    for (const Point& load : sample.flow->loads) add(load);
+    if (sample.flow->end_angles)
+      all.insert(all.end(), sample.flow->end_angles->begin(), sample.flow->end_angles->end());
+  }
+  return all;
+}
+
+/// Largest difference of these over all samples; infinite where one run has what the other lacks.
 double difference(const RunResult& a, const RunResult& b, double length) {
-  double largest = a.samples.size() == b.samples.size() ? 0 : std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min(a.samples.size(), b.samples.size()); ++i) {
-    largest = std::max(largest, position_error(a.samples[i], b.samples[i]) / length);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (a.samples.size() != b.samples.size()) return none;
+  double largest = 0;
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    const std::vector<double> here = places(a.samples[i], length), there = places(b.samples[i], length);
+    if (here.size() != there.size()) return none;
+    for (std::size_t k = 0; k < here.size(); ++k) largest = std::max(largest, std::abs(here[k] - there[k]));
   }
   return largest;
 }

@@ -1,9 +1,10 @@
 # Error in time and work of scenes whose integrator is left to the program, at an accuracy of 1e-4.
 width = 900; height = 720
 load folder . "/../moving_string/style.gp"
+stats csv("cost_figure") using "place" nooutput
 set multiplot title "Scenes whose integrator is left to the program, at an accuracy of 1e-4"
+set yrange [STATS_max + 0.7:0.3]
 set logscale x
-set yrange [0.3:*] reverse
 set ytics nomirror noenhanced
 set key below
 set tmargin at screen 0.86
@@ -25,6 +26,6 @@ set format y ""
 set xrange [0.8:20]
 set xtics (1, 2, 3, 5, 10, 20)
 plot csv("cost_figure") using "ratio":"place":ytic("") with points pointtype 7 linecolor rgb blue notitle, \
-     csv("cost_figure") using (3):"place" with lines linecolor rgb red title "3 times, bound of the mean", \
-     csv("cost_figure") using (10):"place" with lines dashtype 2 linecolor rgb red title "10 times, the bound of each"
+     csv("cost_figure") using (3):"place" with lines linecolor rgb red title "bound of the mean", \
+     csv("cost_figure") using (10):"place" with lines dashtype 2 linecolor rgb red title "bound of each"
 unset multiplot

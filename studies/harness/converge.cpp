@@ -30,7 +30,7 @@ constexpr double step_order = 2;       // of generalized-alpha and energy-moment
 constexpr double tolerance_order = 1;  // the global error follows the tolerance of a step
 // Accuracies of an automatic integrator that refinement starts from, so that time errs less than the mesh: tolerances
 // of 1e-9 for dopri5 and of 1e-7 of the length for generalized-alpha.
-constexpr double explicit_start = 1e-6, implicit_start = 1.4e-5;
+constexpr double explicit_start = 2e-8, implicit_start = 1e-5;
 constexpr double adaptive_order = 2.0 / 3;  // that of steps h of generalized-alpha, h^2, whose own error is h^3
 constexpr int most_points = 20, extra_points = 2;
 constexpr double least_tolerance = 1e-13, most_steps = 1e7;

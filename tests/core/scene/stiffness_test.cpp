@@ -72,5 +72,16 @@ TEST(Stiffness, ARunLimitedByAccuracyDoesNotWarn) {
   EXPECT_FALSE(warned(result));
 }
 
+TEST(Stiffness, SlowRunsSayWhatLimitsThem) {
+  Scene scene = wire(steel);
+  EXPECT_NE(why_slow(scene, 1.5 / largest_frequency(scene)).find("generalized-alpha"), std::string::npos);
+  EXPECT_TRUE(why_slow(scene, 0.1 / largest_frequency(scene)).empty()) << "accuracy does";
+  scene.integrator = automatic_integrator(scene);
+  EXPECT_TRUE(why_slow(scene, scene.integrator.step / 2).empty());
+  EXPECT_EQ(why_slow(scene, scene.integrator.step / 100).find("filtered"), std::string::npos) << "it is";
+  scene.integrator.error_estimate = ErrorEstimate::all;
+  EXPECT_NE(why_slow(scene, scene.integrator.step / 100).find("filtered"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace vlbeam::test
