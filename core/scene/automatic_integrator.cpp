@@ -1,7 +1,6 @@
 #include "core/scene/automatic_integrator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -98,11 +97,12 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   return spec;
 }
 
-IntegratorSpec explicit_method(double accuracy) {
+IntegratorSpec explicit_method(const Scene& scene, double accuracy) {
   IntegratorSpec spec;
   spec.automatic = true;
   spec.accuracy = accuracy;
-  spec.rtol = spec.atol = std::clamp(explicit_share * accuracy, least_tolerance, largest_explicit_tolerance);
+  spec.rtol = std::clamp(explicit_share * accuracy, least_tolerance, largest_explicit_tolerance);
+  spec.atol = spec.rtol * std::min(1.0, whole_length(scene));  // of beams shorter than a metre, too
   return spec;
 }
 
@@ -187,7 +187,7 @@ IntegratorSpec automatic_integrator(const Scene& scene, double accuracy) {
     validate(tried);
   }
   if (!implicit_does) {
-    IntegratorSpec chosen = explicit_method(accuracy);
+    IntegratorSpec chosen = explicit_method(scene, accuracy);
     chosen.reason = "generalized-alpha does not know all that the scene has";
     return chosen;
   }
@@ -202,7 +202,7 @@ IntegratorSpec automatic_integrator(const Scene& scene, double accuracy) {
     implicit.reason = "waves in the elements would force an explicit method to short steps";
     return implicit;
   }
-  const IntegratorSpec dopri5 = explicit_method(accuracy);
+  const IntegratorSpec dopri5 = explicit_method(scene, accuracy);
   const double explicit_cost = work_until(until, scene, dopri5, 1);
   const double implicit_cost = work_until(until, scene, implicit, growth);
   IntegratorSpec chosen = explicit_cost < implicit_cost ? dopri5 : implicit;
