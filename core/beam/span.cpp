@@ -12,18 +12,18 @@ namespace {
 FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
   FixedBasis<Pack> basis;
   const std::size_t count = lanes.size();
-  for (std::size_t g = 0; g < lanes.front().points.size(); ++g) {
+  for (std::size_t g = 0; g < lanes.front().size(); ++g) {
     FixedBasis<Pack>::Point point;
     for (int lane = 0; lane < Pack::width; ++lane) {
       const auto i = static_cast<std::size_t>(lane);
-      const auto& from = lanes[std::min(i, count - 1)].points[g];
+      const auto& from = lanes[std::min(i, count - 1)][g];
       point.weight.set(lane, i < count ? from.weight : 0.0);
       for (std::size_t c = 0; c < 3; ++c) {
         point.s_x[c].set(lane, from.s_x[c]);
         point.s_xx[c].set(lane, from.s_xx[c]);
       }
     }
-    basis.points.push_back(point);
+    (g < lanes.front().points.size() ? basis.points : basis.stretch).push_back(point);
   }
   return basis;
 }
@@ -34,11 +34,11 @@ std::vector<RestStrain<double>> strains_of(const NodalCubic<double, D>& e, const
                                            const BeamSection& section) {
   std::vector<RestStrain<double>> strains;
   const Vec<double, D> chord = e.r_b - e.r_a;
-  for (const auto& point : basis.points) {
+  basis.visit(section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) {
     const Vec<double, D> r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
     const Vec<double, D> r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    strains.push_back(rest_strain<D>(r_x, r_xx, section));
-  }
+    strains.push_back(rest_strain<D>(r_x, r_xx, felt));
+  });
   return strains;
 }
 
@@ -58,7 +58,7 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const QuadratureRule& rule, const double* rest, const std::vector<PointMass>& masses)
+              const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
@@ -70,7 +70,7 @@ Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, 
 }
 
 template <int D>
-void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest,
+void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest,
                           const std::vector<PointMass>& masses) {
   const int low = std::min(outer_, open_), high = std::max(outer_, open_);
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
@@ -117,7 +117,7 @@ void Span<D>::build_packs(const Mesh& mesh, const QuadratureRule& rule, const do
 }
 
 template <int D>
-void Span<D>::factor(const Mesh& mesh, const QuadratureRule& rule, const std::vector<PointMass>& masses) {
+void Span<D>::factor(const Mesh& mesh, const BeamRule& rule, const std::vector<PointMass>& masses) {
   const int low = std::min(outer_, open_), count = std::abs(open_ - outer_);
   load_.assign(static_cast<std::size_t>(count) + 1, {0, 0});
   NodeBlock<D> block;

@@ -31,7 +31,7 @@ class Span {
   /// rest shape, null for a straight, unstrained one; `masses` sit on the whole beam. Throws std::invalid_argument for
   /// a mass matrix that is not positive definite (too few quadrature points).
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-       const QuadratureRule& rule, const double* rest, const std::vector<PointMass>& masses = {});
+       const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses = {});
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -85,9 +85,8 @@ class Span {
   double forces(const double* q, const double* rate, double* force) const;
   void rest_forces(const double* q, double* force) const;
   void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
-  void build_packs(const Mesh& mesh, const QuadratureRule& rule, const double* rest,
-                   const std::vector<PointMass>& masses);
-  void factor(const Mesh& mesh, const QuadratureRule& rule, const std::vector<PointMass>& masses);
+  void build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses);
+  void factor(const Mesh& mesh, const BeamRule& rule, const std::vector<PointMass>& masses);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;

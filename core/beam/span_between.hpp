@@ -14,8 +14,8 @@ class SpanBetween {
  public:
   using Coupling = CouplingBlock<double>;
 
-  SpanBetween(const Mesh& mesh, int low, int high, const BeamSection& section, const QuadratureRule& rule,
-              const double* rest, const std::vector<PointMass>& masses)
+  SpanBetween(const Mesh& mesh, int low, int high, const BeamSection& section, const BeamRule& rule, const double* rest,
+              const std::vector<PointMass>& masses)
       : span_(mesh, low, high, low == high ? Support<D>::free_end() : Support<D>::clamp(), section, rule, rest, masses),
         low_(low),
         high_(high),
@@ -62,7 +62,7 @@ class SpanBetween {
  private:
   /// The accelerations that a unit one of `low` (its position in the first component, its slope in the second) makes
   /// of the inner nodes while `high` rests, and the forces that this takes.
-  void respond(const Mesh& mesh, const BeamSection& section, const QuadratureRule& rule,
+  void respond(const Mesh& mesh, const BeamSection& section, const BeamRule& rule,
                const std::vector<PointMass>& masses) {
     const auto e = static_cast<std::size_t>(low_);
     auto mass = fixed_inertia(mesh.x[e + 1] - mesh.x[e], mesh.weights[e].w, rule).mass;

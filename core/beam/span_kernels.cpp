@@ -116,7 +116,7 @@ template <int D, Kernel K, class Packs>
   for (auto& row : viscous) row.fill(Matrix::Zero());
   for (const auto& pack : packs) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section.stiffness);
+    const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section);
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
       if (section.damped()) {

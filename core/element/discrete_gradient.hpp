@@ -98,15 +98,15 @@ FixedForce<double, D> mean_fixed_force(const FixedBasis<double>& basis, const Tw
   auto at = [](const std::array<double, 3>& s, const NodalCubic<double, D>& c) -> Vector {
     return (c.r_b - c.r_a) * s[0] + c.s_a * s[1] + c.s_b * s[2];
   };
-  for (const auto& point : basis.points) {
+  basis.visit(section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) {
     const TwoStates<Vector> r_x{at(point.s_x, e.before), at(point.s_x, e.after)};
     const TwoStates<Vector> r_xx{at(point.s_xx, e.before), at(point.s_xx, e.after)};
-    const MeanStress<D> stress(r_x, r_xx, section.stiffness);
+    const MeanStress<D> stress(r_x, r_xx, felt.stiffness);
     Vector p = stress.p, m = stress.m;
-    if (section.damped()) {
+    if (felt.damped()) {
       const DampingStress<double, D> viscous(mean(r_x.before, r_x.after), mean(r_xx.before, r_xx.after),
-                                             at(point.s_x, mean_rate), at(point.s_xx, mean_rate), section.stiffness,
-                                             section.damping, section.curvature_regularization);
+                                             at(point.s_x, mean_rate), at(point.s_xx, mean_rate), felt.stiffness,
+                                             felt.damping, felt.curvature_regularization);
       p += viscous.p;
       m += viscous.m;
       force.dissipation += point.weight * viscous.power;
@@ -114,7 +114,7 @@ FixedForce<double, D> mean_fixed_force(const FixedBasis<double>& basis, const Tw
     force.r_b -= (p * point.s_x[0] + m * point.s_xx[0]) * point.weight;
     force.s_a -= (p * point.s_x[1] + m * point.s_xx[1]) * point.weight;
     force.s_b -= (p * point.s_x[2] + m * point.s_xx[2]) * point.weight;
-  }
+  });
   return force;
 }
 
@@ -139,7 +139,7 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
   using Vector = Vec<double, D>;
   static_assert(Ends != MovingEnds::both);
   constexpr double sign = Ends == MovingEnds::b ? 1 : -1;  // of dl/dx at the moving end
-  const double rhoA = law.section.rhoA;
+  const FeltSections sections(law.section);
   auto length = [](const MovingCoordinates<double, D>& c) { return c.x_b - c.x_a; };
   auto end_of = [](const MovingCoordinates<double, D>& c) { return Ends == MovingEnds::b ? c.x_b : c.x_a; };
   auto chord = [](const NodalCubic<double, D>& e) -> Vector { return e.r_b - e.r_a; };
@@ -166,7 +166,9 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
   const MovingKinematics<double, D, Ends> kinematics(middle, middle_rate, WeightTransport::frozen, weights);
 
   for (std::size_t g = 0; g < table.rule.size(); ++g) {
-    const double u = table.rule[g].u, w = table.rule[g].weight;
+    const auto [u, w, feels] = table.rule[g];
+    const BeamSection& section = sections[feels];
+    const double rhoA = section.rhoA;
     const ShapeTable<double>& f = table.shape[g];
     const double reach = Ends == MovingEnds::b ? u : 1 - u;  // share of the end's material velocity at u
     auto slopes = [&](std::size_t n, const NodalCubic<double, D>& e) -> Vector {
@@ -202,7 +204,7 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
     add_momentum(a0, l0, g0, r_x.before, -1);
 
     // discrete gradient of l (rhoA a.b/2 - W + rhoA g.r): forces conjugate to a, b, r, r_x, r_xx and l
-    const MeanStress<D> stress(r_x, r_xx, law.section.stiffness);
+    const MeanStress<D> stress(r_x, r_xx, section.stiffness);
     const Vector f_a = mean(b0, b1) * (0.5 * rhoA * w * l), f_b = mean(a0, a1) * (0.5 * rhoA * w * l);
     const Vector f_r = law.gravity * (rhoA * w * l);
     const Vector f_x = stress.p * (-w * l) - (f_a * end_of(rate.before) + f_b * end_of(rate.after)) * reach;
@@ -221,10 +223,10 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
     r.nodes[3] -= f_slopes * f[3][0] + f_x * f[3][1] + f_xx * (f[3][2] * i);
     r.end -= sign * f_l;
 
-    if (law.section.damped()) {
+    if (section.damped()) {
       const PointMotion<double, D> at = kinematics.at(u, f);
-      const DampingStress<double, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
-                                             law.section.damping, law.section.curvature_regularization);
+      const DampingStress<double, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness, section.damping,
+                                             section.curvature_regularization);
       const double wl = w * kinematics.length();
       for (std::size_t c = 0; c < 4; ++c) r.nodes[c] += (viscous.p * at.s_x[c] + viscous.m * at.s_xx[c]) * wl;
       r.end += wl * (Ends == MovingEnds::b ? viscous.p.dot(at.y_b_x) + viscous.m.dot(at.y_b_xx)

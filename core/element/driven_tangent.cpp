@@ -28,18 +28,21 @@ Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<doubl
   const auto at_rest =
       law.rest ? std::optional<Rest>(std::in_place, *law.rest, q.x_a, q.x_b, law.transport, weights, law.section)
                : std::nullopt;
-  const double l = kinematics.length(), rhoA = law.section.rhoA;
+  const FeltSections sections(law.section);
+  const double l = kinematics.length();
   const double l_rate = variational ? kinematics.length_rate() : 0;
 
   for (std::size_t g = 0; g < table.rule.size(); ++g) {
-    const double u = table.rule[g].u, w = table.rule[g].weight;
+    const auto [u, w, feels] = table.rule[g];
+    const BeamSection& section = sections[feels];
+    const double rhoA = section.rhoA;
     const ShapeTable<double> shape = reshaped ? rational_shape(kinematics.weights(), u) : table.shape[g];
     const PointMotion<double, D> at = kinematics.at(u, shape);
     const PointMotion<double, 4> varied = variation.at(u, shape);
-    const ElasticTangent<double, D> k(at.r_x, at.r_xx, law.section.stiffness);
+    const ElasticTangent<double, D> k(at.r_x, at.r_xx, section.stiffness);
     Matrix pp = k.pp, pm = k.pm, mm = k.mm;
     if (at_rest) {
-      const RestTangent<D> from_rest(at.r_x, at.r_xx, at_rest->at(u, shape), law.section);
+      const RestTangent<D> from_rest(at.r_x, at.r_xx, at_rest->at(u, shape), section);
       pp += from_rest.pp;
       pm += from_rest.pm;
       mm += from_rest.mm;
@@ -60,8 +63,8 @@ Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<doubl
       by_p[i] = pp * varied.r_x[j] + pm * varied.r_xx[j];
       by_m[i] = pm.transpose() * varied.r_x[j] + mm * varied.r_xx[j];
     }
-    if (law.section.damped()) {
-      const DampingTangent<D> viscous(at, law.section);
+    if (section.damped()) {
+      const DampingTangent<D> viscous(at, section);
       for (int j = 0; j < 4; ++j) {
         const std::array<double, 4> rates{varied.r_x[j], varied.r_xx[j], varied.v_x[j], varied.v_xx[j]};
         for (std::size_t n = 0; n < 4; ++n) {
@@ -75,7 +78,7 @@ Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<doubl
       for (int i = 0; i < 4; ++i) {
         auto block = tangent.template block<D, D>(i * D, j * D);
         block += (wl * s_x[i]) * by_p[jj];
-        if (law.section.bends()) block += (wl * at.s_xx[static_cast<std::size_t>(i)]) * by_m[jj];
+        if (section.bends()) block += (wl * at.s_xx[static_cast<std::size_t>(i)]) * by_m[jj];
         block.diagonal().array() -= inertia(i, j);
       }
     }

@@ -9,19 +9,19 @@ ShapeTable<double> shape_of(const Weights<double>& w, double u) {
 
 }  // namespace
 
-FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const QuadratureRule& rule) {
+FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const BeamRule& rule) {
   FixedBasis<double> basis;
-  for (const auto& [u, weight] : rule) {
+  for (const auto& [u, weight, feels] : rule) {
     const auto f = shape_of(w, u);
-    basis.points.push_back(
-        {weight * l, {f[2][1] / l, f[1][1], f[3][1]}, {f[2][2] / (l * l), f[1][2] / l, f[3][2] / l}});
+    (feels == Feels::stretch ? basis.stretch : basis.points)
+        .push_back({weight * l, {f[2][1] / l, f[1][1], f[3][1]}, {f[2][2] / (l * l), f[1][2] / l, f[3][2] / l}});
   }
   return basis;
 }
 
-FixedInertia fixed_inertia(double l, const Weights<double>& w, const QuadratureRule& rule) {
+FixedInertia fixed_inertia(double l, const Weights<double>& w, const BeamRule& rule) {
   FixedInertia inertia{};
-  for (const auto& [u, weight] : rule) {
+  for (const auto& [u, weight, feels] : with_mass(rule)) {
     const auto f = shape_of(w, u);
     const std::array<double, 4> s{f[0][0], l * f[1][0], f[2][0], l * f[3][0]};
     for (std::size_t i = 0; i < 4; ++i) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/element/quadrature.hpp"
+#include "core/element/beam_rule.hpp"
 #include "core/element/section.hpp"
 #include "core/element/shape_functions.hpp"
 
@@ -19,10 +19,28 @@ struct FixedBasis {
     std::array<Real, 3> s_xx;  ///< second derivatives
   };
   std::vector<Point> points;
+  std::vector<Point> stretch;  ///< those of the axial strain, where it has points of its own
+
+  std::size_t size() const { return points.size() + stretch.size(); }
+  /// The points of both kinds, in this order.
+  const Point& operator[](std::size_t g) const { return g < points.size() ? points[g] : stretch[g - points.size()]; }
+
+  /// Calls `visit(point, section, index)` at every point with what is felt there. Loops of their own, not a branch at
+  /// every point, and the section as it came where all is felt everywhere: kernels for packs know it when compiled.
+  template <class Visit>
+  [[gnu::always_inline]] void visit(const BeamSection& section, const Visit& visit) const {
+    if (stretch.empty()) {
+      for (std::size_t g = 0; g < points.size(); ++g) visit(points[g], section, g);
+      return;
+    }
+    const BeamSection across = section.as_felt(Feels::all_but_stretch), along = section.as_felt(Feels::stretch);
+    for (std::size_t g = 0; g < points.size(); ++g) visit(points[g], across, g);
+    for (std::size_t g = 0; g < stretch.size(); ++g) visit(stretch[g], along, points.size() + g);
+  }
 };
 
 /// Basis of an element of length `l` [m] with weights `w`.
-FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const QuadratureRule& rule);
+FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const BeamRule& rule);
 
 /// Constant matrices of a fixed-length element: its consistent mass is rhoA times `mass` times the identity, its weight
 /// rhoA g times `load`.
@@ -31,7 +49,7 @@ struct FixedInertia {
   std::array<double, 4> load;                 ///< integral of s_i dx
 };
 
-FixedInertia fixed_inertia(double l, const Weights<double>& w, const QuadratureRule& rule);
+FixedInertia fixed_inertia(double l, const Weights<double>& w, const BeamRule& rule);
 
 /// Elastic and viscous forces of a fixed-length element on (r_A, s_A, r_B, s_B); that on r_B is minus that on r_A.
 template <class Real, int D>
@@ -48,31 +66,32 @@ FixedForce<Real, D> fixed_force(const FixedBasis<Real>& basis, const NodalCubic<
   FixedForce<Real, D> force{Vector::Zero(), Vector::Zero(), Vector::Zero(), Real(0)};
   const Vector chord = e.r_b - e.r_a;
   const Vector chord_rate = rate.r_b - rate.r_a;
-  for (const auto& point : basis.points) {
-    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
-    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    const ElasticStress<Real, D> elastic(r_x, r_xx, section.stiffness);
-    Vector p = elastic.p, m = elastic.m;
-    if (section.damped()) {
-      const Vector v_x = chord_rate * point.s_x[0] + rate.s_a * point.s_x[1] + rate.s_b * point.s_x[2];
-      const Vector v_xx = chord_rate * point.s_xx[0] + rate.s_a * point.s_xx[1] + rate.s_b * point.s_xx[2];
-      const DampingStress<Real, D> viscous(r_x, r_xx, v_x, v_xx, section.stiffness, section.damping,
-                                           section.curvature_regularization);
-      p += viscous.p;
-      m += viscous.m;
-      force.dissipation += point.weight * viscous.power;
-    }
-    p *= -point.weight;
-    force.r_b += p * point.s_x[0];
-    force.s_a += p * point.s_x[1];
-    force.s_b += p * point.s_x[2];
-    if (section.bends()) {
-      m *= -point.weight;
-      force.r_b += m * point.s_xx[0];
-      force.s_a += m * point.s_xx[1];
-      force.s_b += m * point.s_xx[2];
-    }
-  }
+  basis.visit(
+      section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) __attribute__((always_inline)) {
+        const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+        const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+        const ElasticStress<Real, D> elastic(r_x, r_xx, felt.stiffness);
+        Vector p = elastic.p, m = elastic.m;
+        if (felt.damped()) {
+          const Vector v_x = chord_rate * point.s_x[0] + rate.s_a * point.s_x[1] + rate.s_b * point.s_x[2];
+          const Vector v_xx = chord_rate * point.s_xx[0] + rate.s_a * point.s_xx[1] + rate.s_b * point.s_xx[2];
+          const DampingStress<Real, D> viscous(r_x, r_xx, v_x, v_xx, felt.stiffness, felt.damping,
+                                               felt.curvature_regularization);
+          p += viscous.p;
+          m += viscous.m;
+          force.dissipation += point.weight * viscous.power;
+        }
+        p *= -point.weight;
+        force.r_b += p * point.s_x[0];
+        force.s_a += p * point.s_x[1];
+        force.s_b += p * point.s_x[2];
+        if (felt.bends()) {
+          m *= -point.weight;
+          force.r_b += m * point.s_xx[0];
+          force.s_a += m * point.s_xx[1];
+          force.s_b += m * point.s_xx[2];
+        }
+      });
   return force;
 }
 

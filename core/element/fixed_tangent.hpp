@@ -18,36 +18,38 @@ using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
 /// by entry and unrolled: matrices of packs would go through memory.
 template <class Real, int D>
 ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
-                                      const Stiffness& stiffness) {
+                                      const BeamSection& section) {
   using Vector = Vec<Real, D>;
   using Matrix = Eigen::Matrix<Real, D, D>;
   ChordTangent<Real, D> tangent;
   for (auto& row : tangent) row.fill(Matrix::Zero());
   const Vector chord = e.r_b - e.r_a;
-  for (const auto& point : basis.points) {
-    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
-    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
+  basis.visit(
+      section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) __attribute__((always_inline)) {
+        const Stiffness& stiffness = felt.stiffness;
+        const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+        const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+        const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
 #pragma GCC unroll 3
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
-      for (int c = 0; c < D; ++c) {
-        for (int d = 0; d < D; ++d) {
-          Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
-          if (stiffness.bends()) {
-            by_p += k.pm(c, d) * w_xx;
-            by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
-          }
+        for (std::size_t j = 0; j < 3; ++j) {
+          const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
+          for (int c = 0; c < D; ++c) {
+            for (int d = 0; d < D; ++d) {
+              Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
+              if (stiffness.bends()) {
+                by_p += k.pm(c, d) * w_xx;
+                by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
+              }
 #pragma GCC unroll 3
-          for (std::size_t i = 0; i <= j; ++i) {
-            Real& sum = tangent[i][j](c, d);
-            if (stiffness.bends()) sum += by_m * point.s_xx[i];
-            sum += by_p * point.s_x[i];
+              for (std::size_t i = 0; i <= j; ++i) {
+                Real& sum = tangent[i][j](c, d);
+                if (stiffness.bends()) sum += by_m * point.s_xx[i];
+                sum += by_p * point.s_x[i];
+              }
+            }
           }
         }
-      }
-    }
-  }
+      });
   for (std::size_t i = 1; i < 3; ++i) {
     for (std::size_t j = 0; j < i; ++j) tangent[i][j] = tangent[j][i].transpose();
   }
@@ -76,23 +78,25 @@ ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane,
     }
     return result;
   };
-  for (const auto& point : basis.points) {
-    const DampingStress<Real, D> viscous(
-        seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1), seed(combine(point.s_x, rate), 0, by_v),
-        seed(combine(point.s_xx, rate), D, by_v), section.stiffness, section.damping, section.curvature_regularization);
-    Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
-    for (int c = 0; c < D; ++c) {
-      by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();
-      if (section.bends()) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
-    }
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Matrix dp =
-          by_p.template leftCols<D>() * point.s_x[j][lane] + by_p.template rightCols<D>() * point.s_xx[j][lane];
-      const Matrix dm =
-          by_m.template leftCols<D>() * point.s_x[j][lane] + by_m.template rightCols<D>() * point.s_xx[j][lane];
-      for (std::size_t i = 0; i < 3; ++i) tangent[i][j] += point.s_x[i][lane] * dp + point.s_xx[i][lane] * dm;
-    }
-  }
+  basis.visit(
+      section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) __attribute__((always_inline)) {
+        const DampingStress<Real, D> viscous(seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1),
+                                             seed(combine(point.s_x, rate), 0, by_v),
+                                             seed(combine(point.s_xx, rate), D, by_v), felt.stiffness, felt.damping,
+                                             felt.curvature_regularization);
+        Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
+        for (int c = 0; c < D; ++c) {
+          by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();
+          if (felt.bends()) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
+        }
+        for (std::size_t j = 0; j < 3; ++j) {
+          const Matrix dp =
+              by_p.template leftCols<D>() * point.s_x[j][lane] + by_p.template rightCols<D>() * point.s_xx[j][lane];
+          const Matrix dm =
+              by_m.template leftCols<D>() * point.s_x[j][lane] + by_m.template rightCols<D>() * point.s_xx[j][lane];
+          for (std::size_t i = 0; i < 3; ++i) tangent[i][j] += point.s_x[i][lane] * dp + point.s_xx[i][lane] * dm;
+        }
+      });
   return tangent;
 }
 

@@ -58,7 +58,7 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
 
   const Kinematics kinematics(q, rate, law.transport, weights);
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
-  const double rhoA = law.section.rhoA;
+  const FeltSections sections(law.section);
   const Vector gravity = law.gravity.template cast<Real>();
   const bool variational = law.formulation == Formulation::variational;
 
@@ -69,12 +69,14 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   const auto motion = [&](const auto& u, const auto& shape) { return kinematics.at(u, shape); };
   for_each_point(kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion,
                  [&](const auto& point, const auto& at, const auto* rest) {
-                   const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
+                   const BeamSection& section = sections[point.feels];
+                   const double rhoA = section.rhoA;
+                   const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, section.stiffness);
                    Vector p = elastic.p, m = elastic.m;
                    Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
                    Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
                    if (rest != nullptr) {
-                     const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, law.section);
+                     const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, section);
                      p += from_rest.p;
                      m += from_rest.m;
                      stored = from_rest.axial + from_rest.bending;
@@ -83,9 +85,9 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
                      if constexpr (Kinematics::b_moves) eq.force_b += point.weight * from_rest.work(rest->by_b);
                    }
                    const Real& wl = point.weight;
-                   if (law.section.damped()) {
-                     const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, law.section.stiffness,
-                                                          law.section.damping, law.section.curvature_regularization);
+                   if (section.damped()) {
+                     const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness,
+                                                          section.damping, section.curvature_regularization);
                      p += viscous.p;
                      m += viscous.m;
                      eq.dissipation += wl * viscous.power;

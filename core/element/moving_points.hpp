@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "core/element/beam_rule.hpp"
 #include "core/element/moving_kinematics.hpp"
-#include "core/element/quadrature.hpp"
 #include "core/element/rest_element.hpp"
 
 namespace vlbeam {
@@ -11,11 +11,11 @@ namespace vlbeam {
 /// Shape functions at the points of a rule for one set of weights; with frozen weights they hold until the next
 /// length-control event, so that the rational element then costs what the polynomial one costs.
 struct ShapeTabulation {
-  QuadratureRule rule;
+  BeamRule rule;
   std::vector<ShapeTable<double>> shape;
 
   ShapeTabulation() = default;
-  ShapeTabulation(const QuadratureRule& rule_, const Weights<double>& w) : rule(rule_) {
+  ShapeTabulation(const BeamRule& rule_, const Weights<double>& w) : rule(rule_) {
     for (const auto& point : rule) {
       shape.push_back(w == unit_weights ? hermite_shape(point.u) : rational_shape(w, point.u));
     }
@@ -29,6 +29,7 @@ struct ReferencePoint {
   Real weight;         ///< [m]
   Real weight_rate;    ///< rate of `weight` [m/s]
   Real mesh_velocity;  ///< of the point along the beam [m/s]
+  Feels feels;         ///< what of the beam
 };
 
 /// Calls `visit(point, motion, rest)` at the quadrature points of a variable-length element: a ReferencePoint, what
@@ -39,9 +40,9 @@ template <class Real, int D, MovingEnds Ends, class Rest, class Evaluate, class 
                                                   const ShapeTabulation& table, bool reshaped, const Rest* rest,
                                                   const Evaluate& evaluate, const Visit& visit) {
   const auto point_at = [&](std::size_t g) {
-    const auto [u, w] = table.rule[g];
-    return ReferencePoint<Real>{u, w, kinematics.length() * w, kinematics.length_rate() * w,
-                                kinematics.mesh_velocity(u)};
+    const auto [u, w, feels] = table.rule[g];
+    return ReferencePoint<Real>{
+        u, w, kinematics.length() * w, kinematics.length_rate() * w, kinematics.mesh_velocity(u), feels};
   };
   if (rest == nullptr) {
     for (std::size_t g = 0; g < table.rule.size(); ++g) {

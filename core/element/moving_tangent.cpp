@@ -25,7 +25,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
                                                     law.transport, weights);
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
   const bool variational = law.formulation == Formulation::variational;
-  const double rhoA = law.section.rhoA;
+  const FeltSections sections(law.section);
 
   struct Motion {
     PointMotion<double, D> at;
@@ -42,8 +42,10 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
       kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion_at,
       [&](const auto& point, const Motion& motion, const auto* rest) {
         const auto& [at, by] = motion;
-        const ElasticStress<double, D> elastic(at.r_x, at.r_xx, law.section.stiffness);
-        const ElasticTangent<double, D> k(at.r_x, at.r_xx, law.section.stiffness);
+        const BeamSection& section = sections[point.feels];
+        const double rhoA = section.rhoA;
+        const ElasticStress<double, D> elastic(at.r_x, at.r_xx, section.stiffness);
+        const ElasticTangent<double, D> k(at.r_x, at.r_xx, section.stiffness);
         const double wl = point.weight, mu = wl * rhoA;
         const double mu_c = variational ? mu * point.mesh_velocity : 0;
         const double mu_rate = variational ? point.weight_rate * rhoA : 0;
@@ -66,7 +68,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
         std::array<Work, count> on_end;
         on_end.fill(along);
         if (rest != nullptr) {
-          const RestTangent<D> from_rest(at.r_x, at.r_xx, *rest, law.section);
+          const RestTangent<D> from_rest(at.r_x, at.r_xx, *rest, section);
           elastic_p += from_rest.p;
           elastic_m += from_rest.m;
           pp += from_rest.pp;
@@ -88,8 +90,8 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
           by_p[i] = by_elastic_p[i];
           by_m[i] = by_elastic_m[i];
         }
-        if (law.section.damped()) {
-          const DampingTangent<D> viscous(at, law.section);
+        if (section.damped()) {
+          const DampingTangent<D> viscous(at, section);
           p += viscous.viscous_p;
           m += viscous.viscous_m;
           for (int j = 0; j < 4; ++j) {
@@ -109,7 +111,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
           for (int i = 0; i < 4; ++i) {
             auto block = tangent.template block<D, D>(i * D, j * D);
             block += (wl * by.r_x[i]) * by_p[jj];
-            if (law.section.bends()) block += (wl * by.r_xx[i]) * by_m[jj];
+            if (section.bends()) block += (wl * by.r_xx[i]) * by_m[jj];
             block.diagonal().array() -= by.r[i] * by_f0[j] + by.r_x[i] * by_f1[j];
           }
           for (int e = 0; e < count; ++e) {

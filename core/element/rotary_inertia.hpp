@@ -72,7 +72,7 @@ class RotaryElement {
     A_.setZero();
     B_.setZero();
     C_.setZero();
-    for (std::size_t i = 0; i < table.rule.size(); ++i) {
+    for (std::size_t i = 0; i < with_mass(table.rule).size(); ++i) {
       const RotaryPoint at(x_a, x_b, table.rule[i].u, table.rule[i].weight, table.shape[i]);
       A_ += at.m * at.s * at.s.transpose();
       B_ += at.flux * at.s.transpose() + at.m * at.s * (at.s_rate + at.g).transpose();
@@ -148,7 +148,7 @@ double rotary_power(const RotaryInertia<D>& rotary, const Prescribed& x_a, const
     return row[0] * nodal.r_a + row[1] * nodal.s_a + row[2] * nodal.r_b + row[3] * nodal.s_b;
   };
   double power = 0;
-  for (std::size_t i = 0; i < table.rule.size(); ++i) {
+  for (std::size_t i = 0; i < with_mass(table.rule).size(); ++i) {
     const RotaryPoint at(x_a, x_b, table.rule[i].u, table.rule[i].weight, table.shape[i]);
     const Vec<double, D> turning = rotary.across(sum(at.s, rate) + sum(at.g, e));
     const Vec<double, D> change = sum(at.s, a) + sum(at.s_rate + at.g, rate) + sum(at.g_rate, e);

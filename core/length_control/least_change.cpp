@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/element/active.hpp"
+#include "core/element/quadrature.hpp"
 #include "core/geometry/arc.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/geometry/rotation.hpp"

@@ -38,7 +38,7 @@ const Weights<double>& take_rest_arc(ChainState<D>& chain, int k, const LengthCo
 /// The same for an element that a cut has left, where the merge policy says so.
 template <int D>
 void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
-  if (control.merge == MergePolicy::rest_arc && control.rational) take_rest_arc(chain, k, control);
+  if (takes_rest_arc(chain, control)) take_rest_arc(chain, k, control);
 }
 
 /// What a rule of one's own makes of element k with the nodal coordinates `q`, which has lost node `deleted` of the
@@ -72,14 +72,15 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
   if (control.merge == MergePolicy::least_change) {
     return least_change(chain, before, k, control.rational, law);
   }
-  if (control.merge == MergePolicy::rest_arc && control.rational) {
+  if (takes_rest_arc(chain, control)) {
     const auto& weights = take_rest_arc(chain, k, control);
     return {{weights[0], weights[1], weights[2]}};
   }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
   if (control.merge == MergePolicy::own) merged = by_rule<D>(control.rule, q, before, deleted);
-  if (control.merge == MergePolicy::point_fit && control.rational) {
+  const bool fits = control.merge == MergePolicy::point_fit || control.merge == MergePolicy::relaxed;
+  if (fits && control.rational) {
     const double l = q.x_b - q.x_a;
     const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;
     merged = point_fit<D>(q.e, l, u, position<D>(before.q.data(), deleted));

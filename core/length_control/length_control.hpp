@@ -16,6 +16,7 @@ struct LengthControl {
   double upper = 1.5;          ///< an element longer than upper (1 + hysteresis) L_std is cut
   double hysteresis = 1e-3;
   MergePolicy merge = MergePolicy::point_fit;
+  CutPolicy cut = CutPolicy::exact;
   MergeRule rule = {};   ///< with the policy `own`
   bool rational = true;  ///< merged elements may have weights other than 1
   VelocityTransfer velocities = VelocityTransfer::nodal;
@@ -29,6 +30,14 @@ struct LengthControl {
   double trigger_length() const { return upper * (1 + hysteresis) * standard_length; }
   double merge_length() const { return lower * standard_length; }
 };
+
+/// Whether elements have the weights of rest_arc().
+template <int D>
+bool takes_rest_arc(const ChainState<D>& chain, const LengthControl& control) {
+  const bool wanted =
+      control.merge == MergePolicy::rest_arc || (control.merge == MergePolicy::relaxed && chain.curved_at_rest());
+  return wanted && control.rational;
+}
 
 /// Which way a moving node goes relative to the fixed ones.
 enum class Direction { forward, backward };

@@ -1,5 +1,7 @@
 #include "core/parts/drag.hpp"
 
+#include "core/element/quadrature.hpp"
+
 namespace vlbeam {
 namespace {
 

@@ -126,6 +126,7 @@ Vec<double, D> swept(const MovingKinematics<double, D>& element, const ShapeTabu
   const RestKinematics<double, D, MovingEnds::both>* none = nullptr;
   const auto motion = [&](double u, const ShapeTable<double>& shape) { return element.at(u, shape); };
   for_each_point(element, table, reshaped, none, motion, [&](const auto& point, const auto& at, const auto*) {
+    if (point.feels == Feels::stretch) return;
     sum += point.weight * at.v;
     if (!fixed_points) sum += point.weight * point.mesh_velocity * at.r_x + point.weight_rate * at.r;
   });

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/element/quadrature.hpp"
 #include "core/error.hpp"
 
 namespace vlbeam {
@@ -97,7 +98,7 @@ double Spin::add_torques(const double* q, const double* rate, double t, double* 
   const double torque = model_.torques.line(t);
   for (int k = 0; k + 1 < chain_.nodes(); ++k) {
     element(k, [&](const auto& at, const auto& rates) {
-      for (const auto& [u, w] : chain_.rule()) add(k, at, rates, u, w * torque * (at.x_b - at.x_a));
+      for (const auto& [u, w, feels] : chain_.rule()) add(k, at, rates, u, w * torque * (at.x_b - at.x_a));
     });
   }
   return power;

@@ -15,7 +15,7 @@ SpinChain::SpinChain(const SpinSection& section, AngleField field, Formulation f
                      int quadrature_points, const std::vector<int>& driven)
     : section_(section),
       field_(field),
-      table_(gauss_legendre(quadrature_points), unit_weights),
+      table_(beam_rule(quadrature_points), unit_weights),
       elements_(static_cast<std::size_t>(elements)),
       work_(2 * (elements_.size() + 1)) {
   law_.section = {.rhoA = section.rhoIp, .stiffness = {section.GIp, 0}, .damping = section.damping};

@@ -31,7 +31,7 @@ class SpinChain {
   Eigen::Index coordinates() const { return Eigen::Index{per_node()} * nodes(); }
   bool driven(int node) const { return free_[static_cast<std::size_t>(node)][0][0] == 0; }
   const SpinSection& section() const { return section_; }
-  const QuadratureRule& rule() const { return table_.rule; }
+  const BeamRule& rule() const { return table_.rule; }
 
   /// Of element k, from those of the chain and the nodes' material coordinates or one of their rates.
   Coordinates local(const double* values, const Nodes& nodes, double Prescribed::*x, int k) const;

@@ -19,6 +19,9 @@ namespace {
 // Points beyond which the error of the mesh hides that of the rule (studies/falling_beam, convergence in points).
 constexpr int polynomial_points = 5;
 constexpr int rational_points = 10;
+// EA l^2/EI of an element above which it errs less by sampled axial strain: the falling beam and the elastica cross
+// there (studies/slender). By a little more, for elements of exactly that.
+constexpr double slender = 100 * (1 + 1e-6);
 constexpr double separation_share = 1e-3;  // of the beam's length
 constexpr double default_end_merge = 0.5;  // of L_std
 
@@ -31,6 +34,7 @@ LengthControl build_length_control(const Scene& scene) {
           control.upper,
           control.hysteresis,
           merge_policy(scene),
+          cut_policy(scene),
           control.merge_rule,
           !is_polynomial(scene.beam.element),
           scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
@@ -90,7 +94,9 @@ Scene scene_in(SceneSetting setting) {
   scene.beam.rest_shape = RestShape::paper;
   scene.formulation = Formulation::virtual_work;
   scene.weights = WeightTransport::frozen;
+  scene.beam.axial_strain = AxialStrain::full;
   scene.length_control.merge = MergePolicy::point_fit;
+  scene.length_control.cut = CutPolicy::exact;
   scene.length_control.velocities = VelocityTransfer::nodal;
   scene.length_control.end_merge = 0;
   return scene;
@@ -201,6 +207,13 @@ int quadrature_points(const Scene& scene) {
   return is_polynomial(scene.beam.element) ? polynomial_points : rational_points;
 }
 
+AxialStrain axial_strain(const Scene& scene) {
+  const auto& [EA, EI, law] = build_section(scene.beam).stiffness;
+  const double l = standard_length(scene);
+  const bool locks = EI > 0 && EA * l * l > slender * EI;
+  return scene.beam.axial_strain.value_or(locks ? AxialStrain::lobatto : AxialStrain::full);
+}
+
 double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
 
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
@@ -212,8 +225,16 @@ AxisForm axis_form(const Scene& scene) {
   return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
 }
 
+CutPolicy cut_policy(const Scene& scene) {
+  const bool sampled = axial_strain(scene) == AxialStrain::lobatto;
+  return scene.length_control.cut.value_or(sampled ? CutPolicy::relaxed : CutPolicy::exact);
+}
+
 MergePolicy merge_policy(const Scene& scene) {
-  return scene.length_control.merge.value_or(is_curved_at_rest(scene) ? MergePolicy::rest_arc : MergePolicy::point_fit);
+  const MergePolicy otherwise = axial_strain(scene) == AxialStrain::lobatto ? MergePolicy::relaxed
+                                : is_curved_at_rest(scene)                  ? MergePolicy::rest_arc
+                                                                            : MergePolicy::point_fit;
+  return scene.length_control.merge.value_or(otherwise);
 }
 
 WeightTransport weight_transport(const Scene& scene) {
@@ -328,6 +349,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.formulation = scene.formulation;
   model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
+  model.axial_strain = axial_strain(scene);
   model.gravity = vector_of<D>(scene.gravity);
   if (scene.analysis == Analysis::dynamics) model.gravity_ramp = scene.gravity_ramp;
   const Axis<D> axis = build_axis<D>(scene);
@@ -437,7 +459,7 @@ ChainState<D> build_shape(const Scene& scene) {
   }
   const LengthControl control = build_length_control(scene);
   const bool even = has_rest_shape(scene) && axis_form(scene) == AxisForm::even;
-  if (even && control.enabled && control.merge == MergePolicy::rest_arc && control.rational &&
+  if (even && control.enabled && takes_rest_arc(chain, control) &&
       weight_transport(scene) == WeightTransport::transported) {
     for (int k = 0; k < chain.mesh.elements(); ++k) {
       if (!chain.moves(k)) continue;

@@ -15,6 +15,10 @@ Scene scene_in(SceneSetting setting);
 /// Gauss points an element that a scene asks for, its element's default filled in.
 int quadrature_points(const Scene& scene);
 
+/// Where the axial strain of the scene's elements is summed: if it does not say so at nodes and middle where EA l^2/EI
+/// of an element of standard length is above 100, else at all points; of ropes, EI = 0, at all points, too.
+AxialStrain axial_strain(const Scene& scene);
+
 /// Length of the beam [m] and standard element length L_std [m].
 double beam_length(const Scene& scene);
 double standard_length(const Scene& scene);
@@ -26,8 +30,10 @@ bool has_rest_shape(const Scene& scene);
 /// and no mass slides along a beam that is curved at rest.
 AxisForm axis_form(const Scene& scene);
 
-/// How the scene's elements are merged: if it does not say so by the paper's fit, or, where the beam is curved at rest,
-/// with the weights of the arc.
+/// Where a cut's new node is, and how the scene's elements are merged: if it does not say so, both relaxed with sampled
+/// axial strain. Else cuts are exact, and merges are by the paper's fit, or, where the beam is curved at rest, with the
+/// weights of the arc.
+CutPolicy cut_policy(const Scene& scene);
 MergePolicy merge_policy(const Scene& scene);
 
 /// Whether an element's weights are 1, and stay so.

@@ -43,6 +43,10 @@ constexpr auto names(BendingInertia) {
 constexpr auto names(StrainLaw) {
   return std::to_array<Named<StrainLaw>>({{StrainLaw::green, "green"}, {StrainLaw::engineering, "engineering"}});
 }
+constexpr auto names(OutOfPlane) { return std::to_array<Named<OutOfPlane>>({{OutOfPlane::none, "none"}}); }
+constexpr auto names(AxialStrain) {
+  return std::to_array<Named<AxialStrain>>({{AxialStrain::full, "full"}, {AxialStrain::lobatto, "lobatto"}});
+}
 constexpr auto names(SupportType) {
   using enum SupportType;
   return std::to_array<Named<SupportType>>({{clamp, "clamp"}, {pin, "pin"}, {slide, "slide"}, {free, "free"}});
@@ -86,8 +90,15 @@ constexpr auto names(AtSupport) {
 }
 constexpr auto names(MergePolicy) {
   using enum MergePolicy;
-  return std::to_array<Named<MergePolicy>>(
-      {{point_fit, "point-fit"}, {unit, "unit"}, {rest_arc, "rest-arc"}, {least_change, "least-change"}, {own, "own"}});
+  return std::to_array<Named<MergePolicy>>({{point_fit, "point-fit"},
+                                            {unit, "unit"},
+                                            {rest_arc, "rest-arc"},
+                                            {least_change, "least-change"},
+                                            {own, "own"},
+                                            {relaxed, "relaxed"}});
+}
+constexpr auto names(CutPolicy) {
+  return std::to_array<Named<CutPolicy>>({{CutPolicy::exact, "exact"}, {CutPolicy::relaxed, "relaxed"}});
 }
 constexpr auto names(VelocityTransfer) {
   using enum VelocityTransfer;
@@ -154,7 +165,12 @@ constexpr auto names(WarningKind) {
                                             {energy_not_restored, "energy-not-restored"},
                                             {energy_between_events, "energy-between-events"},
                                             {energy_unexplained, "energy-unexplained"},
-                                            {stability_limits_steps, "stability-limits-steps"}});
+                                            {stability_limits_steps, "stability-limits-steps"},
+                                            {large_strain, "large-strain"},
+                                            {thick_elements, "thick-elements"},
+                                            {light_material, "light-material"},
+                                            {buckled_elements, "buckled-elements"},
+                                            {ringing_friction, "ringing-friction"}});
 }
 
 /// A choice whose values have names.

@@ -139,6 +139,7 @@ struct Event {
   Energy energy_jump;                      ///< after minus before, 25-point rule
   double discrete_jump = 0;                ///< jump of the total over the model's own points [J]
   std::vector<double> momentum_jump;       ///< linear [kg m/s], then angular about the origin [kg m^2/s]
+  int relaxation = 0;                      ///< iterations until nodes had given way, where they are relaxed
   bool restored = true;                    ///< false: `conservative` velocities could not restore the energy
   Configuration before;
   Configuration after;
@@ -159,6 +160,11 @@ enum class WarningKind {
   energy_between_events,   ///< the integrator or the formulation has
   energy_unexplained,      ///< the model's own quadrature points do not see a change of it
   stability_limits_steps,  ///< of an explicit method; an implicit one would need fewer
+  large_strain,            ///< more than a structural beam bears: a unit may be wrong
+  thick_elements,          ///< the section's radius exceeds an element's length: a unit may be wrong
+  light_material,          ///< lighter than foam: a unit may be wrong
+  buckled_elements,        ///< compressed beyond what a single element bears: it is slack, and its folds have no mesh
+  ringing_friction,        ///< the force that friction goes by is that of a vibration which nothing damps
 };
 
 /// Something that the results of a run do not show by themselves, and that its user should know.

@@ -7,6 +7,7 @@
 
 #include "core/dynamics/integrator_type.hpp"
 #include "core/element/angle_field.hpp"
+#include "core/element/beam_rule.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
 #include "core/joint/at_support.hpp"
@@ -104,6 +105,11 @@ enum class BendingInertia {
   gyroscopic,  ///< and that spin: valid for small slopes against the initial axis and an even spin
 };
 
+/// What resists loads across the plane of a beam that is curved at rest, in space.
+enum class OutOfPlane {
+  none,  ///< nothing but the change of the curvature's magnitude, which is of second order
+};
+
 /// The beam: its initial axis, section and material, and how it is divided into elements.
 struct BeamSpec {
   CurveSpec curve;
@@ -115,8 +121,10 @@ struct BeamSpec {
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
   BendingInertia rotary_inertia = BendingInertia::none;
-  int quadrature_points = 0;                  ///< Gauss points an element; 0 stands for the element's default
-  std::array<double, 4> weights{1, 1, 1, 1};  ///< initial weights of every element
+  std::optional<OutOfPlane> out_of_plane = {};   ///< to be said of a curved beam in space
+  std::optional<AxialStrain> axial_strain = {};  ///< see axial_strain()
+  int quadrature_points = 0;                     ///< Gauss points an element; 0 stands for the element's default
+  std::array<double, 4> weights{1, 1, 1, 1};     ///< initial weights of every element
 };
 
 /// How a clamp or a pin moves as a function of time, counted from where it is at t = 0.
@@ -246,6 +254,7 @@ struct LengthControlSpec {
   bool enabled = true;
   double upper = 1.5;                     ///< trigger length over L_std
   double hysteresis = 1e-3;               ///< the trigger is upper (1 + hysteresis) L_std, in [1.5, 2) L_std
+  std::optional<CutPolicy> cut = {};      ///< see cut_policy()
   std::optional<MergePolicy> merge = {};  ///< see merge_policy()
   MergeRule merge_rule = {};              ///< of the policy `own`; no scene file can hold it
   VelocityTransfer velocities = VelocityTransfer::projected;

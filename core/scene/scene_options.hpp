@@ -438,6 +438,18 @@ struct SceneOptions {
                .description = "inertia of sections that turn as the beam bends, and that spin, too: for small slopes",
                .source = "Katz 2001"},
         beam.rotary_inertia);
+    visitor(
+        Option{.pointer = "/beam/out_of_plane",
+               .unit = "",
+               .description = "what resists loads across the plane of a beam that is curved at rest, in space: to be "
+                              "written there, for nothing does"},
+        beam.out_of_plane);
+    visitor(
+        Option{.pointer = "/beam/axial_strain",
+               .unit = "",
+               .description = "where an element's axial strain is summed: at all its quadrature points (full), or at "
+                              "both nodes and the middle (lobatto), which bends slender beams without locking"},
+        beam.axial_strain);
     visitor(Option{.pointer = "/beam/quadrature_points",
                    .unit = "-",
                    .description = "Gauss points an element, 3 to 25; 0 takes the element's default",
@@ -744,13 +756,21 @@ struct SceneOptions {
                    .range = Range::non_negative()},
             scene.length_control.hysteresis);
     visitor(
+        Option{.pointer = "/length_control/cut",
+               .unit = "",
+               .description = "new node of a cut element: on its curve (exact), or at the least strain energy of the "
+                              "two halves (relaxed); if not given, relaxed with sampled axial strain",
+               .source = "Ding & Ouyang 2022, Eq. 21-28 is exact"},
+        scene.length_control.cut);
+    visitor(
         Option{.pointer = "/length_control/merge",
                .unit = "",
                .description =
                    "shape of a merged element: weights by the paper's fit, unit weights, weights of the arc that its "
                    "rest shape turns by, or weights and slopes by the least change at constant strain energy, or "
-                   "(own) weights by a rule of the program that links the library; if not given, rest-arc with an "
-                   "as-built arc or NURBS curve, point-fit otherwise",
+                   "(own) weights by a rule of the program that links the library, or (relaxed) weights as by default "
+                   "and the outer nodes at the least strain energy; if not given, relaxed with sampled axial strain, "
+                   "else rest-arc with an as-built arc or NURBS curve, point-fit otherwise",
                .source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"},
         scene.length_control.merge);
     visitor(

@@ -1,6 +1,7 @@
 #include "core/scene/shape.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <stdexcept>
 
@@ -28,7 +29,7 @@ void check(const Configuration& shape, int per_element) {
 template <int D>
 std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape, int per_element) {
   const BeamSection section = build_section(scene.beam);
-  const bool curved = has_rest_shape(scene);
+  const bool curved = has_rest_shape(scene), sampled = axial_strain(scene) == AxialStrain::lobatto;
   Configuration::Rest rest = shape.rest;
   if (curved && rest.r.empty()) {  // nodes that stand where they were built
     const Axis<D> axis = build_axis<D>(scene);
@@ -57,13 +58,8 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
         shape.rates.x[k + 1]};
     const WeightFunction weights{shape.weights[k], q.x_a, q.x_b};
     const MovingKinematics<double, D> kinematics(q, rate, weight_transport(scene), weights);
-    for (int i = 0; i <= per_element; ++i) {
-      const double u = static_cast<double>(i) / per_element;
+    const auto strains_at = [&](double u) {
       const auto at = kinematics.at(u, rational_shape(kinematics.weights(), u));
-      ShapePoint point{.element = k, .x = q.x_a + u * (q.x_b - q.x_a)};
-      point.r = point_of<D>(at.r);
-      point.r_x = point_of<D>(at.r_x);
-      point.v = point_of<D>(at.v);
       StrainExtremes strains;
       if (curved) {
         const NodalCubic<double, D> e{vector_of<D>(rest.r[k]), vector_of<D>(rest.r_x[k]), vector_of<D>(rest.r[k + 1]),
@@ -73,9 +69,29 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
       } else {
         strains.add(section, at, nullptr);
       }
-      point.strain = strains.strain.largest;
-      point.tension = strains.force.largest;
-      point.curvature = strains.curvature;
+      return strains;
+    };
+    std::array<StrainExtremes, 3> samples;
+    if (sampled) samples = {strains_at(0), strains_at(0.5), strains_at(1)};
+    for (int i = 0; i <= per_element; ++i) {
+      const double u = static_cast<double>(i) / per_element;
+      const auto at = kinematics.at(u, rational_shape(kinematics.weights(), u));
+      ShapePoint point{.element = k, .x = q.x_a + u * (q.x_b - q.x_a)};
+      point.r = point_of<D>(at.r);
+      point.r_x = point_of<D>(at.r_x);
+      point.v = point_of<D>(at.v);
+      const StrainExtremes here = strains_at(u);
+      point.curvature = here.curvature;
+      point.strain = here.strain.largest;
+      point.tension = here.force.largest;
+      if (sampled) {  // the parabola through the points of the axial strain
+        const std::array<double, 3> share{(1 - u) * (1 - 2 * u), 4 * u * (1 - u), u * (2 * u - 1)};
+        point.strain = point.tension = 0;
+        for (std::size_t n = 0; n < 3; ++n) {
+          point.strain += share[n] * samples[n].strain.largest;
+          point.tension += share[n] * samples[n].force.largest;
+        }
+      }
       points.push_back(point);
     }
   }

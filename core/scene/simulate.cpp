@@ -9,6 +9,7 @@
 #include "core/scene/energy_ledger.hpp"
 #include "core/scene/initial_equilibrium.hpp"
 #include "core/scene/model_errors.hpp"
+#include "core/scene/plausibility.hpp"
 #include "core/scene/run_support.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/scene/validate.hpp"
@@ -218,6 +219,7 @@ class Run {
     event.discrete_jump = record.discrete_jump;
     event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
     event.restored = record.restored;
+    event.relaxation = record.relaxation;
     event.before = configuration_of(record.before, record.t, weight_transport(scene_));
     event.after = configuration_of(record.after, record.t, weight_transport(scene_));
     if (record.type == EventType::separation) result_.status = RunStatus::separated;
@@ -273,9 +275,11 @@ RunResult simulate(const Scene& scene, const ProgressCallback& progress, const C
     return scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints)
                                 : simulate_in<3>(scene, progress, checkpoints);
   });
-  if (scene.analysis == Analysis::statics) return result;
-  result.warnings = energy_warnings(scene, result);
-  if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);
+  if (scene.analysis == Analysis::dynamics) {
+    result.warnings = energy_warnings(scene, result);
+    if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);
+  }
+  std::ranges::copy(implausible(scene, result), std::back_inserter(result.warnings));
   return result;
 }
 

@@ -17,6 +17,7 @@ namespace {
 // Of one cubic element with free ends and consistent mass: squares of the largest frequency, for l = EA = EI = rhoA
 // = 1.
 constexpr double axial = 170.12490249604053;  // the larger root of x^2 - 180 x + 1680
+constexpr double sampled_axial = 378.91574157749403;
 constexpr double bending = 8400;
 
 constexpr double many_steps = 1e4;
@@ -48,7 +49,8 @@ struct ElementFrequencies {
 ElementFrequencies element_frequencies(const Scene& scene) {
   const BeamSection section = build_section(scene.beam);
   const double l = beam_length(scene) / scene.beam.elements;
-  return {std::sqrt(axial * section.stiffness.EA / section.rhoA) / l,
+  const double stretching = axial_strain(scene) == AxialStrain::lobatto ? sampled_axial : axial;
+  return {std::sqrt(stretching * section.stiffness.EA / section.rhoA) / l,
           std::sqrt(bending * section.stiffness.EI / section.rhoA) / (l * l)};
 }
 

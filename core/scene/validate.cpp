@@ -19,6 +19,7 @@
 namespace vlbeam {
 namespace {
 
+constexpr double regularization_share = 1e-3;  // of the curvature 1/L: a suggestion
 constexpr double smallest_weight_ratio = 1e-6;
 constexpr double largest_quantity = 1e100;
 constexpr double most_steps = 1e9;
@@ -207,10 +208,22 @@ void check_beam(const Scene& scene) {
   }
 
   const bool bends = beam.section.type == Section::Type::circle || beam.section.EI > 0;
+  const bool curved_in_space =
+      scene.dimension == 3 && bends && has_rest_shape(scene) && beam.curve.type != CurveType::line;
+  if (curved_in_space && !beam.out_of_plane) {
+    refuse("/beam/out_of_plane", InvalidInput::missing,
+           "a beam that is curved at rest does not resist loads across its plane here, for its strain energy has the "
+           "magnitude of the curvature and no torsion: write \"none\" if nothing leaves that plane, or \"rest_shape\": "
+           "\"paper\", or \"dimension\": 2");
+  }
+  if (!curved_in_space && beam.out_of_plane) {
+    refuse("/beam/out_of_plane", quoted(*beam.out_of_plane),
+           "it is to be left out but where \"dimension\" is 3 and a beam that bends is curved at rest");
+  }
   if (scene.dimension == 3 && bends && beam.material.damping > 0 && beam.material.curvature_regularization == 0) {
-    refuse(
-        "/beam/material/curvature_regularization", "0",
-        "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], or the damping 0");
+    refuse("/beam/material/curvature_regularization", "0",
+           "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], such as " +
+               number_text(regularization_share / beam_length(scene)) + ", or the damping 0");
   }
   if (axis_form(scene) == AxisForm::exact && beam.curve.type != CurveType::line) {
     if (beam.element == ElementKind::ale_ancf || beam.element == ElementKind::ancf) {
@@ -226,8 +239,9 @@ void check_beam(const Scene& scene) {
   }
   if (scene.dimension == 3 && bends && beam.material.curvature_regularization == 0 && has_rest_shape(scene)) {
     refuse("/beam/material/curvature_regularization", "0",
-           "a curved rest shape in 3D has no direction where the beam is straight: it must be a number > 0 [1/m], or "
-           "\"rest_shape\": \"paper\"");
+           "a curved rest shape in 3D has no direction where the beam is straight: it must be a number > 0 [1/m], such "
+           "as " +
+               number_text(regularization_share / beam_length(scene)) + ", or \"rest_shape\": \"paper\"");
   }
 }
 

@@ -64,6 +64,11 @@ void check_end(const Scene& scene, const std::string& support, const SupportSpec
     refuse(support + "/type", quoted(end.type), "beam is fed through a \"clamp\" or a \"pin\"");
   }
   check_parts(scene, at);
+  if (end.feed->value != 0 && end.feed->ramp == 0) {
+    refuse(
+        at + "/value", number_text(end.feed->value),
+        "what has come in counts from t = 0, so that a constant does nothing: it must be 0, or beside a ramp > 0 [s]");
+  }
   const double rate = feed_rate(end),
                largest = std::abs(end.feed->rate) + std::abs(end.feed->amplitude * end.feed->frequency);
   if (!scene.initial_velocity && std::abs(rate) > 1e-12 * largest) {

@@ -48,6 +48,7 @@ struct BeamModel {
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;
+  AxialStrain axial_strain = AxialStrain::full;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
   double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
   bool time_is_load_factor = false;                 ///< gravity is t times what it says, as loads may be: statics

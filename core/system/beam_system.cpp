@@ -80,7 +80,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     if (!joint(i).law.kinked()) continue;
     places_[i].behind = layout_.kink(layout_.kinks++);
   }
-  const auto& rule = gauss_legendre(model_.quadrature_points);
+  const BeamRule rule = beam_rule(model_.quadrature_points, model_.axial_strain);
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
   const int right_open = moving_       ? mesh_.last()
@@ -726,7 +726,8 @@ OuterForces<D> BeamSystem<D>::forces_at_rest(const Eigen::VectorXd& y, double t)
 template <int D>
 void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                                      Observation<D>& seen) const {
-  const Observer<D> observer(model_.section, gravity(t), points, model_.rotary.present() ? &model_.rotary : nullptr);
+  const Observer<D> observer(model_.section, gravity(t), beam_rule(points, model_.axial_strain),
+                             model_.rotary.present() ? &model_.rotary : nullptr);
   for (int k = first; k < last; ++k) {
     const MovingKinematics<double, D> element(chain.coordinates(k), chain.rates(k),
                                               chain.moves(k) ? model_.transport : WeightTransport::frozen,

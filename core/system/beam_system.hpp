@@ -34,7 +34,8 @@ struct EventRecord {
   Eigen::VectorXd
       momentum_jump;  ///< linear, then angular about the origin, by the model's own rule; not of a separation
   ChainState<D> before, after;
-  double seconds;  ///< wall time spent
+  int relaxation = 0;  ///< iterations until nodes had given way
+  double seconds;      ///< wall time spent
 };
 
 template <int D>
@@ -335,6 +336,9 @@ class BeamSystem final : public EventedOde {
   void check_leaving(const Due& due, double t) const;
   /// What an event makes of the chain, and of `y` where it is an impact.
   MergedWeights change(const Due& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
+  /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
+  /// gone; the iterations it took.
+  int relax_after(const std::vector<Due>& dues, ChainState<D>& chain, double t, double excess) const;
   bool at_joint(int node) const { return view(nullptr, nullptr).joint_at(node) != nullptr; }
   Guards rider_guards(const Eigen::VectorXd& y, double t) const;
   Guards travel_guards(double t) const;

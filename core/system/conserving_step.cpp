@@ -27,7 +27,7 @@ void ConservingStep<D>::refresh() {
   if (revision_ == system_.revision()) return;
   revision_ = system_.revision();
   const auto& mesh = system_.mesh();
-  const auto& rule = gauss_legendre(system_.model().quadrature_points);
+  const BeamRule rule = beam_rule(system_.model().quadrature_points, system_.model().axial_strain);
   const int joint = system_.has_joint() ? system_.places().front().node : -2;
   fixed_.clear();
   for (int k = 0; k < mesh.elements(); ++k) {

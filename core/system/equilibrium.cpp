@@ -33,6 +33,7 @@ constexpr int most_events = 9;               // of length control at one instant
 constexpr double longest_slide = 0.25;       // of a joint that is released, over L_std
 constexpr double shortest_slide = 1e-6;      // the same
 constexpr double small_move = 1e-7;          // of supports, over the beam's length
+constexpr double slender_enough = 1e8;       // EA L^2/EI of a beam that bends without stretching
 constexpr double end_distance = 1e-3;        // from an end of the beam at which a joint is too near, over L_std
 constexpr int most_slides = 100000;
 
@@ -254,13 +255,22 @@ class Path {
       if (!advance(q, from, to, most_halvings, step == 1)) {
         throw ComputationFailed("no equilibrium near the last one at load factor " + brief(to) + ": " +
                                     free_direction(system_, equations_, q, to) +
-                                    "; past a limit point \"arc-length\" goes on",
+                                    "; past a limit point \"arc-length\" goes on" + too_slender(),
                                 from);
       }
       ++counters_.steps;
       if (!on_point(point(q, to))) return false;
     }
     return true;
+  }
+
+  /// Newton's iteration converges from where corrections are smaller than EI/(EA L) only.
+  std::string too_slender() const {
+    const Stiffness& k = system_.model().section.stiffness;
+    const double stiff = k.bends() ? k.EA * length_ * length_ / k.EI : 0;
+    if (!(stiff > 3 * slender_enough)) return "";
+    return "; EA L^2/EI is " + brief(stiff) + ": with EA = " + brief(slender_enough * k.EI / (length_ * length_)) +
+           " N the beam bends as much, to 1e-7 of its length";
   }
 
   bool advance(Eigen::VectorXd& q, double from, double to, int halvings, bool first) {

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/length_control/least_change.hpp"
+#include "core/length_control/relaxation.hpp"
 #include "core/system/beam_system.hpp"
 
 namespace vlbeam {
@@ -39,6 +40,11 @@ enum class Kind {
   pass_forward,
   pass_backward
 };
+
+/// Whether nodes give way at events.
+bool relaxes(const LengthControl& control) {
+  return control.cut == CutPolicy::relaxed || control.merge == MergePolicy::relaxed;
+}
 
 constexpr int number(Kind kind) { return static_cast<int>(kind); }
 
@@ -583,6 +589,60 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
 }
 
 template <int D>
+int BeamSystem<D>::relax_after(const std::vector<Due>& dues, ChainState<D>& chain, double t, double excess) const {
+  const auto& control = model_.length_control;
+  std::vector<GivingNode> giving;
+  const auto slope_is_free = [&](int node) {
+    if (node == 0 || node == chain.mesh.last()) {
+      const auto& support = node == 0 ? model_.start : model_.end;
+      if ((support.free_slope == 0).any()) return false;
+    }
+    const auto* const at = chain.joint_at(node);
+    if (at == nullptr) return true;
+    const auto& support = model_.joints[static_cast<std::size_t>(at->index)].support;
+    return !at->kink && !(support && (support->free_slope == 0).any());
+  };
+  const auto place_is_free = [&](int node) {
+    return node > 0 && node < chain.mesh.last() && chain.joint_at(node) == nullptr;
+  };
+  const auto cut_at = [&](int node) {
+    if (control.cut == CutPolicy::relaxed && place_is_free(node)) giving.push_back({node, true, true});
+  };
+  const auto merged = [&](int element) {
+    if (control.merge != MergePolicy::relaxed) return;
+    for (const int node : {element, element + 1}) {
+      giving.push_back({node, place_is_free(node), slope_is_free(node)});
+    }
+  };
+  for (const Due& due : dues) {
+    const bool forward = due.direction == Direction::forward;
+    switch (due.type) {
+      case EventType::segment_merge:
+      case EventType::segmentation:
+      case EventType::merging: {
+        const int node = chain.joints[due.which].node;
+        if (due.remeshing.cut) cut_at(forward ? node - 1 : node + 1);
+        if (due.remeshing.merge) merged(forward ? node : node - 1);
+        break;
+      }
+      case EventType::end_merge: {
+        const int element = chain.rider->element;
+        cut_at(forward ? element : element + 1);
+        merged(element);
+        break;
+      }
+      case EventType::end_cut:
+        merged(forward ? chain.joints.front().node - 1 : chain.joints.front().node);
+        break;
+      default:
+        break;
+    }
+  }
+  if (giving.empty()) return 0;
+  return relax(chain, giving, beam_rule(model_.quadrature_points, model_.axial_strain), moving_law(t), excess);
+}
+
+template <int D>
 void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (moving_) stop_travelling(index, t);
   const auto started = std::chrono::steady_clock::now();
@@ -606,7 +666,8 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   record.before = chain(y, t);
   record.after = record.before;
   // an event of the mesh changes the two elements on either side, or, where slopes change too, one more
-  const bool reshapes = type == EventType::reweighting || model_.length_control.merge == MergePolicy::least_change;
+  const bool reshapes = type == EventType::reweighting || model_.length_control.merge == MergePolicy::least_change ||
+                        relaxes(model_.length_control);
   const int reach = reshapes ? 3 : 2;
   int lowest = mesh_.elements(), highest = 0;
   for (const Due& due : dues) {
@@ -646,6 +707,13 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     for (std::size_t i = 0; i < dues.size(); ++i) {
       if (dues[i].remeshing.merge) records[i].merged = remesh(dues[i], {false, true});
     }
+  }
+  if (remeshes && relaxes(model_.length_control)) {
+    const auto stored = [&](const ChainState<D>& state) {
+      const Energy energy = energies(state, model_.quadrature_points);
+      return energy.axial + energy.bending;
+    };
+    record.relaxation = relax_after(dues, record.after, t, stored(record.after) - stored(record.before));
   }
   const Eigen::VectorXd old = y;
   adopt(record.after);
@@ -719,6 +787,7 @@ template double BeamSystem<2>::work_of_prescribed(const std::vector<Contact>&, c
                                                   const JointElements&, const double*, const double*,
                                                   const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<2>::bending_in(const double*) const;
+template int BeamSystem<2>::relax_after(const std::vector<Due>&, ChainState<2>&, double, double) const;
 template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template Guards BeamSystem<3>::guards(const Eigen::VectorXd&, double) const;
@@ -747,6 +816,7 @@ template double BeamSystem<3>::work_of_prescribed(const std::vector<Contact>&, c
                                                   const JointElements&, const double*, const double*,
                                                   const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<3>::bending_in(const double*) const;
+template int BeamSystem<3>::relax_after(const std::vector<Due>&, ChainState<3>&, double, double) const;
 template void BeamSystem<3>::hit(ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

@@ -3,9 +3,9 @@
 namespace vlbeam {
 
 template <int D>
-Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, int points,
+Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRule& rule,
                       const RotaryInertia<D>* rotary)
-    : section_(section), gravity_(gravity), polynomial_(gauss_legendre(points), unit_weights), rotary_(rotary) {}
+    : section_(section), sections_(section), gravity_(gravity), polynomial_(rule, unit_weights), rotary_(rotary) {}
 
 template <int D>
 void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
@@ -21,21 +21,24 @@ void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCub
     }
     return point;
   };
-  const auto add_strains = [&](const Seen& point) {
-    seen.extremes->add(section_, point.at, rest != nullptr ? &point.strain : nullptr);
+  const auto add_strains = [&](const Seen& point, Feels feels) {
+    seen.extremes->add(section_, point.at, rest != nullptr ? &point.strain : nullptr, feels);
   };
   const auto visit = [&](const auto& point, const Seen& look, const auto*) {
-    const double wl = point.weight, mass = wl * section_.rhoA;
+    const BeamSection& section = sections_[point.feels];
+    const double wl = point.weight, mass = wl * section.rhoA;
     const auto& at = look.at;
+    if (seen.extremes) add_strains(look, point.feels);
     if (rest != nullptr) {
-      const RestStress<double, D> stress(at.r_x, at.r_xx, look.strain, section_);
+      const RestStress<double, D> stress(at.r_x, at.r_xx, look.strain, section);
       seen.energy.axial += wl * stress.axial;
       seen.energy.bending += wl * stress.bending;
     } else {
-      const ElasticStress<double, D> stress(at.r_x, at.r_xx, section_.stiffness);
+      const ElasticStress<double, D> stress(at.r_x, at.r_xx, section.stiffness);
       seen.energy.axial += wl * stress.axial;
       seen.energy.bending += wl * stress.bending;
     }
+    if (point.feels == Feels::stretch) return;
     seen.energy.kinetic += 0.5 * mass * at.v.squaredNorm();
     if (rotary_ != nullptr) {
       seen.energy.kinetic += 0.5 * wl * rotary_->rhoJ * rotary_->across(at.v_x).squaredNorm();
@@ -45,7 +48,6 @@ void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCub
     seen.momentum += mass * at.v;
     seen.angular_momentum += mass * moment_about_origin<D>(at.r, at.v);
     seen.mass_moment += mass * at.r;
-    if (seen.extremes) add_strains(look);
     const double stretch = at.r_x.norm();
     seen.beam_length += wl * stretch;
     // at a fixed reference point, which moves along the beam
@@ -59,7 +61,7 @@ void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCub
     for_each_point(element, ShapeTabulation(polynomial_.rule, element.weights()), false, none, see, visit);
   }
   if (!seen.extremes) return;
-  for (const double u : {0.0, 1.0}) add_strains(see(u, rational_shape(element.weights(), u)));
+  for (const double u : {0.0, 1.0}) add_strains(see(u, rational_shape(element.weights(), u)), Feels::everything);
 }
 
 template class Observer<2>;

@@ -59,7 +59,7 @@ template <int D>
 class Observer {
  public:
   /// `section` and `rotary` (null without) must outlive this object.
-  Observer(const BeamSection& section, const Vec<double, D>& gravity, int points,
+  Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRule& rule,
            const RotaryInertia<D>* rotary = nullptr);
 
   /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
@@ -68,6 +68,7 @@ class Observer {
 
  private:
   const BeamSection& section_;
+  FeltSections sections_;
   Vec<double, D> gravity_;
   ShapeTabulation polynomial_;  ///< of unit weights
   const RotaryInertia<D>* rotary_;

@@ -28,7 +28,16 @@ struct StrainExtremes {
 
   /// `rest` is null for a straight, unstrained rest shape.
   template <int D>
-  void add(const BeamSection& section, const PointMotion<double, D>& at, const RestStrain<double>* rest) {
+  void add(const BeamSection& section, const PointMotion<double, D>& at, const RestStrain<double>* rest,
+           Feels feels = Feels::everything) {
+    if (feels != Feels::all_but_stretch) add_axial(section, at, rest);
+    if (feels == Feels::stretch) return;
+    curvature = std::max(curvature, std::abs(curvature_of(section, at) - (rest != nullptr ? rest->curvature : 0)));
+  }
+
+ private:
+  template <int D>
+  void add_axial(const BeamSection& section, const PointMotion<double, D>& at, const RestStrain<double>* rest) {
     const double stretch = at.r_x.norm(), stretch_rate = at.r_x.dot(at.v_x) / stretch;
     const bool green = section.stiffness.green();
     const double eps = green ? (stretch * stretch - 1) / 2 : stretch - 1;
@@ -37,10 +46,7 @@ struct StrainExtremes {
     strain.add(from_rest);
     // what is conjugate to Green's strain acts on the length before, the force on the length after
     force.add(section.stiffness.EA * (from_rest + section.damping * rate) * (green ? stretch : 1));
-    curvature = std::max(curvature, std::abs(curvature_of(section, at) - (rest != nullptr ? rest->curvature : 0)));
   }
-
- private:
   template <int D>
   static double curvature_of(const BeamSection& section, const PointMotion<double, D>& at) {
     const double regularization = D == 3 ? section.curvature_regularization : 0;

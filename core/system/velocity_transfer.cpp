@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/element/quadrature.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/system/beam_system.hpp"

@@ -21,6 +21,7 @@ Scene beam(int elements, double EA, double EI) {
   scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = elements;
+  scene.beam.axial_strain = AxialStrain::full;  // orders are judged
   scene.start.type = SupportType::clamp;
   return scene;
 }

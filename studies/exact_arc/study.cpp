@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/element/moving_element.hpp"
+#include "core/element/quadrature.hpp"
 #include "core/geometry/axis.hpp"
 #include "core/geometry/elementary.hpp"
 

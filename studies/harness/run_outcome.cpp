@@ -42,10 +42,10 @@ auto members(Is<Configuration> auto& of) {
   return std::tie(t, x, r, r_x, angles, weights, rest, kinks, rates);
 }
 auto members(Is<Event> auto& of) {
-  auto& [t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump, restored,
-         before, after] = of;
+  auto& [t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump, relaxation,
+         restored, before, after] = of;
   return std::tie(t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump,
-                  restored, before, after);
+                  relaxation, restored, before, after);
 }
 auto members(Is<NewtonCounters> auto& of) {
   auto& [iterations, tangents, longest, constraints, multipliers] = of;

@@ -203,6 +203,7 @@ Json event(const Event& e) {
             {"gravity", e.energy_jump.gravity},
             {"discrete_total", e.discrete_jump}}},
           {"momentum_jumps", e.momentum_jump},
+          {"relaxation", e.relaxation},
           {"energy_restored", e.restored}};
 }
 

@@ -279,7 +279,7 @@ class Writer {
  public:
   template <class T>
   void operator()(const Option& option, const T& member) {
-    if constexpr (std::same_as<T, std::optional<double>>) {
+    if constexpr (std::same_as<T, std::optional<double>> || OptionalEnum<T>) {
       if (!member) return;
     }
     if (option.when.holds) json_[pointer(option.pointer)] = value(option, member);
@@ -370,6 +370,17 @@ Scene scene_with_every_part() {
   return scene;
 }
 
+/// A line needs an end: whoever writes a curve means one of a certain length.
+void check_line(const Json& json) {
+  const auto part = [](const Json& of, const char* key) {
+    return of.is_object() && of.contains(key) ? of.at(key) : Json();
+  };
+  const Json curve = part(part(json, "beam"), "curve");
+  if (!curve.is_object() || curve.contains("end") || curve.value("type", Json("line")) != "line") return;
+  throw InvalidInput("/beam/curve/end", InvalidInput::missing,
+                     "it must be an array of numbers [m], where the line ends");
+}
+
 /// Whether an integrator is asked for by the accuracy alone. Throws InvalidInput where other keys stand beside it.
 bool asks_for_accuracy(const Json& integrator) {
   if (!integrator.is_object() || !integrator.contains("accuracy")) return false;
@@ -396,6 +407,7 @@ Scene scene_from_json(Json json) {
     throw InvalidInput("/integrator/type", "\"auto\"",
                        "what the scene chooses has no options: write \"integrator\": \"auto\", or name a method");
   }
+  check_line(json);
   const Reader reader(std::move(json));
   Scene scene;
   scene.integrator.automatic = automatic;
@@ -428,11 +440,13 @@ Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
   filled.integrator.automatic = false;  // what was chosen, as one may write it
   filled.beam.quadrature_points = quadrature_points(scene);
+  filled.beam.axial_strain = axial_strain(scene);
   if (auto& mass = filled.sliding_mass) mass->separation_distance = separation_distance(scene, *mass);
   for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene, joint);
   filled.length_control.end_merge = end_merge(scene);
   filled.length_control.lower = merge_below(scene);
   if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);
+  filled.length_control.cut = cut_policy(scene);
   filled.length_control.merge = merge_policy(scene);
   filled.weights = weight_transport(scene);
   filled.beam.axis = axis_form(scene);

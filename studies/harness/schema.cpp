@@ -455,6 +455,8 @@ Json run_schema() {
        {"momentum_jumps", described(array_of(any_number),
                                     "linear [kg m/s], then angular about the origin [kg m^2/s]; none "
                                     "where the mass leaves")},
+       {"relaxation",
+        described(whole, "iterations until the nodes beside it had given way, where they are relaxed", "-")},
        {"energy_restored",
         described(flag, "false where velocities are conservative and yet the total energy changed")}});
   const auto residual = [](const std::string& of, const char* position, const char* velocity) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/element/moving_element.hpp"
+#include "core/element/quadrature.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/scene/derived.hpp"
 #include "studies/harness/measures.hpp"

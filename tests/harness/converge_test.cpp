@@ -44,7 +44,8 @@ TEST(Converge, UncertaintiesCoverTheTrueError) {
 }
 
 TEST(Converge, TheCheapestSettingKeepsTheError) {
-  const Scene scene = library_scene("pendulum");
+  Scene scene = library_scene("pendulum");
+  scene.beam.axial_strain = AxialStrain::full;  // the other needs no finer mesh
   const Convergence found = converge(scene, {.quantity = "end.y", .error = 1e-3});
   ASSERT_TRUE(found.cheapest);
   const SceneAnswer answer = [] {

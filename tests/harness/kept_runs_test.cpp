@@ -128,8 +128,8 @@ TEST_F(RunsApart, FailAsTheyWould) {
 
 TEST_F(RunsApart, KnowWhoChoseTheIntegrator) {
   const KeptRuns kept(kept_, program_of_runs);
-  Scene scene = parse_scene(R"({"beam": {"elements": 8, "material": {"youngs_modulus": 2e11}}, "duration": 0.2,
-    "supports": [{"at": "start", "type": "clamp"}], "integrator": {"type": "dopri5"}, "output": {"interval": 0.1}})");
+  Scene scene = parse_scene(R"({"beam": {"elements": 8, "material": {"youngs_modulus": 2e11}}, "duration": 0.1,
+    "supports": [{"at": "start", "type": "clamp"}], "integrator": {"type": "dopri5"}, "output": {"interval": 0.05}})");
   for (const bool automatic : {false, true}) {
     scene.integrator.automatic = automatic;
     const RunResult result = run(scene);

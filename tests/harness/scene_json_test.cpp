@@ -135,7 +135,14 @@ TEST(SceneJson, DefaultsDependOnTheScene) {
   EXPECT_EQ(curved["weights"], "transported");
   EXPECT_EQ(curved["beam"]["rest_shape"], "as-built");
   EXPECT_EQ(curved["beam"]["axis"], "even");
-  EXPECT_EQ(curved["length_control"]["merge"], "rest-arc");
+  EXPECT_EQ(curved["beam"]["axial_strain"], "lobatto") << "elements are longer than five radii";
+  EXPECT_EQ(curved["length_control"]["cut"], "relaxed");
+  EXPECT_EQ(curved["length_control"]["merge"], "relaxed");
+  Json full = json;
+  full["beam"]["axial_strain"] = "full";
+  full = scene_to_json(scene_from_json(full));
+  EXPECT_EQ(full["length_control"]["cut"], "exact");
+  EXPECT_EQ(full["length_control"]["merge"], "rest-arc");
   EXPECT_EQ(curved["length_control"]["velocities"], "projected");
   EXPECT_EQ(curved["length_control"]["end_merge"], 0.5);
   json["beam"].erase("curve");
@@ -293,6 +300,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     MissingKeys, BadInput,
     testing::Values(
+        BadScene{"/beam/curve", R"({"type": "line", "start": [1, 2]})", "/beam/curve/end", "missing"},
         BadScene{"/sliding_mass", R"({"position": 0.1})", "/sliding_mass/mass", "missing"},
         BadScene{"/sliding_mass", R"({"mass": 0.1})", "/sliding_mass/position", "missing"},
         BadScene{"/sliding_mass/friction", R"({"velocity": 0.1})", "/sliding_mass/friction/coefficient", "missing"},

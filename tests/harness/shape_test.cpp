@@ -61,7 +61,7 @@ TEST(PointsAlong, VelocityOfATurningBar) {
 
 TEST(PointsAlong, CurvatureIsFromTheRestShape) {
   Scene scene = parse_scene(R"({"beam": {"curve": {"type": "arc", "center": [0, 0], "radius": 2, "from_degrees": 0,
-    "to_degrees": 90}, "axis": "exact", "elements": 3}, "gravity": [0, 0], "duration": 1e-3,
+    "to_degrees": 90}, "axis": "exact", "axial_strain": "full", "elements": 3}, "gravity": [0, 0], "duration": 1e-3,
     "output": {"interval": 1e-3, "configurations": [0]}})");
   for (const RestShape rest : {RestShape::as_built, RestShape::paper}) {
     scene.beam.rest_shape = rest;
@@ -73,6 +73,25 @@ TEST(PointsAlong, CurvatureIsFromTheRestShape) {
       EXPECT_NEAR(point.curvature, rest == RestShape::paper ? 0.5 : 0, 1e-3) << stretch;
       EXPECT_NEAR(point.strain, rest == RestShape::paper ? (stretch * stretch - 1) / 2 : 0, 1e-12);
     }
+  }
+}
+
+/// Between the points where it is summed, the strain is their parabola: at 3/4 of an element -e_A/8 + 3 e_m/4 + 3
+/// e_B/8.
+TEST(PointsAlong, HaveTheParabolaOfASampledStrain) {
+  Scene scene = parse_scene(R"({"beam": {"curve": {"type": "line", "end": [1, 0]}, "axial_strain": "lobatto",
+    "section": {"type": "stiffness", "EA": 7, "EI": 3, "rhoA": 1}, "elements": 2}, "duration": 1})");
+  Configuration shape = stretched(1.1, 0);
+  shape.r_x[1] = {1.3, 0.2, 0};
+  const auto points = points_along(scene, shape, 4);
+  for (const std::size_t first : {0, 5}) {
+    const auto local = [&](std::size_t i) {
+      const Point& r_x = points[first + i].r_x;
+      return (r_x[0] * r_x[0] + r_x[1] * r_x[1] - 1) / 2;
+    };
+    for (const std::size_t i : {0, 2, 4}) EXPECT_NEAR(points[first + i].strain, local(i), 1e-14) << i;
+    EXPECT_NEAR(points[first + 3].strain, -local(0) / 8 + 3 * local(2) / 4 + 3 * local(4) / 8, 1e-14);
+    EXPECT_GT(std::abs(points[first + 3].strain - local(3)), 1e-3) << "which is not the strain of the curve there";
   }
 }
 

@@ -164,7 +164,15 @@ const Rule rules[] = {
      [](Scene& s) {
        s.dimension = 3;
        s.beam.curve.type = CurveType::arc;
+       s.beam.out_of_plane = OutOfPlane::none;
      }},
+    {"/beam/out_of_plane",
+     [](Scene& s) {
+       s.dimension = 3;
+       s.beam.curve.type = CurveType::arc;
+       s.beam.material.curvature_regularization = 1e-3;
+     }},
+    {"/beam/out_of_plane", [](Scene& s) { s.beam.out_of_plane = OutOfPlane::none; }},
     {"/beam/weights/1",
      [](Scene& s) {
        s.beam.weights = {1, 1.2, 1.2, 1};

@@ -77,9 +77,9 @@ TYPED_TEST(MovingElement, RemainderIsTheAccelerationWithoutCoordinateAcceleratio
 }
 
 TYPED_TEST(MovingElement, VariationalEquationsAreLagrangesOfTheDiscreteLagrangian) {
-  this->for_each_element(4, [this](const Kind&) {
+  this->for_each_element(4, [this](const Kind& kind) {
     for (const int count : {3, 5}) {
-      this->oracle_.rule = gauss_legendre(count);
+      this->oracle_.rule = beam_rule(count, kind.axial);
       const auto eq = this->dense_equations(Formulation::variational);
       const auto exact = this->oracle_.variational(this->q_, this->rate_);
       EXPECT_LE(relative_difference(eq.mass, exact.mass), rounding);
@@ -98,7 +98,8 @@ TYPED_TEST(MovingElement, VirtualWorkEquationsAreThoseAtFixedMaterialPoints) {
 }
 
 TYPED_TEST(MovingElement, DampingForcesAreTheGradientOfTheDissipationFunction) {
-  this->for_each_element(4, [this](const Kind&) {
+  this->for_each_element(4, [this](const Kind& kind) {
+    const double allowed = kind.axial == AxialStrain::lobatto ? 4 * rounding : rounding;  // 2.7e-12 at worst
     for (const double regularization : {0.0, 0.4}) {
       if (TypeParam::value == 2 && regularization != 0) continue;  // the plane has a signed curvature
       for (const Formulation formulation : formulations) {
@@ -108,9 +109,9 @@ TYPED_TEST(MovingElement, DampingForcesAreTheGradientOfTheDissipationFunction) {
         const auto damped = this->equations(formulation, this->q_, this->rate_);
         const auto viscous = this->oracle_.viscous_force(this->q_, this->rate_);
         this->oracle_.section.damping = 0;
-        EXPECT_LE(relative_difference(dense(damped).force - elastic.force, viscous), rounding);
+        EXPECT_LE(relative_difference(dense(damped).force - elastic.force, viscous), allowed);
         EXPECT_GT(damped.dissipation, 0);
-        EXPECT_NEAR(damped.dissipation, -viscous.dot(this->rate_), rounding * damped.dissipation);
+        EXPECT_NEAR(damped.dissipation, -viscous.dot(this->rate_), allowed * damped.dissipation);
       }
     }
   });

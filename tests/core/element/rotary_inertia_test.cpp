@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/element/quadrature.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/random.hpp"
@@ -69,7 +70,7 @@ TEST(RotaryInertia, FollowsLagrangesEquationsOfTheMovingElement) {
         []<class Real>(const Column<Real>& at, const Column<Real>& moving) { return lagrangian<Real>(at, moving); }, q,
         rate, a);
     const Prescribed x_a{q[12], rate[12], a[12]}, x_b{q[13], rate[13], a[13]};
-    const ShapeTabulation table(gauss_legendre(4), unit_weights);
+    const ShapeTabulation table(beam_rule(4), unit_weights);
     const RotaryElement element(x_a, x_b, table);
     const auto residual = element.residual(rotary, nodal(q), nodal(rate));
     const auto inertia = element.inertia(rotary, nodal(a));

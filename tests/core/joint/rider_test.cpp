@@ -161,7 +161,7 @@ TYPED_TEST(RiderTest, FrictionOfTheSolutionIsThatOfTheResidual) {
   Mesh mesh{{0, 0.2, 0.4, 0.6}, {}};
   for (std::size_t k = 0; k < 3; ++k) mesh.weights.push_back({unit_weights, mesh.x[k], mesh.x[k + 1]});
   const BeamSection section{1.3, {20, 0.3}, 0, 0.1};
-  const auto& rule = gauss_legendre(5);
+  const BeamRule rule = beam_rule(5);
   const auto clamp = Support<D>::direction_clamp(random.vector<D>());
   const Span<D> left(mesh, 0, 1, clamp, section, rule, nullptr);
   const Span<D> right(mesh, 3, 1, Support<D>::pin(), section, rule, nullptr);

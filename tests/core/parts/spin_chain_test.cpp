@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/element/quadrature.hpp"
 #include "core/element/twist_law.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/element_family.hpp"

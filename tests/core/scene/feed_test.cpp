@@ -20,6 +20,7 @@ Scene paid_out(ElementKind element = ElementKind::ale_ancf) {
   scene.beam.curve.start = {0.5, 2, 0};
   scene.beam.curve.end = {1.1, 1.2, 0};
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 500, .EI = 0.01, .rhoA = 0.1};
+  scene.beam.axial_strain = AxialStrain::full;
   scene.start.type = SupportType::pin;
   scene.start.feed = TimeSpec{.rate = 1, .ramp = 0.1};
   test::set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
@@ -135,7 +136,7 @@ TEST(Feed, OfNothingChangesNothing) {
   Scene scene = paid_out(ElementKind::ale_rancf);
   scene.start.feed.reset();
   const RunResult held = test::completed(scene);
-  scene.start.feed = TimeSpec{.value = 3};
+  scene.start.feed = TimeSpec{};
   const RunResult fed = test::completed(scene);
   for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(held.samples.back().end[c], fed.samples.back().end[c], 1e-10);
   EXPECT_EQ(fed.samples.back().energy.supplied, 0);
@@ -247,6 +248,7 @@ TEST(Feed, IsRefusedWhereItCannotBe) {
   EXPECT_EQ(refused([](Scene& s) { s.start.type = SupportType::slide; }), "/supports/at=start/type");
   EXPECT_EQ(refused([](Scene& s) { s.start.feed->ramp = 0; }), "/supports/at=start/feed");
   EXPECT_EQ(refused([](Scene& s) { s.start.feed->rate = -4; }), "/supports/at=start/feed");
+  EXPECT_EQ(refused([](Scene& s) { s.start.feed = TimeSpec{.value = 0.3}; }), "/supports/at=start/feed/value");
   EXPECT_EQ(refused([](Scene& s) { s.start.feed->rate = 1e9; }), "/supports/at=start/feed");
   EXPECT_EQ(refused([](Scene& s) { s.beam.element = ElementKind::ancf; }), "/beam/element");
   EXPECT_EQ(refused([](Scene& s) { s.formulation = Formulation::virtual_work; }), "/formulation");

@@ -17,6 +17,7 @@ Scene rubbing(SupportType support, ElementKind element = ElementKind::ale_ancf) 
   scene.beam.element = element;
   scene.beam.elements = 8;
   scene.beam.section.radius = 0.02;
+  scene.beam.axial_strain = AxialStrain::full;
   scene.beam.material = {.density = 7200, .youngs_modulus = 2e7};
   scene.start.type = SupportType::clamp;
   SlidingJointSpec& joint = scene.sliding_joints.emplace_back();

@@ -208,7 +208,8 @@ const std::vector<Feature>& methods() {
 }
 
 /// "yes" where the scene runs and its energy is accounted for, "-" where it is refused.
-std::string cell(const Scene& scene) {
+std::string cell(Scene scene) {
+  if (scene.dimension == 3 && scene.beam.curve.type != CurveType::line) scene.beam.out_of_plane = OutOfPlane::none;
   try {
     validate(scene);
   } catch (const InvalidInput&) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "core/element/quadrature.hpp"
 #include "core/system/beam_system.hpp"
 #include "tests/core/support/chain_states.hpp"
 

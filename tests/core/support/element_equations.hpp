@@ -8,13 +8,13 @@ namespace vlbeam::test {
 template <int D>
 MovingEquations<double, D> element_equations(const MovingCoordinates<double, D>& q,
                                              const MovingCoordinates<double, D>& rate, const WeightFunction& weights,
-                                             const QuadratureRule& rule, const MovingLaw<D>& moving);
+                                             const BeamRule& rule, const MovingLaw<D>& moving);
 
 extern template MovingEquations<double, 2> element_equations(const MovingCoordinates<double, 2>&,
                                                              const MovingCoordinates<double, 2>&, const WeightFunction&,
-                                                             const QuadratureRule&, const MovingLaw<2>&);
+                                                             const BeamRule&, const MovingLaw<2>&);
 extern template MovingEquations<double, 3> element_equations(const MovingCoordinates<double, 3>&,
                                                              const MovingCoordinates<double, 3>&, const WeightFunction&,
-                                                             const QuadratureRule&, const MovingLaw<3>&);
+                                                             const BeamRule&, const MovingLaw<3>&);
 
 }  // namespace vlbeam::test

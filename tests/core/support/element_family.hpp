@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/element/beam_rule.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
 
@@ -28,22 +29,30 @@ struct ElementKindUnderTest {
   bool rational;  ///< unequal weights
   WeightTransport transport;
   StrainLaw law;
+  AxialStrain axial = AxialStrain::full;
 
   std::string name() const {
     return std::string(rational ? "unequal" : "unit") + " weights, " +
            (transport == WeightTransport::frozen ? "frozen" : "transported") + ", " +
-           (law == StrainLaw::green ? "green" : "engineering");
+           (law == StrainLaw::green ? "green" : "engineering") +
+           (axial == AxialStrain::lobatto ? ", sampled stretch" : "");
   }
 };
 
-inline constexpr std::array<ElementKindUnderTest, 8> element_family{
-    {{false, WeightTransport::frozen, StrainLaw::green},
-     {false, WeightTransport::frozen, StrainLaw::engineering},
-     {false, WeightTransport::transported, StrainLaw::green},
-     {false, WeightTransport::transported, StrainLaw::engineering},
-     {true, WeightTransport::frozen, StrainLaw::green},
-     {true, WeightTransport::frozen, StrainLaw::engineering},
-     {true, WeightTransport::transported, StrainLaw::green},
-     {true, WeightTransport::transported, StrainLaw::engineering}}};
+/// All of them.
+inline constexpr auto element_family = [] {
+  std::array<ElementKindUnderTest, 16> family{};
+  std::size_t i = 0;
+  for (const AxialStrain axial : {AxialStrain::full, AxialStrain::lobatto}) {
+    for (const bool rational : {false, true}) {
+      for (const WeightTransport transport : {WeightTransport::frozen, WeightTransport::transported}) {
+        for (const StrainLaw law : {StrainLaw::green, StrainLaw::engineering}) {
+          family[i++] = {rational, transport, law, axial};
+        }
+      }
+    }
+  }
+  return family;
+}();
 
 }  // namespace vlbeam::test

@@ -96,10 +96,14 @@ struct Definitions {
     return Real(o.section.stiffness.EA / 2) * eps * eps + Real(o.section.stiffness.EI / 2) * kappa * kappa;
   }
 
-  /// Calls visit(x, weight) at the quadrature points.
+  /// Calls visit(x, weight, definitions of what is felt there) at the quadrature points.
   template <class Visit>
   void at_points(const Column& q, const Visit& visit) const {
-    for (const auto& [u, weight] : o.rule) visit(material_point(q, u), Real(length(q) * Real(weight)));
+    for (const auto& [u, weight, feels] : o.rule) {
+      ElementOracle<D> felt = o;
+      felt.section = o.section.as_felt(feels);
+      visit(material_point(q, u), Real(length(q) * Real(weight)), Definitions{felt});
+    }
   }
 
   static Real length(const Column& q) { return q[4 * D + 1] - q[4 * D]; }
@@ -107,7 +111,9 @@ struct Definitions {
 
   Real elastic_energy(const Column& q) const {
     Real sum(0);
-    at_points(q, [&](const Real& x, const Real& weight) { sum += weight * energy_density(point(q, x), q, x); });
+    at_points(q, [&](const Real& x, const Real& weight, const auto& here) {
+      sum += weight * here.energy_density(point(q, x), q, x);
+    });
     return sum;
   }
 };
@@ -124,10 +130,10 @@ Real lagrangian(const ElementOracle<D>& o, const ElementColumn<Real, D>& q, cons
   using Define = Definitions<Real, D>;
   const Vec<Real, D> g = o.gravity.template cast<Real>();
   Real sum = -Define{o}.elastic_energy(q);
-  Define{o}.at_points(q, [&](const Real& x, const Real& weight) {
+  Define{o}.at_points(q, [&](const Real& x, const Real& weight, const auto& here) {
     const auto moving = moving_point<Real, D>(o, q, rate, x);
     const Vec<Real, D> r = value_of(moving[0]), v = rate_of(moving[0]);
-    sum += weight * Real(o.section.rhoA) * (v.dot(v) / Real(2) + g.dot(r));
+    sum += weight * Real(here.o.section.rhoA) * (v.dot(v) / Real(2) + g.dot(r));
   });
   return sum;
 }
@@ -191,7 +197,9 @@ DenseEquations<D> ElementOracle<D>::virtual_work(const Column& q, const Column& 
   DenseEquations<D> eq;
   eq.mass.setZero();
   eq.force.setZero();
-  for (const auto& [u, weight] : rule) {
+  for (const auto& [u, weight, feels] : rule) {
+    ElementOracle felt = *this;
+    felt.section = section.as_felt(feels);
     const double x = material_point(q, u), wl = weight * Definitions<double, D>::length(q);
     Eigen::Matrix<double, D, element_size<D>> N;
     Column by_energy;
@@ -199,10 +207,10 @@ DenseEquations<D> ElementOracle<D>::virtual_work(const Column& q, const Column& 
       const auto varied = moving_point<double, D>(*this, q, Column::Unit(i), x);
       N.col(i) = rate_of(varied[0]);
       const ElementColumn<First, D> q_varied = in_motion<double, element_size<D>>(q, Column::Unit(i));
-      by_energy[i] = Definitions<First, D>{*this}.energy_density(varied, q_varied, First(x, 0)).rate;
+      by_energy[i] = Definitions<First, D>{felt}.energy_density(varied, q_varied, First(x, 0)).rate;
     }
-    eq.mass += wl * section.rhoA * N.transpose() * N;
-    eq.force += wl * (section.rhoA * N.transpose() * (gravity - remainder(q, rate, x)) - by_energy);
+    eq.mass += wl * felt.section.rhoA * N.transpose() * N;
+    eq.force += wl * (felt.section.rhoA * N.transpose() * (gravity - remainder(q, rate, x)) - by_energy);
   }
   return eq;
 }
@@ -212,7 +220,8 @@ auto ElementOracle<D>::viscous_force(const Column& q, const Column& rate) const 
   auto dissipation_function = [&](const ElementColumn<First, D>& at) {
     const Definitions<Second, D> define{*this};
     First sum(0);
-    for (const auto& [u, weight] : rule) {
+    for (const auto& [u, weight, feels] : rule) {
+      const Stiffness k = section.as_felt(feels).stiffness;
       const auto moving = moving_point<First, D>(*this, q.template cast<First>(), at, First(material_point(q, u)));
       const First strain_rate = define.strain(moving[1]).rate;
       const Second k2 = define.curvature_squared(moving[1], moving[2]);
@@ -220,7 +229,7 @@ auto ElementOracle<D>::viscous_force(const Column& q, const Column& rate) const 
       const double regularization = section.curvature_regularization;
       const First curvature_rate2 = product * product / (k2.value + First(regularization * regularization));
       sum += First(weight * Definitions<double, D>::length(q) * section.damping / 2) *
-             (First(section.stiffness.EA) * strain_rate * strain_rate + First(section.stiffness.EI) * curvature_rate2);
+             (First(k.EA) * strain_rate * strain_rate + First(k.EI) * curvature_rate2);
     }
     return sum;
   };

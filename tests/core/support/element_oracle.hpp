@@ -18,7 +18,7 @@ struct ElementOracle {
   BeamSection section;
   WeightTransport transport = WeightTransport::frozen;
   WeightFunction stored;
-  QuadratureRule rule;
+  BeamRule rule;
   Vector gravity = Vector::Zero();
   /// The rest curve, as a polynomial of the material coordinate, where it is not straight. The element's rest shape is
   /// the same element between ends on it.

@@ -32,7 +32,7 @@ class ElementUnderTest : public ::testing::Test {
     oracle_ = {};
     oracle_.section = {1.3, {2.1, 0.7, kind.law}, 0, 0};
     oracle_.transport = kind.transport;
-    oracle_.rule = gauss_legendre(5);
+    oracle_.rule = beam_rule(5, kind.axial);
     oracle_.gravity = random_.vector<dim>();
     oracle_.stored.w = kind.rational ? random_.weights(3) : unit_weights;
     oracle_.stored.x_a = q_[4 * dim] + random_.uniform(-0.2, 0.05);

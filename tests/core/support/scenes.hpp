@@ -15,6 +15,7 @@ inline Scene falling_beam(ElementKind element, int elements) {
   Scene scene;
   scene.beam.element = element;
   scene.beam.elements = elements;
+  scene.beam.axial_strain = AxialStrain::full;
   scene.beam.rest_shape = RestShape::paper;
   scene.length_control.velocities = VelocityTransfer::nodal;
   scene.start = {SupportType::clamp, ClampType::direction};
@@ -27,6 +28,7 @@ inline Scene flexible_pendulum(int elements) {
   Scene scene;
   scene.beam.element = ElementKind::ancf;
   scene.beam.elements = elements;
+  scene.beam.axial_strain = AxialStrain::full;
   scene.start.type = SupportType::pin;
   scene.gravity_ramp = 0.25;
   scene.duration = 0.5;
@@ -41,6 +43,7 @@ inline Scene shaft_under_turning_load(int elements) {
   scene.beam.curve.end = {0, 0, 1};
   scene.beam.elements = elements;
   scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.axial_strain = AxialStrain::full;
   scene.beam.material.density = 7800;
   scene.beam.material.youngs_modulus = 2.1e11;
   scene.start.type = SupportType::pin;
@@ -60,6 +63,7 @@ inline Scene at_rest(int elements, double EA, double EI) {
   scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = elements;
+  scene.beam.axial_strain = AxialStrain::full;
   return scene;
 }
 

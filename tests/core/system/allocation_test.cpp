@@ -65,6 +65,7 @@ void expect_no_allocation(const ElementKindUnderTest& kind, int joint, double da
     if (slopes != JointSlopes::continuous || rider >= 0) sliding.law.friction = AxialFriction{0.2};
   }
   model.section.stiffness.law = kind.law;
+  model.axial_strain = kind.axial;
   model.section.damping = damping;
   model.start = Support<D>::direction_clamp(random.vector<D>());
   model.loads = loads_on<D>(shape.elements * shape.element_length, random);

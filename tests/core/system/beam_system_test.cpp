@@ -85,7 +85,7 @@ Eigen::VectorXd dense_accelerations(const BeamModel<D>& model, const ChainState<
     const MovingLaw<D> law{model.section, model.formulation, model.transport, model.gravity};
     const auto eq = dense(element_equations<D>(chain.coordinates(k), chain.rates(k),
                                                chain.mesh.weights[static_cast<std::size_t>(k)],
-                                               gauss_legendre(model.quadrature_points), law));
+                                               beam_rule(model.quadrature_points, model.axial_strain), law));
     std::vector<int> rows;
     for (int i = 0; i < 4 * D; ++i) rows.push_back(node_size<D> * k + i);
     for (const int node : {k, k + 1}) rows.push_back(joint_at(node) < 0 ? -1 : nodal + joint_at(node));

@@ -51,6 +51,7 @@ TEST(CurvedBeam, AsBuiltItIsFreeOfStressWhereItStarts) {
       scene.weights = weights;
       EXPECT_LE(largest_acceleration<2>(scene), 1e-10 * EA);
       scene.dimension = 3;
+      scene.beam.out_of_plane = OutOfPlane::none;
       scene.beam.material.curvature_regularization = 0.1;
       EXPECT_LE(largest_acceleration<3>(scene), 1e-10 * EA);
     }
@@ -318,6 +319,7 @@ TEST(CurvedBeam, InSpaceItIsThePlanarOne) {
   scene.duration = 0.02;
   const auto planar = simulate(scene);
   scene.dimension = 3;
+  scene.beam.out_of_plane = OutOfPlane::none;
   scene.gravity = {0, -9.81, 0};
   scene.beam.material.curvature_regularization = 1e-6;
   const auto spatial = simulate(scene);

@@ -238,6 +238,7 @@ TEST(TurningSupport, KeepsASteadyRotation) {
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.strain_law = StrainLaw::engineering;
   scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = 0.3, .rhoA = rhoA};
+  scene.beam.axial_strain = AxialStrain::full;
   scene.start = {SupportType::clamp, ClampType::direction, SupportMotionSpec{{}, {}, TimeSpec{.rate = omega}}};
   scene.initial_velocity = {.rotation = omega};
   EXPECT_NO_THROW(completed(scene));
