@@ -66,7 +66,9 @@ std::string better_transfer(const Scene& scene) {
   if (scene.length_control.velocities != VelocityTransfer::conservative && allowed(conserving)) {
     text += "/length_control/velocities \"conservative\", which keeps the total energy; ";
   }
-  if (merge_policy(scene) != MergePolicy::least_change && allowed(least)) {
+  // it keeps the strain energy that is summed at all points
+  const bool full = axial_strain(scene) == AxialStrain::full;
+  if (full && merge_policy(scene) != MergePolicy::least_change && allowed(least)) {
     text += "/length_control/merge \"least-change\", which keeps the strain energy; ";
   }
   return text + "more elements, which make each event smaller";

@@ -371,14 +371,12 @@ Scene scene_with_every_part() {
 }
 
 /// A line needs an end: whoever writes a curve means one of a certain length.
-void check_line(const Json& json) {
+bool is_line_without_end(const Json& json) {
   const auto part = [](const Json& of, const char* key) {
     return of.is_object() && of.contains(key) ? of.at(key) : Json();
   };
   const Json curve = part(part(json, "beam"), "curve");
-  if (!curve.is_object() || curve.contains("end") || curve.value("type", Json("line")) != "line") return;
-  throw InvalidInput("/beam/curve/end", InvalidInput::missing,
-                     "it must be an array of numbers [m], where the line ends");
+  return curve.is_object() && !curve.contains("end") && curve.value("type", Json("line")) == "line";
 }
 
 /// Whether an integrator is asked for by the accuracy alone. Throws InvalidInput where other keys stand beside it.
@@ -407,8 +405,12 @@ Scene scene_from_json(Json json) {
     throw InvalidInput("/integrator/type", "\"auto\"",
                        "what the scene chooses has no options: write \"integrator\": \"auto\", or name a method");
   }
-  check_line(json);
+  const bool endless = is_line_without_end(json);
   const Reader reader(std::move(json));
+  if (endless) {
+    throw InvalidInput("/beam/curve/end", InvalidInput::missing,
+                       "it must be an array of numbers [m], where the line ends");
+  }
   Scene scene;
   scene.integrator.automatic = automatic;
   visit_options(reader, scene);
