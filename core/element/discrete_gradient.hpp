@@ -166,8 +166,9 @@ MovingForce<D> conserving_residual(const TwoStates<MovingCoordinates<double, D>>
   const MovingKinematics<double, D, Ends> kinematics(middle, middle_rate, WeightTransport::frozen, weights);
 
   for (std::size_t g = 0; g < table.rule.size(); ++g) {
-    const auto [u, w, feels] = table.rule[g];
-    const BeamSection& section = sections[feels];
+    const BeamPoint& here = table.rule[g];
+    const double u = here.u, w = here.weight;  // no structured binding: clang 14 lets no lambda hold one
+    const BeamSection& section = sections[here.feels];
     const double rhoA = section.rhoA;
     const ShapeTable<double>& f = table.shape[g];
     const double reach = Ends == MovingEnds::b ? u : 1 - u;  // share of the end's material velocity at u
