@@ -79,8 +79,8 @@ BeamSection known(BeamSection section) {
 
 /// Calls f with the kernel for the section.
 template <class Function>
-auto with_kernel(const BeamSection& section, const Function& f) {
-  if (section.damped() || !section.bends()) return f.template operator()<Kernel::general>();
+auto with_kernel(const BeamSection& section, bool sampled, const Function& f) {
+  if (sampled || section.damped() || !section.bends()) return f.template operator()<Kernel::general>();
   return section.stiffness.green() ? f.template operator()<Kernel::green>()
                                    : f.template operator()<Kernel::engineering>();
 }
@@ -92,12 +92,20 @@ template <int D, Kernel K, class Packs>
 [[gnu::flatten]] double add_pack_forces(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
                                         double* force) {
   const BeamSection section = known<K>(of);
+  const BeamSection across = section.as_felt(Feels::all_but_stretch), along = section.as_felt(Feels::stretch);
   double dissipation = 0;
   for (const auto& pack : packs) {
     const auto offset = lane_offsets<D>(pack.count);
     const auto e = load_elements<D>(q, pack.first, offset);
     const auto e_rate = section.damped() ? load_elements<D>(rate, pack.first, offset) : e;
-    const auto f = fixed_force<Pack, D>(pack.tables->basis, e, e_rate, section);
+    const auto& basis = pack.tables->basis;
+    auto f = FixedForce<Pack, D>::zero();
+    if (K != Kernel::general || basis.stretch.empty()) {
+      add_fixed_force<Pack, D>(basis.points, e, e_rate, section, f);
+    } else {
+      add_fixed_force<Pack, D>(basis.points, e, e_rate, across, f);
+      add_fixed_force<Pack, D>(basis.stretch, e, e_rate, along, f);
+    }
     add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
     if (section.damped()) {
       for (int i = 0; i < pack.count; ++i) dissipation += f.dissipation[i];
@@ -151,7 +159,8 @@ template <int D, Kernel K, class Packs>
 
 template <int D>
 double Span<D>::forces(const double* q, const double* rate, double* force) const {
-  return with_kernel(section_, [&]<Kernel K>() { return add_pack_forces<D, K>(packs_, section_, q, rate, force); });
+  return with_kernel(section_, sampled_,
+                     [&]<Kernel K>() { return add_pack_forces<D, K>(packs_, section_, q, rate, force); });
 }
 
 template <int D>
@@ -197,7 +206,7 @@ void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTange
 template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  with_kernel(section_, [&]<Kernel K>() {
+  with_kernel(section_, sampled_, [&]<Kernel K>() {
     add_pack_tangents<D, K>(packs_, section_, q, rate, by_v, by_a, diagonal, upper, lower);
   });
   if (curved_at_rest_) rest_tangents(q, diagonal, upper, lower);

@@ -25,17 +25,21 @@ struct FixedBasis {
   /// The points of both kinds, in this order.
   const Point& operator[](std::size_t g) const { return g < points.size() ? points[g] : stretch[g - points.size()]; }
 
-  /// Calls `visit(point, section, index)` at every point with what is felt there. Loops of their own, not a branch at
-  /// every point, and the section as it came where all is felt everywhere: kernels for packs know it when compiled.
+  /// Calls `visit(points, section)` for the points of each kind with what is felt there.
   template <class Visit>
-  [[gnu::always_inline]] void visit(const BeamSection& section, const Visit& visit) const {
-    if (stretch.empty()) {
-      for (std::size_t g = 0; g < points.size(); ++g) visit(points[g], section, g);
-      return;
-    }
-    const BeamSection across = section.as_felt(Feels::all_but_stretch), along = section.as_felt(Feels::stretch);
-    for (std::size_t g = 0; g < points.size(); ++g) visit(points[g], across, g);
-    for (std::size_t g = 0; g < stretch.size(); ++g) visit(stretch[g], along, points.size() + g);
+  void visit_kinds(const BeamSection& section, const Visit& visit) const {
+    if (stretch.empty()) return visit(points, section);
+    visit(points, section.as_felt(Feels::all_but_stretch));
+    visit(stretch, section.as_felt(Feels::stretch));
+  }
+
+  /// Calls `visit(point, section, index)` at every point.
+  template <class Visit>
+  void visit(const BeamSection& section, const Visit& visit) const {
+    std::size_t index = 0;
+    visit_kinds(section, [&](const std::vector<Point>& of_kind, const BeamSection& felt) {
+      for (const Point& point : of_kind) visit(point, felt, index++);
+    });
   }
 };
 
@@ -56,42 +60,53 @@ template <class Real, int D>
 struct FixedForce {
   Vec<Real, D> r_b, s_a, s_b;
   Real dissipation;  ///< [W]
+
+  static FixedForce zero() { return {Vec<Real, D>::Zero(), Vec<Real, D>::Zero(), Vec<Real, D>::Zero(), Real(0)}; }
 };
 
-/// Ding & Ouyang (2022), Q_l and Q_t of Eq. 19 with the length constant. No branch on values: `Real` may be a Pack.
+/// Adds what the beam does at `points` that feel `section`: Ding & Ouyang (2022), Q_l and Q_t of Eq. 19 with the length
+/// constant. No branch on values: `Real` may be a Pack.
+template <class Real, int D>
+void add_fixed_force(const std::vector<typename FixedBasis<Real>::Point>& points, const NodalCubic<Real, D>& e,
+                     const NodalCubic<Real, D>& rate, const BeamSection& section, FixedForce<Real, D>& force) {
+  using Vector = Vec<Real, D>;
+  const Vector chord = e.r_b - e.r_a;
+  const Vector chord_rate = rate.r_b - rate.r_a;
+  for (const auto& point : points) {
+    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+    const ElasticStress<Real, D> elastic(r_x, r_xx, section.stiffness);
+    Vector p = elastic.p, m = elastic.m;
+    if (section.damped()) {
+      const Vector v_x = chord_rate * point.s_x[0] + rate.s_a * point.s_x[1] + rate.s_b * point.s_x[2];
+      const Vector v_xx = chord_rate * point.s_xx[0] + rate.s_a * point.s_xx[1] + rate.s_b * point.s_xx[2];
+      const DampingStress<Real, D> viscous(r_x, r_xx, v_x, v_xx, section.stiffness, section.damping,
+                                           section.curvature_regularization);
+      p += viscous.p;
+      m += viscous.m;
+      force.dissipation += point.weight * viscous.power;
+    }
+    p *= -point.weight;
+    force.r_b += p * point.s_x[0];
+    force.s_a += p * point.s_x[1];
+    force.s_b += p * point.s_x[2];
+    if (section.bends()) {
+      m *= -point.weight;
+      force.r_b += m * point.s_xx[0];
+      force.s_a += m * point.s_xx[1];
+      force.s_b += m * point.s_xx[2];
+    }
+  }
+}
+
+/// That of all points of the element.
 template <class Real, int D>
 FixedForce<Real, D> fixed_force(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
                                 const NodalCubic<Real, D>& rate, const BeamSection& section) {
-  using Vector = Vec<Real, D>;
-  FixedForce<Real, D> force{Vector::Zero(), Vector::Zero(), Vector::Zero(), Real(0)};
-  const Vector chord = e.r_b - e.r_a;
-  const Vector chord_rate = rate.r_b - rate.r_a;
-  basis.visit(
-      section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) __attribute__((always_inline)) {
-        const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
-        const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-        const ElasticStress<Real, D> elastic(r_x, r_xx, felt.stiffness);
-        Vector p = elastic.p, m = elastic.m;
-        if (felt.damped()) {
-          const Vector v_x = chord_rate * point.s_x[0] + rate.s_a * point.s_x[1] + rate.s_b * point.s_x[2];
-          const Vector v_xx = chord_rate * point.s_xx[0] + rate.s_a * point.s_xx[1] + rate.s_b * point.s_xx[2];
-          const DampingStress<Real, D> viscous(r_x, r_xx, v_x, v_xx, felt.stiffness, felt.damping,
-                                               felt.curvature_regularization);
-          p += viscous.p;
-          m += viscous.m;
-          force.dissipation += point.weight * viscous.power;
-        }
-        p *= -point.weight;
-        force.r_b += p * point.s_x[0];
-        force.s_a += p * point.s_x[1];
-        force.s_b += p * point.s_x[2];
-        if (felt.bends()) {
-          m *= -point.weight;
-          force.r_b += m * point.s_xx[0];
-          force.s_a += m * point.s_xx[1];
-          force.s_b += m * point.s_xx[2];
-        }
-      });
+  FixedForce<Real, D> force = FixedForce<Real, D>::zero();
+  basis.visit_kinds(section, [&](const auto& points, const BeamSection& felt) {
+    add_fixed_force<Real, D>(points, e, rate, felt, force);
+  });
   return force;
 }
 

@@ -14,42 +14,49 @@ namespace vlbeam {
 template <class Real, int D>
 using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
 
-/// Second derivative of the strain energy of a fixed-length element. No branch on values: `Real` may be a Pack. Entry
-/// by entry and unrolled: matrices of packs would go through memory.
+/// Adds the second derivative of the strain energy at `points` that feel `section` to the blocks i <= j. No branch on
+/// values: `Real` may be a Pack. Entry by entry and unrolled: matrices of packs would go through memory.
+template <class Real, int D>
+void add_elastic_tangent(const std::vector<typename FixedBasis<Real>::Point>& points, const NodalCubic<Real, D>& e,
+                         const BeamSection& section, ChordTangent<Real, D>& tangent) {
+  using Vector = Vec<Real, D>;
+  const Vector chord = e.r_b - e.r_a;
+  for (const auto& point : points) {
+    const Stiffness& stiffness = section.stiffness;
+    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+    const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
+#pragma GCC unroll 3
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
+      for (int c = 0; c < D; ++c) {
+        for (int d = 0; d < D; ++d) {
+          Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
+          if (stiffness.bends()) {
+            by_p += k.pm(c, d) * w_xx;
+            by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
+          }
+#pragma GCC unroll 3
+          for (std::size_t i = 0; i <= j; ++i) {
+            Real& sum = tangent[i][j](c, d);
+            if (stiffness.bends()) sum += by_m * point.s_xx[i];
+            sum += by_p * point.s_x[i];
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Second derivative of the strain energy of a fixed-length element.
 template <class Real, int D>
 ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
                                       const BeamSection& section) {
-  using Vector = Vec<Real, D>;
-  using Matrix = Eigen::Matrix<Real, D, D>;
   ChordTangent<Real, D> tangent;
-  for (auto& row : tangent) row.fill(Matrix::Zero());
-  const Vector chord = e.r_b - e.r_a;
-  basis.visit(
-      section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) __attribute__((always_inline)) {
-        const Stiffness& stiffness = felt.stiffness;
-        const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
-        const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-        const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
-#pragma GCC unroll 3
-        for (std::size_t j = 0; j < 3; ++j) {
-          const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
-          for (int c = 0; c < D; ++c) {
-            for (int d = 0; d < D; ++d) {
-              Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
-              if (stiffness.bends()) {
-                by_p += k.pm(c, d) * w_xx;
-                by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
-              }
-#pragma GCC unroll 3
-              for (std::size_t i = 0; i <= j; ++i) {
-                Real& sum = tangent[i][j](c, d);
-                if (stiffness.bends()) sum += by_m * point.s_xx[i];
-                sum += by_p * point.s_x[i];
-              }
-            }
-          }
-        }
-      });
+  for (auto& row : tangent) row.fill(Eigen::Matrix<Real, D, D>::Zero());
+  basis.visit_kinds(section, [&](const auto& points, const BeamSection& felt) {
+    add_elastic_tangent<Real, D>(points, e, felt, tangent);
+  });
   for (std::size_t i = 1; i < 3; ++i) {
     for (std::size_t j = 0; j < i; ++j) tangent[i][j] = tangent[j][i].transpose();
   }
@@ -78,25 +85,23 @@ ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane,
     }
     return result;
   };
-  basis.visit(
-      section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) __attribute__((always_inline)) {
-        const DampingStress<Real, D> viscous(seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1),
-                                             seed(combine(point.s_x, rate), 0, by_v),
-                                             seed(combine(point.s_xx, rate), D, by_v), felt.stiffness, felt.damping,
-                                             felt.curvature_regularization);
-        Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
-        for (int c = 0; c < D; ++c) {
-          by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();
-          if (felt.bends()) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
-        }
-        for (std::size_t j = 0; j < 3; ++j) {
-          const Matrix dp =
-              by_p.template leftCols<D>() * point.s_x[j][lane] + by_p.template rightCols<D>() * point.s_xx[j][lane];
-          const Matrix dm =
-              by_m.template leftCols<D>() * point.s_x[j][lane] + by_m.template rightCols<D>() * point.s_xx[j][lane];
-          for (std::size_t i = 0; i < 3; ++i) tangent[i][j] += point.s_x[i][lane] * dp + point.s_xx[i][lane] * dm;
-        }
-      });
+  basis.visit(section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) {
+    const DampingStress<Real, D> viscous(
+        seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1), seed(combine(point.s_x, rate), 0, by_v),
+        seed(combine(point.s_xx, rate), D, by_v), felt.stiffness, felt.damping, felt.curvature_regularization);
+    Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
+    for (int c = 0; c < D; ++c) {
+      by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();
+      if (felt.bends()) by_m.row(c) = point.weight[lane] * viscous.m[c].derivatives().transpose();
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Matrix dp =
+          by_p.template leftCols<D>() * point.s_x[j][lane] + by_p.template rightCols<D>() * point.s_xx[j][lane];
+      const Matrix dm =
+          by_m.template leftCols<D>() * point.s_x[j][lane] + by_m.template rightCols<D>() * point.s_xx[j][lane];
+      for (std::size_t i = 0; i < 3; ++i) tangent[i][j] += point.s_x[i][lane] * dp + point.s_xx[i][lane] * dm;
+    }
+  });
   return tangent;
 }
 
