@@ -58,6 +58,7 @@ class Report {
         reference_(parse_json(read_text(context.folder.parent_path().parent_path() / "reference" / "slender.json"))) {
     for (const double slenderness : numbers("slenderness")) add_meshes("elastica", slenderness);
     for (const double EA : {1e5, 1e7}) add_meshes("arm_scale", EA);
+    add_meshes("rod_in_sleeve", 1e7);
     add_meshes("bent", 1e8);
     add_meshes("falling", 4e4);
     for (const double softer : {1.0, 0.01}) add_meshes("wire", softer);
@@ -88,6 +89,7 @@ class Report {
     }
     elastica();
     compare("arm_scale", {1e5, 1e7}, off_known("arm_scale"));
+    compare("rod_in_sleeve", {1e7}, off_known("rod_in_sleeve"));
     bent();
     compare("falling", {4e4}, off_known("falling"));
     wire();
@@ -141,6 +143,12 @@ class Report {
                           int elements) const {
     const auto found = runs_.find(key(problem, slenderness, element, strain, elements));
     return found == runs_.end() ? nullptr : found->second;
+  }
+
+  const Case& case_of(const std::string& problem, double slenderness, ElementKind element, AxialStrain strain,
+                      int elements) const {
+    const std::string wanted = key(problem, slenderness, element, strain, elements);
+    return *std::ranges::find_if(cases_, [&](const Case& item) { return key_of(item) == wanted; });
   }
 
   /// The scene of a problem, in the study's data, on all its meshes, by both elements and both strains.
@@ -203,28 +211,34 @@ class Report {
   void elastica() {
     const Scene scene = scene_from_json(context_.config.at("scenes").at("elastica"));
     const double EI = scene.beam.section.EI, force = scene.loads.front().magnitude.value;
-    std::map<double, Point> exact;
-    for (const double EA : numbers("slenderness")) exact[EA] = end_of_elastica(EA, EI, force);
-    const Point stiff = end_of_elastica(1e14, EI, force);
+    std::map<double, Elastica> exact;
+    for (const double EA : numbers("slenderness")) exact[EA] = slender::elastica(EA, EI, force);
+    const Point stiff = slender::elastica(1e14, EI, force).end;
     report_.measured["inextensible_y_off"] = stiff[1] - 0.8106090249;  // elliptic integrals
-    compare("elastica", numbers("slenderness"), [&](const RunResult& run, double EA, double) {
-      const Point& end = run.samples.back().end;
-      return portable::hypot(end[0] - exact[EA][0], end[1] - exact[EA][1]);
-    });
+    const auto off = [&](const RunResult& run, double EA, double /*elements*/) {
+      const Point &end = run.samples.back().end, &known = exact[EA].end;
+      return portable::hypot(end[0] - known[0], end[1] - known[1]);
+    };
+    compare("elastica", numbers("slenderness"), off);
     for (const double EA : {1e6, 1e8}) {
       for (const AxialStrain strain : strains) {
-        std::vector<double> levels, errors;
+        std::vector<double> levels, errors, slopes;
         for (const int n : meshes("elastica")) {
           if (n < 4) continue;
-          const auto at = report_.measured.find("elastica_" + number_text(EA) + "_ancf_" +
-                                                std::string(to_string(strain)) + "_n" + std::to_string(n));
-          if (at == report_.measured.end()) return;
+          const Case& item = case_of("elastica", EA, ElementKind::ale_ancf, strain, n);
+          const RunResult* const run = run_of("elastica", EA, ElementKind::ale_ancf, strain, n);
+          if (run == nullptr) return;
+          constexpr int per_element = 8;
           levels.push_back(n);
-          errors.push_back(at->second);
+          errors.push_back(off(*run, EA, n));
+          slopes.push_back(
+              slope_error(exact[EA], points_along(item.scene, run->configurations.back(), per_element), per_element));
         }
         const std::string name = "elastica_" + number_text(EA) + "_" + std::string(to_string(strain));
-        report_.fits.push_back(
-            fit_order(name, levels, errors, {.floor = 1e-11, .rule = level_rule_of(context_.config, name)}));
+        for (const auto& [of, values] : {std::pair{name, errors}, {name + "_slopes", slopes}}) {
+          report_.fits.push_back(
+              fit_order(of, levels, values, {.floor = 1e-11, .rule = level_rule_of(context_.config, of)}));
+        }
       }
     }
   }
@@ -295,12 +309,13 @@ class Report {
   std::map<std::string, const RunResult*> runs_;
   std::map<AxialStrain, Mean> over_default_;
   int judged_ = 0, better_ = 0;
-  Table errors_{.name = "errors",
-                .caption =
-                    "Error of the end (elastica) or the joint (arm_scale, falling) [m], largest of the first six "
-                    "frequencies about a bent state (bent) [-]; slenderness is EA L^2/EI, of arm_scale EA; "
-                    "`taken` is 1 for the strain that is the default there",
-                .columns = {"problem", "slenderness", "element", "axial_strain", "elements", "taken", "error"}};
+  Table errors_{
+      .name = "errors",
+      .caption =
+          "Error of the end (elastica) or the joint (arm_scale, rod_in_sleeve, falling) [m], largest of the first "
+          "six frequencies about a bent state (bent) [-]; slenderness is EA L^2/EI, of the rods in sleeves EA; "
+          "`taken` is 1 for the strain that is the default there",
+      .columns = {"problem", "slenderness", "element", "axial_strain", "elements", "taken", "error"}};
   Table wires_{.name = "wires",
                .caption =
                    "Steel wire of 1 mm radius with 20 g: error of the joint at 0.5 s [m], steps, strain energy that "
