@@ -11,6 +11,7 @@
 #include "core/element/fixed_element.hpp"
 #include "core/element/pack.hpp"
 #include "core/element/rest_strain.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -42,9 +43,9 @@ class Span {
   /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`.
   void add_inertia(const double* a, double* out) const;
 
-  /// Adds by_a M and the derivative of minus the elastic and viscous forces (by position, plus by_v times that by
-  /// velocity) to the node blocks of a block tridiagonal matrix: upper[k] couples node k to k + 1, lower[k] to k - 1.
-  void add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
+  /// Adds the tangent of M a minus the elastic and viscous forces to the node blocks of a block tridiagonal matrix:
+  /// upper[k] couples node k to k + 1, lower[k] to k - 1.
+  void add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
                    NodeTangent<D>* upper, NodeTangent<D>* lower) const;
 
   /// Eliminates all nodes but the open one from M a = force: `force` then holds, in the support's frame, what
@@ -84,7 +85,8 @@ class Span {
   };
   double forces(const double* q, const double* rate, double* force) const;
   void rest_forces(const double* q, double* force) const;
-  void rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) const;
+  void rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+                     NodeTangent<D>* lower) const;
   void build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses);
   void factor(const Mesh& mesh, const BeamRule& rule, const std::vector<PointMass>& masses);
 

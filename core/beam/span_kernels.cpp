@@ -116,7 +116,7 @@ template <int D, Kernel K, class Packs>
 
 template <int D, Kernel K, class Packs>
 [[gnu::flatten]] void add_pack_tangents(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
-                                        double by_v, double by_a, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+                                        const TangentWeights& by, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                                         NodeTangent<D>* lower) {
   using Matrix = Eigen::Matrix<double, D, D>;
   const BeamSection section = known<K>(of);
@@ -129,12 +129,12 @@ template <int D, Kernel K, class Packs>
       const int k = pack.first + i;
       if (section.damped()) {
         viscous =
-            viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section, by_v);
+            viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section, by);
       }
       auto stiffness = [&](std::size_t row, std::size_t column) {
         Matrix result;
         for (int c = 0; c < D; ++c) {
-          for (int d = 0; d < D; ++d) result(c, d) = elastic[row][column](c, d)[i];
+          for (int d = 0; d < D; ++d) result(c, d) = by.q * elastic[row][column](c, d)[i];
         }
         if (section.damped()) result += viscous[row][column];
         return result;
@@ -144,7 +144,7 @@ template <int D, Kernel K, class Packs>
         for (std::size_t r = 0; r < 2; ++r) {
           for (std::size_t c = 0; c < 2; ++c) {
             block.template block<D, D>(static_cast<int>(r) * D, static_cast<int>(c) * D).diagonal().array() +=
-                by_a * m[row + r][column + c];
+                by.a * m[row + r][column + c];
           }
         }
       };
@@ -191,38 +191,40 @@ void Span<D>::add_inertia(const double* a, double* out) const {
 }
 
 template <int D>
-void Span<D>::rest_tangents(const double* q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+void Span<D>::rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                             NodeTangent<D>* lower) const {
   for (const auto& pack : packs_) {
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
       const auto tangent = rest_tangent<D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
-      add_chord_tangent<D>([&](std::size_t row, std::size_t column) { return tangent[row][column]; }, diagonal + k,
-                           upper + k, lower + k);
+      add_chord_tangent<D>(
+          [&](std::size_t row, std::size_t column) -> Eigen::Matrix<double, D, D> {
+            return by_q * tangent[row][column];
+          },
+          diagonal + k, upper + k, lower + k);
     }
   }
 }
 
 template <int D>
-void Span<D>::add_tangent(const double* q, const double* rate, double by_v, double by_a, NodeTangent<D>* diagonal,
+void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  with_kernel(section_, sampled_, [&]<Kernel K>() {
-    add_pack_tangents<D, K>(packs_, section_, q, rate, by_v, by_a, diagonal, upper, lower);
-  });
-  if (curved_at_rest_) rest_tangents(q, diagonal, upper, lower);
+  with_kernel(section_, sampled_,
+              [&]<Kernel K>() { add_pack_tangents<D, K>(packs_, section_, q, rate, by, diagonal, upper, lower); });
+  if (curved_at_rest_) rest_tangents(q, by.q, diagonal, upper, lower);
 }
 
 template double Span<2>::forces(const double*, const double*, double*) const;
 template double Span<3>::forces(const double*, const double*, double*) const;
 template void Span<2>::rest_forces(const double*, double*) const;
 template void Span<3>::rest_forces(const double*, double*) const;
-template void Span<2>::rest_tangents(const double*, NodeTangent<2>*, NodeTangent<2>*, NodeTangent<2>*) const;
-template void Span<3>::rest_tangents(const double*, NodeTangent<3>*, NodeTangent<3>*, NodeTangent<3>*) const;
+template void Span<2>::rest_tangents(const double*, double, NodeTangent<2>*, NodeTangent<2>*, NodeTangent<2>*) const;
+template void Span<3>::rest_tangents(const double*, double, NodeTangent<3>*, NodeTangent<3>*, NodeTangent<3>*) const;
 template void Span<2>::add_inertia(const double*, double*) const;
 template void Span<3>::add_inertia(const double*, double*) const;
-template void Span<2>::add_tangent(const double*, const double*, double, double, NodeTangent<2>*, NodeTangent<2>*,
-                                   NodeTangent<2>*) const;
-template void Span<3>::add_tangent(const double*, const double*, double, double, NodeTangent<3>*, NodeTangent<3>*,
-                                   NodeTangent<3>*) const;
+template void Span<2>::add_tangent(const double*, const double*, const TangentWeights&, NodeTangent<2>*,
+                                   NodeTangent<2>*, NodeTangent<2>*) const;
+template void Span<3>::add_tangent(const double*, const double*, const TangentWeights&, NodeTangent<3>*,
+                                   NodeTangent<3>*, NodeTangent<3>*) const;
 
 }  // namespace vlbeam

@@ -79,7 +79,9 @@ class EnergyMomentum final : public Stepper {
     return true;
   }
 
-  bool factor(double h) { return system_.linearize(middle_q_, middle_v_, middle_a_, middle_t_, 2 / h, 4 / (h * h)); }
+  bool factor(double h) {
+    return system_.linearize(middle_q_, middle_v_, middle_a_, middle_t_, {1, 2 / h, 4 / (h * h)});
+  }
 
   void accept(Eigen::VectorXd& y, double& t, double h, Eigen::Index n, double dissipation) {
     y.head(n) = q0_ + (h / 2) * (v0_ + v1_);

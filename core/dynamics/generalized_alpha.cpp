@@ -137,21 +137,21 @@ class GeneralizedAlpha final : public Stepper {
   /// What the factored tangent was made at: it may be steps old.
   struct TangentPoint {
     Eigen::VectorXd q, v, a;
-    double t = 0, by_v = 0, by_a = 0;
+    double t = 0;
+    TangentWeights by{1, 0, 0};
 
     /// Allocates nothing once the sizes are known.
-    void set(const Eigen::VectorXd& q_, const Eigen::VectorXd& v_, const Eigen::VectorXd& a_, double t_, double by_v_,
-             double by_a_) {
+    void set(const Eigen::VectorXd& q_, const Eigen::VectorXd& v_, const Eigen::VectorXd& a_, double t_,
+             const TangentWeights& by_) {
       q = q_;
       v = v_;
       a = a_;
       t = t_;
-      by_v = by_v_;
-      by_a = by_a_;
+      by = by_;
     }
     void exchange(Memory& memory) {
       for (Eigen::VectorXd* vector : {&q, &v, &a}) memory(*vector);
-      for (double* number : {&t, &by_v, &by_a}) memory(*number);
+      for (double* number : {&t, &by.v, &by.a}) memory(*number);
     }
   };
 
@@ -215,7 +215,7 @@ class GeneralizedAlpha final : public Stepper {
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(q_, v_, acceleration_, t, r_);
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
-        tangent_.set(q_, v_, acceleration_, t, by_v(h), by_a(h));
+        tangent_.set(q_, v_, acceleration_, t, {1, by_v(h), by_a(h)});
         if (!linearize()) return false;
         if (counters_) ++counters_->tangents;
         tangent_by_a_ = by_a(h);
@@ -245,9 +245,7 @@ class GeneralizedAlpha final : public Stepper {
     return false;
   }
 
-  bool linearize() {
-    return system_.linearize(tangent_.q, tangent_.v, tangent_.a, tangent_.t, tangent_.by_v, tangent_.by_a);
-  }
+  bool linearize() { return system_.linearize(tangent_.q, tangent_.v, tangent_.a, tangent_.t, tangent_.by); }
 
   /// What rounding of all that the residual depends on does to the solution.
   void measure_noise(double t) {

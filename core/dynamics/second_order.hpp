@@ -7,6 +7,7 @@
 #include "core/dynamics/memory.hpp"
 #include "core/dynamics/solver_counters.hpp"
 #include "core/dynamics/tallies.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -58,17 +59,17 @@ class SecondOrderSystem {
                                double /*t*/) {
     return {};
   }
-  /// Assembles and factors dr/dq + by_v dr/dv + by_a dr/da, in place of what was factored before. Returns false where
-  /// it is singular.
+  /// Assembles and factors the tangent of the residual, in place of what was factored before. Returns false where it is
+  /// singular.
   virtual bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                         double by_v, double by_a) = 0;
+                         const TangentWeights& by) = 0;
   /// Solves with the last factored matrix, in place.
   virtual void solve(Eigen::VectorXd& r) const = 0;
   /// The same matrix, dense and not factored, for a method with a linear solver of its own. Rows of constraints are
-  /// C_q; columns of multipliers are by the multipliers, C_q^T multiplier_unit(), whatever `by_a`. Only with
+  /// C_q; columns of multipliers are by the multipliers, C_q^T multiplier_unit(), whatever `by`. Only with
   /// multipliers.
   virtual void tangent(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
-                       double /*t*/, double /*by_v*/, double /*by_a*/, Eigen::MatrixXd& /*dense*/) {}
+                       double /*t*/, const TangentWeights& /*by*/, Eigen::MatrixXd& /*dense*/) {}
   /// How many of the constraints, the last ones, are not linear in q: quadratic forms.
   virtual Eigen::Index curved_constraints() const { return 0; }
   /// Adds `factor` times the second derivative of the `i`-th of these.

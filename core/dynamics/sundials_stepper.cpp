@@ -300,8 +300,8 @@ class Ida final : public SundialsStepper {
     auto& me = *static_cast<Ida*>(self);
     me.unpack(state, rate);
     const Eigen::Index own = me.own_, m = me.multipliers_, size = N_VGetLength(state), mu = 2 * own + m;
-    me.system_.tangent(me.q_, me.v_, me.a_, t, 0, 0, me.by_q_);
-    me.system_.tangent(me.q_, me.v_, me.a_, t, 1, c_j, me.by_v_);
+    me.system_.tangent(me.q_, me.v_, me.a_, t, {1, 0, 0}, me.by_q_);
+    me.system_.tangent(me.q_, me.v_, me.a_, t, {0, 1, c_j}, me.by_v_);
     const auto columns = me.by_q_.topRightCorner(own, m), rows = me.by_q_.bottomLeftCorner(m, own);
     Eigen::Map<Eigen::MatrixXd> j(SM_DATA_D(matrix), size, size);
     j.setZero();
@@ -309,7 +309,7 @@ class Ida final : public SundialsStepper {
     j.block(0, own, own, own).diagonal().setConstant(-1);
     j.block(0, mu, own, m) = columns;
     j.block(own, 0, own, own) = me.by_q_.topLeftCorner(own, own);
-    j.block(own, own, own, own) = me.by_v_.topLeftCorner(own, own) - me.by_q_.topLeftCorner(own, own);
+    j.block(own, own, own, own) = me.by_v_.topLeftCorner(own, own);
     j.block(own, 2 * own, own, m) = columns;
     j.block(2 * own, own, m, own) = rows;
     j.block(mu, 0, m, own) = rows;

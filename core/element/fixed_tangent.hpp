@@ -6,6 +6,7 @@
 #include "core/element/elastic_tangent.hpp"
 #include "core/element/fixed_element.hpp"
 #include "core/element/pack.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -63,11 +64,11 @@ ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const Nodal
   return tangent;
 }
 
-/// Derivative of minus the viscous forces by position plus `by_v` times that by velocity, by automatic differentiation,
-/// for the element in lane `lane` of a pack.
+/// Tangent of minus the viscous forces, by automatic differentiation, for the element in lane `lane` of a pack.
 template <int D>
 ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane, const NodalCubic<double, D>& e,
-                                        const NodalCubic<double, D>& rate, const BeamSection& section, double by_v) {
+                                        const NodalCubic<double, D>& rate, const BeamSection& section,
+                                        const TangentWeights& by) {
   constexpr int N = 2 * D;
   using Real = Active<N>;
   using Matrix = Eigen::Matrix<double, D, D>;
@@ -76,7 +77,7 @@ ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane,
   auto combine = [lane](const std::array<Pack, 3>& s, const NodalCubic<double, D>& c) -> Vec<double, D> {
     return (c.r_b - c.r_a) * s[0][lane] + c.s_a * s[1][lane] + c.s_b * s[2][lane];
   };
-  // directions of differentiation: the components of r_x, then of r_xx; rates follow by by_v
+  // directions of differentiation: the components of r_x, then of r_xx; by the weights of positions and rates
   auto seed = [](const Vec<double, D>& value, int first, double scale) {
     Vec<Real, D> result;
     for (int c = 0; c < D; ++c) {
@@ -86,9 +87,10 @@ ChordTangent<double, D> viscous_tangent(const FixedBasis<Pack>& basis, int lane,
     return result;
   };
   basis.visit(section, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) {
-    const DampingStress<Real, D> viscous(
-        seed(combine(point.s_x, e), 0, 1), seed(combine(point.s_xx, e), D, 1), seed(combine(point.s_x, rate), 0, by_v),
-        seed(combine(point.s_xx, rate), D, by_v), felt.stiffness, felt.damping, felt.curvature_regularization);
+    const DampingStress<Real, D> viscous(seed(combine(point.s_x, e), 0, by.q), seed(combine(point.s_xx, e), D, by.q),
+                                         seed(combine(point.s_x, rate), 0, by.v),
+                                         seed(combine(point.s_xx, rate), D, by.v), felt.stiffness, felt.damping,
+                                         felt.curvature_regularization);
     Eigen::Matrix<double, D, N> by_p, by_m = Eigen::Matrix<double, D, N>::Zero();
     for (int c = 0; c < D; ++c) {
       by_p.row(c) = point.weight[lane] * viscous.p[c].derivatives().transpose();

@@ -7,21 +7,23 @@
 
 namespace vlbeam {
 
-template <MovingEnds Ends, int D>
-MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, const MovingCoordinates<double, D>& rate,
-                                      const MovingCoordinates<double, D>& a, double by_v, double by_a,
-                                      const WeightFunction& weights, const ShapeTabulation& table,
-                                      const MovingLaw<D>& law) {
-  constexpr int count = moving_ends<Ends>, X = 4 * D;
+template <MovingEnds Ends, int D, int Unknown>
+MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
+                                               const MovingCoordinates<double, D>& rate,
+                                               const MovingCoordinates<double, D>& a, const TangentWeights& weigh,
+                                               const WeightFunction& weights, const ShapeTabulation& table,
+                                               const MovingLaw<D>& law) {
+  constexpr int X = 4 * D;
   using Vector = Vec<double, D>;
   using Row = Eigen::Vector4d;  // one coefficient a nodal vector
   using Matrix = Eigen::Matrix<double, D, D>;
-  MovingTangent<Ends, D> tangent = MovingTangent<Ends, D>::Zero();
+  MovingTangent<Ends, D, Unknown> tangent = MovingTangent<Ends, D, Unknown>::Zero();
 
-  const NodalCubic<double, 4> unit{Row::Unit(0), Row::Unit(1), Row::Unit(2), Row::Unit(3)};
-  const NodalCubic<double, 4> unit_rate{by_v * unit.r_a, by_v * unit.s_a, by_v * unit.r_b, by_v * unit.s_b};
+  const auto unit = [](double scale) -> NodalCubic<double, 4> {
+    return {scale * Row::Unit(0), scale * Row::Unit(1), scale * Row::Unit(2), scale * Row::Unit(3)};
+  };
   const MovingKinematics<double, D, Ends> kinematics(q, rate, law.transport, weights);
-  const MovingKinematics<double, 4, Ends> variation({unit, q.x_a, q.x_b}, {unit_rate, rate.x_a, rate.x_b},
+  const MovingKinematics<double, 4, Ends> variation({unit(weigh.q), q.x_a, q.x_b}, {unit(weigh.v), rate.x_a, rate.x_b},
                                                     law.transport, weights);
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
   const bool variational = law.formulation == Formulation::variational;
@@ -53,8 +55,9 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
         // the forces conjugate to r, r_x and r_xx of moving_equations, inertia included, and their
         // derivatives: multiples of the identity from inertia, matrices from the stresses
         Vector acceleration = a.e.r_a * at.s[0] + a.e.s_a * at.s[1] + a.e.r_b * at.s[2] + a.e.s_b * at.s[3];
-        Row by_acceleration = by_a * by.r;
-        for (int e = 0; e < count; ++e) {
+        const Row s = Eigen::Map<const Row>(at.s.data()), s_x = Eigen::Map<const Row>(at.s_x.data());
+        Row by_acceleration = weigh.a * s;
+        for (int e = 0; e < moving_ends<Ends>; ++e) {
           const bool at_a = is_end_a<Ends>(e);
           acceleration += (at_a ? at.y_a : at.y_b) * (at_a ? a.x_a : a.x_b);
           by_acceleration += (at_a ? a.x_a : a.x_b) * (at_a ? by.y_a : by.y_b);
@@ -65,7 +68,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
         Matrix pp = k.pp, pm = k.pm, mm = k.mm;
         using Work = typename RestTangent<D>::Work;
         Work along{Vector::Zero(), Vector::Zero()};  // of the stresses on the rest strains
-        std::array<Work, count> on_end;
+        std::array<Work, Unknown> on_end;
         on_end.fill(along);
         if (rest != nullptr) {
           const RestTangent<D> from_rest(at.r_x, at.r_xx, *rest, section);
@@ -75,7 +78,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
           pm += from_rest.pm;
           mm += from_rest.mm;
           along = from_rest.work(rest->along);
-          for (int e = 0; e < count; ++e) {
+          for (int e = 0; e < Unknown; ++e) {
             on_end[static_cast<std::size_t>(e)] = from_rest.work(is_end_a<Ends>(e) ? rest->by_a : rest->by_b);
           }
         }
@@ -110,11 +113,11 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
           const auto jj = static_cast<std::size_t>(j);
           for (int i = 0; i < 4; ++i) {
             auto block = tangent.template block<D, D>(i * D, j * D);
-            block += (wl * by.r_x[i]) * by_p[jj];
-            if (section.bends()) block += (wl * by.r_xx[i]) * by_m[jj];
-            block.diagonal().array() -= by.r[i] * by_f0[j] + by.r_x[i] * by_f1[j];
+            block += (wl * s_x[i]) * by_p[jj];
+            if (section.bends()) block += (wl * at.s_xx[static_cast<std::size_t>(i)]) * by_m[jj];
+            block.diagonal().array() -= s[i] * by_f0[j] + s_x[i] * by_f1[j];
           }
-          for (int e = 0; e < count; ++e) {
+          for (int e = 0; e < Unknown; ++e) {
             const bool at_a = is_end_a<Ends>(e);
             const Vector &y = at_a ? at.y_a : at.y_b, &y_x = at_a ? at.y_a_x : at.y_b_x,
                          &y_xx = at_a ? at.y_a_xx : at.y_b_xx;
@@ -140,7 +143,7 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
       });
 
   using Real = Active<1>;
-  for (int e = 0; e < count; ++e) {
+  for (int e = 0; e < Unknown; ++e) {
     const auto along_end = [&](const MovingCoordinates<double, D>& from, double scale) {
       MovingCoordinates<Real, D> result;
       result.e = {from.e.r_a.template cast<Real>(), from.e.s_a.template cast<Real>(), from.e.r_b.template cast<Real>(),
@@ -150,14 +153,14 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
       (is_end_a<Ends>(e) ? result.x_a : result.x_b).derivatives()[0] = scale;
       return result;
     };
-    const auto by_end =
-        moving_residual<Ends, Real, D>(along_end(q, 1), along_end(rate, by_v), along_end(a, by_a), weights, table, law);
+    const auto by_end = moving_residual<Ends, Real, D>(along_end(q, weigh.q), along_end(rate, weigh.v),
+                                                       along_end(a, weigh.a), weights, table, law);
     for (int i = 0; i < 4; ++i) {
       for (int c = 0; c < D; ++c) {
         tangent(i * D + c, X + e) = by_end.nodes[static_cast<std::size_t>(i)][c].derivatives()[0];
       }
     }
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < Unknown; ++i) {
       tangent(X + i, X + e) = by_end.ends[static_cast<std::size_t>(i)].derivatives()[0];
     }
   }
@@ -166,29 +169,35 @@ MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, con
 
 template MovingTangent<MovingEnds::a, 2> moving_tangent<MovingEnds::a, 2>(const MovingCoordinates<double, 2>&,
                                                                           const MovingCoordinates<double, 2>&,
-                                                                          const MovingCoordinates<double, 2>&, double,
-                                                                          double, const WeightFunction&,
+                                                                          const MovingCoordinates<double, 2>&,
+                                                                          const TangentWeights&, const WeightFunction&,
                                                                           const ShapeTabulation&, const MovingLaw<2>&);
 template MovingTangent<MovingEnds::b, 2> moving_tangent<MovingEnds::b, 2>(const MovingCoordinates<double, 2>&,
                                                                           const MovingCoordinates<double, 2>&,
-                                                                          const MovingCoordinates<double, 2>&, double,
-                                                                          double, const WeightFunction&,
+                                                                          const MovingCoordinates<double, 2>&,
+                                                                          const TangentWeights&, const WeightFunction&,
                                                                           const ShapeTabulation&, const MovingLaw<2>&);
 template MovingTangent<MovingEnds::both, 2> moving_tangent<MovingEnds::both, 2>(
     const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&,
-    double, double, const WeightFunction&, const ShapeTabulation&, const MovingLaw<2>&);
+    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<2>&);
+template MovingTangent<MovingEnds::both, 2, 0> moving_tangent<MovingEnds::both, 2, 0>(
+    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&,
+    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<2>&);
 template MovingTangent<MovingEnds::a, 3> moving_tangent<MovingEnds::a, 3>(const MovingCoordinates<double, 3>&,
                                                                           const MovingCoordinates<double, 3>&,
-                                                                          const MovingCoordinates<double, 3>&, double,
-                                                                          double, const WeightFunction&,
+                                                                          const MovingCoordinates<double, 3>&,
+                                                                          const TangentWeights&, const WeightFunction&,
                                                                           const ShapeTabulation&, const MovingLaw<3>&);
 template MovingTangent<MovingEnds::b, 3> moving_tangent<MovingEnds::b, 3>(const MovingCoordinates<double, 3>&,
                                                                           const MovingCoordinates<double, 3>&,
-                                                                          const MovingCoordinates<double, 3>&, double,
-                                                                          double, const WeightFunction&,
+                                                                          const MovingCoordinates<double, 3>&,
+                                                                          const TangentWeights&, const WeightFunction&,
                                                                           const ShapeTabulation&, const MovingLaw<3>&);
 template MovingTangent<MovingEnds::both, 3> moving_tangent<MovingEnds::both, 3>(
     const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&,
-    double, double, const WeightFunction&, const ShapeTabulation&, const MovingLaw<3>&);
+    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<3>&);
+template MovingTangent<MovingEnds::both, 3, 0> moving_tangent<MovingEnds::both, 3, 0>(
+    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&,
+    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<3>&);
 
 }  // namespace vlbeam

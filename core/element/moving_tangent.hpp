@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/element/moving_element.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -54,17 +55,18 @@ MovingResidual<Real, D, Ends> moving_residual(const MovingCoordinates<Real, D>& 
   return r;
 }
 
-template <MovingEnds Ends, int D>
-using MovingTangent = Eigen::Matrix<double, 4 * D + moving_ends<Ends>, 4 * D + moving_ends<Ends>>;
+/// With rows and columns of `Unknown` ends, those that move; with 0 their motion is given, and x'' counts in M a alone.
+template <MovingEnds Ends, int D, int Unknown = moving_ends<Ends>>
+using MovingTangent = Eigen::Matrix<double, 4 * D + Unknown, 4 * D + Unknown>;
 
-/// Derivative of moving_residual by (r_A, s_A, r_B, s_B, x of the moving ends), rates and accelerations following by
-/// `by_v` and `by_a`. At a given x all kinematics are linear in the nodal coordinates and their rates: the same
-/// kinematics of unit vectors are their derivatives, and what remains is that of the stresses. Only the columns of the
-/// moving ends, one direction each, are left to automatic differentiation.
-template <MovingEnds Ends, int D>
-MovingTangent<Ends, D> moving_tangent(const MovingCoordinates<double, D>& q, const MovingCoordinates<double, D>& rate,
-                                      const MovingCoordinates<double, D>& a, double by_v, double by_a,
-                                      const WeightFunction& weights, const ShapeTabulation& table,
-                                      const MovingLaw<D>& law);
+/// Tangent of moving_residual by (r_A, s_A, r_B, s_B, x of the unknown ends). At a given x all kinematics are linear in
+/// the nodal coordinates and their rates: the same kinematics of unit vectors are their derivatives, and what remains
+/// is that of the stresses. Only the columns of the ends, one direction each, are left to automatic differentiation.
+template <MovingEnds Ends, int D, int Unknown = moving_ends<Ends>>
+MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
+                                               const MovingCoordinates<double, D>& rate,
+                                               const MovingCoordinates<double, D>& a, const TangentWeights& by,
+                                               const WeightFunction& weights, const ShapeTabulation& table,
+                                               const MovingLaw<D>& law);
 
 }  // namespace vlbeam

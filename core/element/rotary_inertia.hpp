@@ -4,8 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "core/element/driven_tangent.hpp"
+#include "core/element/driven_residual.hpp"
 #include "core/geometry/prescribed.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 

@@ -6,6 +6,7 @@
 
 #include "core/element/active.hpp"
 #include "core/joint/sliding_joint.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -97,21 +98,22 @@ RiderForce<Real, D> rider_residual(const RiderMotion<Real, D>& at, const NodalCu
   return force;
 }
 
-/// dr/dq + by_v dr/dv + by_a dr/da of rider_residual(), q = (r_A, s_A, r_B, s_B, x).
+/// Tangent of rider_residual(), q = (r_A, s_A, r_B, s_B, x).
 template <int D>
 Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> rider_tangent(const RiderMotion<double, D>& at,
                                                           const NodalCubic<double, D>& a, double a_x,
                                                           const SlidingJoint& joint, const Vec<double, D>& gravity,
-                                                          bool held, double by_v, double by_a) {
+                                                          bool held, const TangentWeights& by) {
   using Vector = Vec<double, D>;
   constexpr int x = 4 * D;
   Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> tangent = Eigen::Matrix<double, 4 * D + 1, 4 * D + 1>::Zero();
   const double m = joint.mass;
   std::array<double, 4> by_node;  // of the acceleration: times the identity
   for (std::size_t j = 0; j < 4; ++j) {
-    by_node[j] = by_a * at.s[j];
+    by_node[j] = by.a * at.s[j];
     if (!held) {
-      by_node[j] += by_v * 2 * at.s_x[j] * at.x_rate + at.s_x[j] * a_x + at.s_xx[j] * at.x_rate * at.x_rate;
+      by_node[j] +=
+          by.v * 2 * at.s_x[j] * at.x_rate + by.q * (at.s_x[j] * a_x) + by.q * (at.s_xx[j] * at.x_rate * at.x_rate);
     }
   }
   for (int i = 0; i < 4; ++i) {
@@ -122,18 +124,19 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> rider_tangent(const RiderMotion<doub
     }
   }
   if (held) {
-    tangent(x, x) = by_a * m;
+    tangent(x, x) = by.a * m;
     return tangent;
   }
   const Vector pull = combine_nodes<double, D>(at.s, a) + at.r_x * a_x + at.remainder - gravity;
-  const Vector by_x = combine_nodes<double, D>(at.s_x, a) + at.r_xx * a_x + 2 * at.x_rate * at.r_xx_rate +
-                      at.x_rate * at.x_rate * at.r_xxx + by_v * 2 * (at.r_x_rate + at.x_rate * at.r_xx) + by_a * at.r_x;
+  const Vector along = combine_nodes<double, D>(at.s_x, a) + at.r_xx * a_x + 2 * at.x_rate * at.r_xx_rate +
+                       at.x_rate * at.x_rate * at.r_xxx;
+  const Vector by_x = by.q * along + by.v * 2 * (at.r_x_rate + at.x_rate * at.r_xx) + by.a * at.r_x;
   for (int i = 0; i < 4; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    tangent.template block<D, 1>(D * i, x) = m * (at.s_x[k] * pull + at.s[k] * by_x);
-    tangent.template block<1, D>(x, D * i) = m * (at.s_x[k] * pull + by_node[k] * at.r_x).transpose();
+    tangent.template block<D, 1>(D * i, x) = m * (by.q * at.s_x[k] * pull + at.s[k] * by_x);
+    tangent.template block<1, D>(x, D * i) = m * (by.q * at.s_x[k] * pull + by_node[k] * at.r_x).transpose();
   }
-  tangent(x, x) = m * (at.r_xx.dot(pull) + at.r_x.dot(by_x));
+  tangent(x, x) = m * (by.q * at.r_xx.dot(pull) + at.r_x.dot(by_x));
   if (!joint.friction) return tangent;
 
   constexpr int N = 2 * D + 1;  // friction by pull, slope and x'
@@ -150,9 +153,9 @@ Eigen::Matrix<double, 4 * D + 1, 4 * D + 1> rider_tangent(const RiderMotion<doub
   const Vector by_pull = force.derivatives().template head<D>(), by_slope = force.derivatives().template segment<D>(D);
   for (int i = 0; i < 4; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    tangent.template block<1, D>(x, D * i) -= (by_node[k] * by_pull + at.s_x[k] * by_slope).transpose();
+    tangent.template block<1, D>(x, D * i) -= (by_node[k] * by_pull + by.q * at.s_x[k] * by_slope).transpose();
   }
-  tangent(x, x) -= by_pull.dot(by_x) + by_slope.dot(at.r_xx) + by_v * force.derivatives()[2 * D];
+  tangent(x, x) -= by_pull.dot(by_x) + by.q * by_slope.dot(at.r_xx) + by.v * force.derivatives()[2 * D];
   return tangent;
 }
 

@@ -34,7 +34,7 @@ double Drag<D>::add_forces(const ChainView<D>& beam, double* out, double* on_mar
 }
 
 template <int D>
-PointMatrix<D> Drag<D>::fixed_tangent(const ChainView<D>& beam, int k, double by_v) const {
+PointMatrix<D> Drag<D>::fixed_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const {
   constexpr int N = 2 * D;  // velocity and slope
   using Real = Active<N>;
   const MovingKinematics<double, D> element = beam.kinematics(k);
@@ -48,12 +48,12 @@ PointMatrix<D> Drag<D>::fixed_tangent(const ChainView<D>& beam, int k, double by
       r_x[c] = Real(at.r_x[c], D + c);
     }
     const Vec<Real, D> f = this->force(v, r_x);
-    Eigen::Matrix<double, D, N> by;
-    for (int c = 0; c < D; ++c) by.row(c) = -share * element.length() * f[c].derivatives().transpose();
+    Eigen::Matrix<double, D, N> by_point;
+    for (int c = 0; c < D; ++c) by_point.row(c) = -share * element.length() * f[c].derivatives().transpose();
     for (int j = 0; j < 4; ++j) {
       const auto n = static_cast<std::size_t>(j);
       const Eigen::Matrix<double, D, D> by_node =
-          by_v * at.s[n] * by.template leftCols<D>() + at.s_x[n] * by.template rightCols<D>();
+          by.v * at.s[n] * by_point.template leftCols<D>() + by.q * at.s_x[n] * by_point.template rightCols<D>();
       for (int i = 0; i < 4; ++i) {
         matrix.template block<D, D>(D * i, D * j) += at.s[static_cast<std::size_t>(i)] * by_node;
       }
@@ -64,10 +64,10 @@ PointMatrix<D> Drag<D>::fixed_tangent(const ChainView<D>& beam, int k, double by
 
 /// The points of an element at the joint move along the beam with it.
 template <int D>
-PointMatrix<D> Drag<D>::moving_tangent(const ChainView<D>& beam, int k, double by_v) const {
+PointMatrix<D> Drag<D>::moving_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const {
   using Real = ElementReal<D>;
   PointMatrix<D> matrix = PointMatrix<D>::Zero();
-  const MovingKinematics<Real, D> element = active_element(beam, k, by_v);
+  const MovingKinematics<Real, D> element = active_element(beam, k, by);
   for (const auto& [u, share] : gauss_legendre(quadrature_points)) {
     const PointMotion<Real, D> at = element.at(Real(u), rational_shape(element.weights(), Real(u)));
     PointForce<Real, D> f;

@@ -4,6 +4,7 @@
 
 #include "core/element/moving_points.hpp"
 #include "core/parts/material_point.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -44,20 +45,19 @@ struct Drag {
   /// Adds it to an array like q; returns the power that it takes [W]. Where nodes are prescribed, what it does along
   /// the beam [N] is added to `on_marks`, one entry a node, unless that is null.
   double add_forces(const ChainView<D>& beam, double* force, double* on_marks = nullptr) const;
-  /// Calls `add(element, matrix)` with the derivatives of minus it by the element's coordinates, and by_v times those
-  /// by their rates.
+  /// Calls `add(element, matrix)` with the tangent of minus it by the element's coordinates.
   template <class Add>
-  void add_tangent(const ChainView<D>& beam, double by_v, const Add& add) const {
+  void add_tangent(const ChainView<D>& beam, const TangentWeights& by, const Add& add) const {
     if (!present()) return;
     for (int k = 0; k < beam.mesh.elements(); ++k) {
       const bool moves = beam.at_joint(k) || beam.marks != nullptr;
-      add(k, moves ? moving_tangent(beam, k, by_v) : fixed_tangent(beam, k, by_v));
+      add(k, moves ? moving_tangent(beam, k, by) : fixed_tangent(beam, k, by));
     }
   }
 
  private:
-  PointMatrix<D> fixed_tangent(const ChainView<D>& beam, int k, double by_v) const;
-  PointMatrix<D> moving_tangent(const ChainView<D>& beam, int k, double by_v) const;
+  PointMatrix<D> fixed_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
+  PointMatrix<D> moving_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
 };
 
 }  // namespace vlbeam

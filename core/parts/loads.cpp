@@ -96,7 +96,7 @@ template <int D>
 typename Loads<D>::ElementMatrix Loads<D>::moment_tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k,
                                                           double t) {
   if constexpr (D == 2) {
-    return point_tangent<D>(beam, k, load.place(beam, t), beam.rate, 0, 0,
+    return point_tangent<D>(beam, k, load.place(beam, t), beam.rate, {1, 0, 0},
                             [&](const auto& at, const auto& /*acceleration*/) {
                               using Real = typename std::decay_t<decltype(at.r_x)>::Scalar;
                               PointForce<Real, D> force;

@@ -6,6 +6,7 @@
 
 #include "core/element/moving_points.hpp"
 #include "core/parts/material_point.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -64,13 +65,13 @@ struct Loads {
   /// Adds the concentrated ones to an array like q; returns their power [W]. Where nodes are prescribed, what they do
   /// along the beam [N] is added to `on_marks`, one entry a node, unless that is null.
   double add_forces(const ChainView<D>& beam, double t, double* force, double* on_marks = nullptr) const;
-  /// Calls `add(element, matrix)` with the derivatives of minus these forces by the element's coordinates.
+  /// Calls `add(element, matrix)` with the tangent of minus these forces by the element's coordinates.
   template <class Add>
-  void add_tangent(const ChainView<D>& beam, double t, const Add& add) const {
+  void add_tangent(const ChainView<D>& beam, double t, const TangentWeights& by, const Add& add) const {
     for (const PointLoad<D>& load : points) {
       const int k = beam.element_at(load.place(beam, t));
-      if (load.follower || beam.at_joint(k)) add(k, tangent(load, beam, k, t));
-      if (load.moment) add(k, moment_tangent(load, beam, k, t));
+      if (load.follower || beam.at_joint(k)) add(k, ElementMatrix(by.q * tangent(load, beam, k, t)));
+      if (load.moment) add(k, ElementMatrix(by.q * moment_tangent(load, beam, k, t)));
     }
   }
   /// Where the concentrated ones are [m].

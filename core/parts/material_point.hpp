@@ -2,6 +2,7 @@
 
 #include "core/beam/chain_view.hpp"
 #include "core/element/active.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -63,10 +64,10 @@ MovingCoordinates<ElementReal<D>, D> active_coordinates(const ChainView<D>& beam
   return result;
 }
 
-/// Element k with derivatives by its coordinates and by_v times those by their rates.
+/// Element k with derivatives by its coordinates and their rates.
 template <int D>
-MovingKinematics<ElementReal<D>, D> active_element(const ChainView<D>& beam, int k, double by_v) {
-  return {active_coordinates(beam, k, beam.coordinates(k), 1), active_coordinates(beam, k, beam.rates(k), by_v),
+MovingKinematics<ElementReal<D>, D> active_element(const ChainView<D>& beam, int k, const TangentWeights& by) {
+  return {active_coordinates(beam, k, beam.coordinates(k), by.q), active_coordinates(beam, k, beam.rates(k), by.v),
           beam.at_joint(k) ? beam.transport : WeightTransport::frozen, beam.weights(k)};
 }
 
@@ -90,19 +91,18 @@ void add_point_tangent(const ChainView<D>& beam, int k, const PointMotion<Elemen
   }
 }
 
-/// Derivatives of minus such a force by the element's coordinates, by_v times those by velocities and by_a times those
-/// by accelerations, by automatic differentiation. `force(at, acceleration)` gives it, of the point's motion and
-/// acceleration; `a` is an array like q.
+/// Tangent of minus such a force by the element's coordinates, by automatic differentiation. `force(at, acceleration)`
+/// gives it, of the point's motion and acceleration; `a` is an array like q.
 template <int D, class Force>
-PointMatrix<D> point_tangent(const ChainView<D>& beam, int k, double x, const double* a, double by_v, double by_a,
+PointMatrix<D> point_tangent(const ChainView<D>& beam, int k, double x, const double* a, const TangentWeights& by,
                              const Force& force) {
   using Real = ElementReal<D>;
   using Vector = Vec<Real, D>;
   const bool a_moves = beam.joint_at(k) != nullptr, b_moves = beam.joint_at(k + 1) != nullptr;
   ChainView<D> accelerations = beam;
   accelerations.rate = a;
-  const auto second = active_coordinates(beam, k, accelerations.rates(k), by_a);
-  const PointMotion<Real, D> at = point_at<Real, D>(active_element(beam, k, by_v), x);
+  const auto second = active_coordinates(beam, k, accelerations.rates(k), by.a);
+  const PointMotion<Real, D> at = point_at<Real, D>(active_element(beam, k, by), x);
   Vector acceleration =
       at.remainder + second.e.r_a * at.s[0] + second.e.s_a * at.s[1] + second.e.r_b * at.s[2] + second.e.s_b * at.s[3];
   if (a_moves) acceleration += at.y_a * second.x_a;

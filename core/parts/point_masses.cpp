@@ -56,8 +56,8 @@ void PointMasses<D>::add_residual(const ChainView<D>& beam, const double* a, con
 
 template <int D>
 PointMatrix<D> PointMasses<D>::tangent(const PointMass& point, const ChainView<D>& beam, int k, const double* a,
-                                       const Vector& gravity, double by_v, double by_a) {
-  return point_tangent<D>(beam, k, point.x, a, by_v, by_a, [&](const auto& /*at*/, const auto& acceleration) {
+                                       const Vector& gravity, const TangentWeights& by) {
+  return point_tangent<D>(beam, k, point.x, a, by, [&](const auto& /*at*/, const auto& acceleration) {
     using Real = typename std::decay_t<decltype(acceleration)>::Scalar;
     PointForce<Real, D> force;
     for (int c = 0; c < D; ++c) force.on_r[c] = (gravity[c] - acceleration[c]) * point.mass;

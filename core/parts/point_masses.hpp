@@ -2,6 +2,7 @@
 
 #include "core/beam/point_mass.hpp"
 #include "core/parts/material_point.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -38,17 +39,17 @@ struct PointMasses {
   void add_residual(const ChainView<D>& beam, const double* a, const Vector& gravity, double* residual) const;
   /// Calls `add(element, matrix)` with the tangent of that.
   template <class Add>
-  void add_tangent(const ChainView<D>& beam, const double* a, const Vector& gravity, double by_v, double by_a,
+  void add_tangent(const ChainView<D>& beam, const double* a, const Vector& gravity, const TangentWeights& by,
                    const Add& add) const {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const int k = element_of(beam, i);
-      if (beam.at_joint(k)) add(k, tangent(points[i], beam, k, a, gravity, by_v, by_a));
+      if (beam.at_joint(k)) add(k, tangent(points[i], beam, k, a, gravity, by));
     }
   }
 
  private:
   static PointMatrix<D> tangent(const PointMass& point, const ChainView<D>& beam, int k, const double* a,
-                                const Vector& gravity, double by_v, double by_a);
+                                const Vector& gravity, const TangentWeights& by);
 };
 
 }  // namespace vlbeam

@@ -7,6 +7,7 @@
 #include "core/dynamics/fields.hpp"
 #include "core/dynamics/tallies.hpp"
 #include "core/parts/spin_chain.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 

@@ -7,9 +7,10 @@
 #include "core/beam/chain_mass.hpp"
 #include "core/beam/mesh_motion.hpp"
 #include "core/element/angle_field.hpp"
-#include "core/element/driven_tangent.hpp"
+#include "core/element/driven_residual.hpp"
 #include "core/element/moving_element.hpp"
 #include "core/element/spin_element.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 

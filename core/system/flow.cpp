@@ -1,7 +1,7 @@
 // A beam whose nodes travel along it as prescribed: what its guards are, and what flows in and out.
 #include <algorithm>
 
-#include "core/element/driven_tangent.hpp"
+#include "core/element/driven_residual.hpp"
 #include "core/error.hpp"
 #include "core/system/beam_system.hpp"
 

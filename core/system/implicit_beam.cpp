@@ -520,45 +520,69 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
   return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
 }
 
+/// Adds the tangent of the element behind node `node`. Its row and column 4 D + e belong to unknown marks[e] of the
+/// border, if to any.
+template <int D>
+template <class Matrix>
+void ImplicitBeam<D>::add_element(int node, const Matrix& matrix, const std::array<int, 2>& marks) {
+  constexpr int X = 4 * D;
+  const auto k = static_cast<std::size_t>(node);
+  tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
+  tangent_.upper[k] += matrix.template block<B, B>(0, B);
+  tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
+  tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
+  for (int e = 0; e < 2; ++e) {
+    const int mark = marks[static_cast<std::size_t>(e)];
+    if (mark < 0) continue;
+    auto& border = tangent_.border[static_cast<std::size_t>(mark)];
+    const auto reach = static_cast<std::size_t>(node - border.first);
+    for (int end = 0; end < 2; ++end) {
+      border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, X + e);
+      border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(X + e, end * B).transpose();
+    }
+    for (int f = 0; f < 2; ++f) {
+      const int other = marks[static_cast<std::size_t>(f)];
+      if (other >= 0) tangent_.corner(mark, other) += matrix(X + e, X + f);
+    }
+  }
+}
+
 template <int D>
 void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                               double by_v, double by_a) {
+                               const TangentWeights& by) {
   stand(t);
-  if (system_.moving_mesh() != nullptr) return assemble_travelling(q, v, a, t, {1, by_v, by_a});
   const auto& model = system_.model();
   tangent_.reset(nodes());
+  const bool travels = system_.moving_mesh() != nullptr;
+  if (travels) {
+    add_travelling_elements(q, v, a, t, by);
+  } else {
+    add_elements(q, v, a, t, by);
+  }
+  const ChainView<D> beam = view(q, v);
+  const auto add_point = [&](int k, const PointMatrix<D>& matrix) {
+    const auto mark = [&](int node) {
+      const JointPlace* const joint = beam.joint_at(node);
+      return joint == nullptr ? -1 : static_cast<int>(joint - places().data());
+    };
+    add_element(beam.first_node(k), matrix, {mark(k), mark(k + 1)});
+  };
+  model.loads.add_tangent(beam, t, by, add_point);
+  model.drag.add_tangent(beam, by, add_point);
+  model.masses.add_tangent(beam, a.data(), system_.gravity(t), by, add_point);
+  if (model.rubs()) add_frictions(q, v, a, t, by);
+}
+
+/// Elements, those at joints among them, and the masses of joints.
+template <int D>
+void ImplicitBeam<D>::add_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                   double t, const TangentWeights& by) {
+  const auto& model = system_.model();
   auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
   at_spans([&](const Span<D>& span, int copies) {
     const Eigen::Index shift = Eigen::Index{B} * copies;
-    span.add_tangent(q.data() + shift, v.data() + shift, by_v, by_a, diagonal + copies, upper + copies, lower + copies);
+    span.add_tangent(q.data() + shift, v.data() + shift, by, diagonal + copies, upper + copies, lower + copies);
   });
-  const Eigen::Index extra = after_nodes();
-  constexpr int X = 4 * D;
-  auto add_blocks = [&](int node, const auto& matrix) {
-    const auto k = static_cast<std::size_t>(node);
-    tangent_.diagonal[k] += matrix.template block<B, B>(0, 0);
-    tangent_.upper[k] += matrix.template block<B, B>(0, B);
-    tangent_.lower[k + 1] += matrix.template block<B, B>(B, 0);
-    tangent_.diagonal[k + 1] += matrix.template block<B, B>(B, B);
-  };
-  // row and column X + e of the tangent of an element at `node` belong to unknown marks[e] of the border, if to any
-  auto add_element = [&](int node, const auto& matrix, const std::array<int, 2>& marks) {
-    add_blocks(node, matrix);
-    for (int e = 0; e < 2; ++e) {
-      const int mark = marks[static_cast<std::size_t>(e)];
-      if (mark < 0) continue;
-      auto& border = tangent_.border[static_cast<std::size_t>(mark)];
-      const auto reach = static_cast<std::size_t>(node - border.first);
-      for (int end = 0; end < 2; ++end) {
-        border.column[reach + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, X + e);
-        border.row[reach + static_cast<std::size_t>(end)] += matrix.template block<1, B>(X + e, end * B).transpose();
-      }
-      for (int f = 0; f < 2; ++f) {
-        const int other = marks[static_cast<std::size_t>(f)];
-        if (other >= 0) tangent_.corner(mark, other) += matrix(X + e, X + f);
-      }
-    }
-  };
   const ChainView<D> beam = view(q, v), accelerations = view(q, a);
   for (std::size_t i = 0; i < places().size(); ++i) tangent_.add_border(std::max(0, first_copy(i) - 1));
   auto law = system_.moving_law(t);
@@ -571,7 +595,7 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
                                        : Ends == MovingEnds::b ? std::array{part.b, -1}
                                                                : std::array{part.a, part.b};
       add_element(beam.first_node(k),
-                  moving_tangent<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), by_v, by_a,
+                  moving_tangent<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), by,
                                           beam.weights(k), part.table, law),
                   marks);
     };
@@ -580,33 +604,53 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   for (std::size_t i = 0; i < places().size(); ++i) {
     const SlidingJoint& joint = system_.joint(i).law;
     tangent_.diagonal[static_cast<std::size_t>(first_copy(i))].template topLeftCorner<D, D>().diagonal().array() +=
-        by_a * joint.mass;
+        by.a * joint.mass;
   }
   if (const auto& rider = system_.rider()) {
     tangent_.add_border(rider->element);
     add_element(rider->element,
                 rider_tangent<D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
-                                 a[extra], model.joints.front().law, system_.gravity(t), rider->held, by_v, by_a),
+                                 a[after_nodes()], model.joints.front().law, system_.gravity(t), rider->held, by),
                 {0, -1});
   }
   for (const int index : system_.departed()) {
     for (int c = 0; c < D; ++c) {
       tangent_.add_border(0);
       const int last = tangent_.borders() - 1;
-      tangent_.corner(last, last) = by_a * model.joints[static_cast<std::size_t>(index)].law.mass;
+      tangent_.corner(last, last) = by.a * model.joints[static_cast<std::size_t>(index)].law.mass;
     }
   }
-  const auto add_point = [&](int k, const PointMatrix<D>& matrix) {
-    const auto mark = [&](int node) {
-      const JointPlace* const joint = beam.joint_at(node);
-      return joint == nullptr ? -1 : static_cast<int>(joint - places().data());
-    };
-    add_element(beam.first_node(k), matrix, {mark(k), mark(k + 1)});
-  };
-  model.loads.add_tangent(beam, t, add_point);
-  model.drag.add_tangent(beam, by_v, add_point);
-  model.masses.add_tangent(beam, a.data(), system_.gravity(t), by_v, by_a, add_point);
-  if (!model.rubs()) return;
+}
+
+/// Elements whose nodes all travel as prescribed, and what flows in.
+template <int D>
+void ImplicitBeam<D>::add_travelling_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                              const Eigen::VectorXd& a, double t, const TangentWeights& by) {
+  system_.travel(t);
+  const auto& model = system_.model();
+  const MovingMesh<D>& mesh = *system_.moving_mesh();
+  const ChainView<D> beam = view(q, v);
+  auto law = system_.moving_law(t);
+  for (const MovingPart& part : system_.moving_parts()) {
+    const auto rest = system_.rest_of(part, q.data(), places());
+    law.rest = rest ? &*rest : nullptr;
+    const int k = part.element;
+    add_element(
+        k, moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(a.data(), k),
+                                                  by, beam.weights(k), part.table, law));
+    if (!model.rotary.present()) continue;
+    const auto i = static_cast<std::size_t>(k);
+    add_element(k, RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
+  }
+  mesh.add_inflow_tangent(beam, by, [&](int row, int column, const Block& block) {
+    auto& band = column == row ? tangent_.diagonal : column > row ? tangent_.upper : tangent_.lower;
+    band[static_cast<std::size_t>(row)] += block;
+  });
+}
+
+template <int D>
+void ImplicitBeam<D>::add_frictions(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                    double t, const TangentWeights& by) {
   bool held = false;
   for (std::size_t i = 0; i < places().size(); ++i) held = held || system_.held(i) != nullptr;
   if (held) {
@@ -618,43 +662,8 @@ void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& 
     if (!joint.friction) continue;
     Vec<double, D> pull = joint.mass * (position<D>(a.data(), first_copy(i)) - system_.gravity(t));
     if (system_.held(i) != nullptr) pull -= on_joint_node(i, free_);
-    add_friction_tangent(i, pull, q, v, by_v, by_a);
+    add_friction_tangent(i, pull, q, v, by);
   }
-}
-
-template <int D>
-void ImplicitBeam<D>::assemble_travelling(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                          double t, const TangentWeights& by) {
-  system_.travel(t);
-  const auto& model = system_.model();
-  const MovingMesh<D>& mesh = *system_.moving_mesh();
-  tangent_.reset(nodes());
-  const auto add = [&](int row, int column, const Block& block) {
-    const auto k = static_cast<std::size_t>(row);
-    auto& band = column == row ? tangent_.diagonal : column > row ? tangent_.upper : tangent_.lower;
-    band[k] += block;
-  };
-  const auto add_element = [&](int k, const auto& matrix) {
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) add(k + i, k + j, matrix.template block<B, B>(i * B, j * B));
-    }
-  };
-  const ChainView<D> beam = view(q, v);
-  auto law = system_.moving_law(t);
-  for (const MovingPart& part : system_.moving_parts()) {
-    const auto rest = system_.rest_of(part, q.data(), places());
-    law.rest = rest ? &*rest : nullptr;
-    const int k = part.element;
-    add_element(k, driven_tangent<D>(beam.coordinates(k), beam.rates(k), mesh.accelerations(a.data(), k), by,
-                                     beam.weights(k), part.table, law));
-    if (!model.rotary.present()) continue;
-    const auto i = static_cast<std::size_t>(k);
-    add_element(k, RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
-  }
-  model.loads.add_tangent(beam, t, [&](int k, const PointMatrix<D>& matrix) { add_element(k, by.q * matrix); });
-  model.drag.add_tangent(beam, 0, [&](int k, const PointMatrix<D>& matrix) { add_element(k, (by.q - by.v) * matrix); });
-  model.drag.add_tangent(beam, 1, [&](int k, const PointMatrix<D>& matrix) { add_element(k, by.v * matrix); });
-  mesh.add_inflow_tangent(beam, by, add);
 }
 
 template <int D>
@@ -662,7 +671,7 @@ void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::
                                          double t, const TangentWeights& by, Eigen::MatrixXd& axis,
                                          Eigen::MatrixXd& angles) {
   refresh();
-  assemble_travelling(q, v, a, t, by);
+  assemble(q, v, a, t, by);
   axis.setZero(after_nodes(), after_nodes());
   tangent_.expand(axis);
   angles.resize(0, 0);
@@ -676,18 +685,18 @@ void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::
 
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                                double by_v, double by_a) {
-  assemble(q, v, a, t, by_v, by_a);
-  constraint_scale_ = reference_mass_ * by_a;  // as the rest of the tangent: by a mass and by_a
+                                const TangentWeights& by) {
+  assemble(q, v, a, t, by);
+  constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
   if (with_multipliers()) add_constraints(q, a, constraint_scale_);
   add_contacts(q, a, constraint_scale_);
   if (!with_multipliers()) constrain_tangent();
-  at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by_a); });
+  at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
   const auto nut = system_.nut_place();
-  if (nut) take_nut(*nut, reference_mass_ * by_a);
+  if (nut) take_nut(*nut, reference_mass_ * by.a);
   if (const Spin* spin = system_.spin()) {
-    spin->assemble({1, by_v, by_a}, spin_tangent_);
-    if (!spin->factor(by_a, spin_tangent_)) return false;
+    spin->assemble(by, spin_tangent_);
+    if (!spin->factor(by.a, spin_tangent_)) return false;
   }
   if (!tangent_.factor()) return false;
   if (nut) factor_nut(*nut, q, v, a, t);
@@ -747,7 +756,7 @@ void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, co
 /// node's own equations lack, whose rows stand in the tangent.
 template <int D>
 void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
-                                           const Eigen::VectorXd& v, double by_v, double by_a) {
+                                           const Eigen::VectorXd& v, const TangentWeights& by) {
   constexpr int N = 3 * D + 1;  // by the pull, the slopes and x'
   using Real = Active<N>;
   const SlidingJoint& joint = system_.joint(which).law;
@@ -766,15 +775,15 @@ void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Vec<double, 
                               Real(v[place.mark], 3 * D))
           .force;
   if (force.derivatives().size() == 0 || force.value() == 0) return;
-  const Eigen::Matrix<double, N, 1>& by = force.derivatives();
-  const Vec<double, D> by_pull = by.template head<D>();
+  const Eigen::Matrix<double, N, 1>& change = force.derivatives();
+  const Vec<double, D> by_pull = change.template head<D>();
   auto& border = tangent_.border[which];
   const auto reached = [&](int node) { return static_cast<std::size_t>(node - border.first); };
   const auto at = static_cast<Eigen::Index>(which);
-  border.row[reached(j)].template tail<D>() -= by.template segment<D>(D);
-  border.row[reached(far)].template tail<D>() -= by.template segment<D>(2 * D);
-  tangent_.corner(at, at) -= by_v * by[3 * D];
-  border.row[reached(j)].template head<D>() -= by_a * joint.mass * by_pull;
+  border.row[reached(j)].template tail<D>() -= by.q * change.template segment<D>(D);
+  border.row[reached(far)].template tail<D>() -= by.q * change.template segment<D>(2 * D);
+  tangent_.corner(at, at) -= by.v * change[3 * D];
+  border.row[reached(j)].template head<D>() -= by.a * joint.mass * by_pull;
   if (!held) return;
   for (int node = j; node <= far; ++node) {
     const auto k = static_cast<std::size_t>(node);
@@ -873,8 +882,8 @@ void ImplicitBeam<D>::add_contacts(const Eigen::VectorXd& q, const Eigen::Vector
 
 template <int D>
 void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                              double by_v, double by_a, Eigen::MatrixXd& dense) {
-  assemble(q, v, a, t, by_v, by_a);
+                              const TangentWeights& by, Eigen::MatrixXd& dense) {
+  assemble(q, v, a, t, by);
   add_constraints(q, a, reference_mass_);
   dense.setZero(coordinates(), coordinates());
   tangent_.expand(dense);

@@ -6,6 +6,7 @@
 #include "core/dynamics/second_order.hpp"
 #include "core/system/beam_system.hpp"
 #include "core/system/conserving_step.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -41,14 +42,14 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   Tallies tallies() const override { return system_.model().tallies(); }
   Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
-  bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
-                 double by_a) override;
+  bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                 const TangentWeights& by) override;
   void solve(Eigen::VectorXd& r) const override;
   /// Of what linearize() factored, where forces have a potential, without a sliding mass: the number of directions in
   /// which the energy falls. `zero` is what counts as no fall, over what a coordinate alone does.
   int negative_pivots(double zero) const { return tangent_.negative_pivots(zero); }
-  void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
-               double by_a, Eigen::MatrixXd& dense) override;
+  void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+               const TangentWeights& by, Eigen::MatrixXd& dense) override;
   Eigen::Index curved_constraints() const override { return condition_count(); }
   void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
   double multiplier_unit() const override { return reference_mass_; }
@@ -206,11 +207,17 @@ class ImplicitBeam final : public SecondOrderSystem {
   double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                        Eigen::VectorXd& r) const;
   /// The tangent before constraints and factorization.
-  void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double by_v,
-                double by_a);
-  /// The same of a beam whose nodes travel: block tridiagonal in the nodes, the angles couple to nothing else.
-  void assemble_travelling(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                           const TangentWeights& by);
+  void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                const TangentWeights& by);
+  template <class Matrix>
+  void add_element(int node, const Matrix& matrix, const std::array<int, 2>& marks = {-1, -1});
+  void add_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                    const TangentWeights& by);
+  /// Those of a beam whose nodes travel: the angles couple to nothing else.
+  void add_travelling_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                               const TangentWeights& by);
+  void add_frictions(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                     const TangentWeights& by);
   /// Sets what supports fix to zero, in their frames.
   void project(double* nodes) const;
   void constrain_tangent();
@@ -219,7 +226,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void add_contacts(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double scale);
   /// Of a joint at which the beam pulls by `pull` [N]; all that acts on the nodes is in the tangent.
   void add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
-                            const Eigen::VectorXd& v, double by_v, double by_a);
+                            const Eigen::VectorXd& v, const TangentWeights& by);
   /// What the thread does to the angles as it pushes the nut of these coordinates [N].
   Eigen::VectorXd nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double push) const;
   /// Takes the nut's x out of the tangent, with `size` in its place.

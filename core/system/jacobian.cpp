@@ -10,14 +10,6 @@
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
-namespace {
-
-// The tangent is dr/dq + by_v dr/dv + by_a dr/da: a factor this large leaves nothing else of it, and a power of two is
-// taken out again without rounding.
-constexpr double of_mass_only = 0x1p180;
-
-}  // namespace
-
 template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
   if (system_.spin() != nullptr) {
@@ -31,18 +23,18 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   a_.resize(n);
   acceleration(q, v, t, a_);
 
-  auto tangent = [&](double by_v, Eigen::MatrixXd& dense) {
-    assemble(q, v, a_, t, by_v, 0);
+  auto tangent = [&](const TangentWeights& by, Eigen::MatrixXd& dense) {
+    assemble(q, v, a_, t, by);
     dense.setZero(n, n);
     tangent_.expand(dense);
     for (Eigen::Index k = 0; k < n; ++k) project(dense.col(k).data());
   };
-  tangent(0, stiffness_);
-  tangent(of_mass_only, damping_);
+  tangent({1, 0, 0}, stiffness_);
+  tangent({0, 1, 0}, damping_);
 
   dfdy.setZero();
   dfdy.block(0, n, n, n).setIdentity();
-  if (!linearize(q, v, a_, t, 0, of_mass_only)) {  // outside the domain, as rhs() says it
+  if (!linearize(q, v, a_, t, {0, 0, 1})) {  // outside the domain, as rhs() says it
     dfdy.setConstant(std::numeric_limits<double>::quiet_NaN());
     dfdt.setZero();
     return;
@@ -50,7 +42,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   for (Eigen::Index k = 0; k < n; ++k) {
     column_ = stiffness_.col(k);
     solve(column_);
-    dfdy.block(n, k, n, 1) = -of_mass_only * column_;
+    dfdy.block(n, k, n, 1) = -column_;
     column_ = damping_.col(k);
     solve(column_);
     dfdy.block(n, n + k, n, 1) = -column_;

@@ -8,6 +8,7 @@
 #include "core/beam/chain_view.hpp"
 #include "core/joint/joint_chain.hpp"
 #include "core/system/beam_model.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 

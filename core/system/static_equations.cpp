@@ -190,11 +190,12 @@ void StaticEquations<D>::assemble(const Eigen::VectorXd& u, double factor, doubl
   prepare();
   const ChainView<D> beam = view(u);
   tangent_.reset(system_.mesh().last() + 1);
+  const TangentWeights by{1, 0, by_a};
   auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
-  system_.left().add_tangent(u.data(), zero_.data(), 0, by_a, diagonal, upper, lower);
-  system_.right().add_tangent(u.data(), zero_.data(), 0, by_a, diagonal, upper, lower);
+  system_.left().add_tangent(u.data(), zero_.data(), by, diagonal, upper, lower);
+  system_.right().add_tangent(u.data(), zero_.data(), by, diagonal, upper, lower);
   for (const auto& span : system_.between()) {
-    span.span().add_tangent(u.data(), zero_.data(), 0, by_a, diagonal, upper, lower);
+    span.span().add_tangent(u.data(), zero_.data(), by, diagonal, upper, lower);
   }
   const auto add_part = [&](int k, const auto& matrix) { add(beam, k, matrix); };
   if (system_.has_joint()) {
@@ -210,7 +211,7 @@ void StaticEquations<D>::assemble(const Eigen::VectorXd& u, double factor, doubl
       const MovingCoordinates<double, D> still = beam.rates(k);
       // with a row and a column of each end's mark, as those of points inside it have
       const auto own =
-          moving_tangent<Ends, D>(beam.coordinates(k), still, still, 0, by_a, beam.weights(k), part.table, law_at);
+          moving_tangent<Ends, D>(beam.coordinates(k), still, still, by, beam.weights(k), part.table, law_at);
       constexpr int X = 4 * D, ends = moving_ends<Ends>, at = Ends == MovingEnds::b ? X + 1 : X;
       PointMatrix<D> matrix = PointMatrix<D>::Zero();
       matrix.template topLeftCorner<X, X>() = own.template topLeftCorner<X, X>();
@@ -226,8 +227,8 @@ void StaticEquations<D>::assemble(const Eigen::VectorXd& u, double factor, doubl
           .array() += by_a * system_.joint(which).law.mass;
     }
   }
-  model.loads.add_tangent(beam, factor, add_part);
-  model.masses.add_tangent(beam, zero_.data(), system_.gravity(factor), 0, by_a, add_part);
+  model.loads.add_tangent(beam, factor, by, add_part);
+  model.masses.add_tangent(beam, zero_.data(), system_.gravity(factor), by, add_part);
 }
 
 /// What the multipliers change of the coordinates' tangent.

@@ -110,7 +110,7 @@ Eigen::VectorXd steady_state(BeamSystem<D>& beam, const Eigen::VectorXd& guess, 
   double last = 1;
   for (int i = 0;; ++i) {
     flow.residual(q, v, a, t, r);
-    if (!r.allFinite() || !flow.linearize(q, v, a, t, 0, 0)) {
+    if (!r.allFinite() || !flow.linearize(q, v, a, t, {1, 0, 0})) {
       throw ComputationFailed("no steady state: the tangent is singular, as at a critical speed or load", t);
     }
     flow.solve(r);

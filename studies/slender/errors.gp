@@ -32,7 +32,7 @@ set format x "%g"
 set xtics (4, 8, 16, 32, 64)
 set ylabel "error [m]; bent: relative"
 set key at screen 0.995,0.32 top right title "(c)" samplen 1.5
-names = "'arm scale, EA = 1e7 N' 'rod in a sleeve, EA = 1e7 N' 'falling beam' 'bent, frequencies'"
+names = "'arm scale, EA = 1e7 N' 'sleeve, EA = 1e7 N' 'falling beam' 'bent, frequencies'"
 problems = "arm_scale rod_in_sleeve falling bent"
 ea(i) = i <= 2 ? 1e7 : i == 3 ? 4e4 : 1e8
 plot for [i=1:4] csv("errors") using "elements":(this(word(problems, i), ea(i), "full")) with linespoints dashtype 2 linewidth 1.6 pointtype 6 pointsize 0.6 linecolor rgb colour(i) notitle, \

@@ -1,4 +1,5 @@
-#include "core/element/driven_tangent.hpp"
+#include "core/element/driven_residual.hpp"
+#include "core/element/moving_tangent.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,8 +31,9 @@ class DrivenTangent : public ElementUnderTest<Dimension> {
     const ShapeTabulation table(o.rule, o.stored.w);
     const ElementColumn<double, D> a = this->random_.template vector<element_size<D>>();
     const Nodal direction = this->random_.template vector<4 * D>();
-    const auto tangent = driven_tangent<D>(coordinates<double, D>(this->q_), coordinates<double, D>(this->rate_),
-                                           coordinates<double, D>(a), by, o.stored, table, law);
+    const auto tangent =
+        moving_tangent<MovingEnds::both, D, 0>(coordinates<double, D>(this->q_), coordinates<double, D>(this->rate_),
+                                               coordinates<double, D>(a), by, o.stored, table, law);
     const auto eq = moving_equations<Real, D>(along(this->q_, by.q * direction), along(this->rate_, by.v * direction),
                                               o.stored, table, law);
     const auto exact = nodal_residual(eq, along(a, by.a * direction));

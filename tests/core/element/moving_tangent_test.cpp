@@ -43,7 +43,7 @@ Eigen::Matrix<double, 4 * D + moving_ends<Ends>, 1> rate_of_residual(
 template <MovingEnds Ends, int D>
 void expect_derivative(const Choice& choice, Random& random, StrainLaw strain_law, bool bends) {
   constexpr int N = 4 * D + moving_ends<Ends>;
-  const double by_v = 30, by_a = 900;
+  const TangentWeights by{0.7, 30, 900};
   std::array<ElementColumn<double, D>, 3> state{random_element<D>(random), random_rates<D>(random),
                                                 random_rates<D>(random)};
   for (std::size_t i = 1; i < 3; ++i) {
@@ -64,11 +64,12 @@ void expect_derivative(const Choice& choice, Random& random, StrainLaw strain_la
   law.gravity = random.vector<D>(9.81);
 
   const auto tangent = moving_tangent<Ends, D>(q, coordinates<double, D>(state[1]), coordinates<double, D>(state[2]),
-                                               by_v, by_a, weights, table, law);
+                                               by, weights, table, law);
   for (int j = 0; j < N; ++j) {
     const int direction = j < 4 * D ? j : is_end_a<Ends>(j - 4 * D) ? 4 * D : 4 * D + 1;
     const ElementColumn<double, D> unit = ElementColumn<double, D>::Unit(direction);
-    const auto expected = rate_of_residual<Ends, D>(state, {unit, by_v * unit, by_a * unit}, weights, table, law);
+    const auto expected =
+        rate_of_residual<Ends, D>(state, {by.q * unit, by.v * unit, by.a * unit}, weights, table, law);
     EXPECT_LE((tangent.col(j) - expected).norm(), 1e-12 * tangent.norm()) << "column " << j;
   }
 }

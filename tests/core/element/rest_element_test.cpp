@@ -86,7 +86,7 @@ TYPED_TEST(RestElements, AnElementInItsRestShapeIsFreeOfStress) {
 TYPED_TEST(RestElements, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   using Real = Dual<double>;
-  const double by_v = 30, by_a = 900;
+  const TangentWeights by{0.7, 30, 900};
   this->for_each_element(1, [&](const auto& kind) {
     if (kind.law != StrainLaw::green) return;
     const auto rest = this->draw_rest_shape();
@@ -95,12 +95,12 @@ TYPED_TEST(RestElements, TangentIsTheDerivativeOfTheResidual) {
     const ShapeTabulation table(this->oracle_.rule, this->oracle_.stored.w);
     for (const Formulation formulation : formulations) {
       const auto law = this->law(formulation, rest);
-      const auto tangent = moving_tangent<MovingEnds::b, D>(
-          coordinates<double, D>(state[0]), coordinates<double, D>(state[1]), coordinates<double, D>(state[2]), by_v,
-          by_a, this->oracle_.stored, table, law);
+      const auto tangent =
+          moving_tangent<MovingEnds::b, D>(coordinates<double, D>(state[0]), coordinates<double, D>(state[1]),
+                                           coordinates<double, D>(state[2]), by, this->oracle_.stored, table, law);
       for (int j = 0; j < 4 * D + 1; ++j) {
         const ElementColumn<double, D> unit = ElementColumn<double, D>::Unit(j < 4 * D ? j : 4 * D + 1);
-        const std::array<double, 3> scale{1, by_v, by_a};
+        const std::array<double, 3> scale{by.q, by.v, by.a};
         auto moving = [&](std::size_t i) {
           return coordinates<Real, D>(in_motion<double, element_size<D>>(state[i], scale[i] * unit));
         };

@@ -109,7 +109,7 @@ TYPED_TEST(RiderTest, EquationsAreThoseOfItsLagrangian) {
 TYPED_TEST(RiderTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   using Real = Dual<double>;
-  const double by_v = 30, by_a = 900;
+  const TangentWeights by{0.7, 30, 900};
   for (unsigned seed = 1; seed < 13; ++seed) {
     Case<D> c(seed, seed % 2 == 0);
     const bool held = seed % 3 == 0;
@@ -117,11 +117,12 @@ TYPED_TEST(RiderTest, TangentIsTheDerivativeOfTheResidual) {
     const auto at = held ? rider_motion<double, D>(c.element, nodes<double, D>(c.q), nodes<double, D>(c.rate),
                                                    c.element.x_a + c.element.length, 0)
                          : c.template motion<double>(c.q, c.rate);
-    const auto tangent = rider_tangent<D>(at, nodes<double, D>(c.a), c.a[4 * D], c.joint, c.gravity, held, by_v, by_a);
+    const auto tangent = rider_tangent<D>(at, nodes<double, D>(c.a), c.a[4 * D], c.joint, c.gravity, held, by);
     for (int j = 0; j <= 4 * D; ++j) {
       const Column<D> unit = Column<D>::Unit(j);
-      const auto moving = c.template residual<Real>(in_motion(c.q, unit), in_motion(c.rate, (by_v * unit).eval()),
-                                                    in_motion(c.a, (by_a * unit).eval()), held);
+      const auto moving =
+          c.template residual<Real>(in_motion(c.q, (by.q * unit).eval()), in_motion(c.rate, (by.v * unit).eval()),
+                                    in_motion(c.a, (by.a * unit).eval()), held);
       const Column<D> expected = rate_of<double, 4 * D + 1>(moving);
       EXPECT_LE((tangent.col(j) - expected).norm(), 1e-12 * tangent.norm()) << "column " << j << ", seed " << seed;
     }

@@ -46,20 +46,20 @@ struct HeldChain {
     return forces[0].dot(y.template segment<node_size<D>>(n)) +
            forces[1].dot(y.template segment<node_size<D>>(n + last));
   }
-  /// Along (d, by_v d, by_a d) the solve with the tangent undoes the residual's change: by how much it does not, over
+  /// Along (d, by.v d, by.a d) the solve with the tangent undoes the residual's change: by how much it does not, over
   /// d.
   double tangent_error(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
     auto& implicit = *system->second_order();
-    const double by_v = 7, by_a = 300;
+    const TangentWeights by{1, 7, 300};
     Eigen::VectorXd r(q.size());
     const Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(q.size(), [&] { return random.uniform(-3, 3); });
     Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(q.size(), [&] { return random.uniform(-1, 1); });
-    if (!implicit.linearize(q, v, a, now, by_v, by_a)) return 1;
+    if (!implicit.linearize(q, v, a, now, by)) return 1;
     implicit.residual(q, v, a + d, now, r);
     implicit.solve(r);
     d = r / r.norm();
     Eigen::VectorXd change = slope_of([&](double s) {
-      implicit.residual(q + s * d, v + s * by_v * d, a + s * by_a * d, now, r);
+      implicit.residual(q + s * d, v + s * by.v * d, a + s * by.a * d, now, r);
       return r;
     });
     implicit.solve(change);

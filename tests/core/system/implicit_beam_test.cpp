@@ -133,7 +133,7 @@ TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
   }
 }
 
-/// Along the direction of an implicit step (d, by_v d, by_a d) the solve must undo the residual's change.
+/// Along the direction of an implicit step (d, by.v d, by.a d) the solve must undo the residual's change.
 TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   unsigned seed = 11;
@@ -141,10 +141,10 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
     Case<D> c(shape, seed++, constraints, friction, held, nut);
     auto& implicit = *c.system->second_order();
     const Eigen::Index n = c.q.size();
-    const double by_v = 7, by_a = 300;
+    const TangentWeights by{1, 7, 300};
     Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(n, [&] { return c.random.uniform(-1, 1); });
     // only directions that the supports allow: what the solve itself returns
-    ASSERT_TRUE(implicit.linearize(c.q, c.v, c.a, 0, by_v, by_a));
+    ASSERT_TRUE(implicit.linearize(c.q, c.v, c.a, 0, by));
     Eigen::VectorXd projected(n);
     implicit.residual(c.q, c.v, c.a + d, 0, projected);
     implicit.solve(projected);
@@ -153,8 +153,8 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
     // fourth-order central difference
     auto change = [&](double s) {
       Eigen::VectorXd plus(n), minus(n);
-      implicit.residual(c.q + s * d, c.v + s * by_v * d, c.a + s * by_a * d, 0, plus);
-      implicit.residual(c.q - s * d, c.v - s * by_v * d, c.a - s * by_a * d, 0, minus);
+      implicit.residual(c.q + s * d, c.v + s * by.v * d, c.a + s * by.a * d, 0, plus);
+      implicit.residual(c.q - s * d, c.v - s * by.v * d, c.a - s * by.a * d, 0, minus);
       return Eigen::VectorXd((plus - minus) / (2 * s));
     };
     Eigen::VectorXd r = (4 * change(5e-5) - change(1e-4)) / 3;
@@ -163,7 +163,7 @@ TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   }
 }
 
-/// A linear combination of its columns is the residual's change along (d, by_v d, by_a d), multipliers by one each.
+/// A linear combination of its columns is the residual's change along (d, by.v d, by.a d), multipliers by one each.
 TYPED_TEST(ImplicitBeamTest, DenseTangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   unsigned seed = 51;
@@ -172,17 +172,17 @@ TYPED_TEST(ImplicitBeamTest, DenseTangentIsTheDerivativeOfTheResidual) {
     Case<D> c(shape, seed++, constraints, friction, held, nut);
     auto& implicit = *c.system->second_order();
     const Eigen::Index n = c.q.size(), m = implicit.multipliers();
-    const double by_v = 7, by_a = 300;
+    const TangentWeights by{1, 7, 300};
     Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(n, [&] { return c.random.uniform(-1, 1); });
     d *= 0.1 / d.norm();
-    Eigen::VectorXd of_a = by_a * d;
+    Eigen::VectorXd of_a = by.a * d;
     of_a.tail(m) = d.tail(m);
     Eigen::MatrixXd dense;
-    implicit.tangent(c.q, c.v, c.a, 0, by_v, by_a, dense);
+    implicit.tangent(c.q, c.v, c.a, 0, by, dense);
     auto change = [&](double s) {
       Eigen::VectorXd plus(n), minus(n);
-      implicit.residual(c.q + s * d, c.v + s * by_v * d, c.a + s * of_a, 0, plus);
-      implicit.residual(c.q - s * d, c.v - s * by_v * d, c.a - s * of_a, 0, minus);
+      implicit.residual(c.q + s * d, c.v + s * by.v * d, c.a + s * of_a, 0, plus);
+      implicit.residual(c.q - s * d, c.v - s * by.v * d, c.a - s * of_a, 0, minus);
       return Eigen::VectorXd((plus - minus) / (2 * s));
     };
     const double step = friction ? 1e-5 : 1e-3;  // the force that presses may turn within less

@@ -81,7 +81,7 @@ TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
     const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
     const Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(n, [&] { return this->random_.uniform(-1, 1); });
     const double by_v = 30, by_a = 900, h = 1e-6;
-    ASSERT_TRUE(flow.linearize(q, v, a, 0.1, by_v, by_a));
+    ASSERT_TRUE(flow.linearize(q, v, a, 0.1, {1, by_v, by_a}));
     // along a direction that the supports allow: one that the solver returns
     Eigen::VectorXd direction = Eigen::VectorXd::NullaryExpr(n, [&] { return this->random_.uniform(-1, 1); });
     Eigen::VectorXd plus(n), minus(n);
@@ -91,7 +91,7 @@ TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
     flow.residual(q + h * direction, v + h * by_v * direction, a + h * by_a * direction, 0.1, plus);
     flow.residual(q - h * direction, v - h * by_v * direction, a - h * by_a * direction, 0.1, minus);
     Eigen::VectorXd back = (plus - minus) / (2 * h);
-    ASSERT_TRUE(flow.linearize(q, v, a, 0.1, by_v, by_a));
+    ASSERT_TRUE(flow.linearize(q, v, a, 0.1, {1, by_v, by_a}));
     flow.solve(back);
     EXPECT_LE(relative_difference(back, direction), 1e-6);
   }

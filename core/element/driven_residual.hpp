@@ -7,11 +7,6 @@ namespace vlbeam {
 // A variable-length element both of whose material coordinates are prescribed in time: what remains unknown are the
 // nodal coordinates, and everything kinematic is linear in these.
 
-/// Weights of the derivatives of a residual r(q, q', q'') in their sum, q dr/dq + v dr/dq' + a dr/dq''.
-struct TangentWeights {
-  double q, v, a;
-};
-
 /// Residual M q'' - Q of (r_A, s_A, r_B, s_B) from the element's equations, q'' = (e'', x_A'', x_B'').
 template <class Real, int D>
 std::array<Vec<Real, D>, 4> nodal_residual(const MovingEquations<Real, D>& eq, const MovingCoordinates<Real, D>& a) {
@@ -36,14 +31,5 @@ std::array<Real, 2> guiding_forces(const MovingEquations<Real, D>& eq, const Mov
   }
   return force;
 }
-
-/// Derivative of nodal_residual by (r_A, s_A, r_B, s_B), their rates and their accelerations, summed with `by`.
-/// The kinematics of unit vectors are the derivatives of the kinematics; what remains is that of the stresses.
-template <int D>
-Eigen::Matrix<double, 4 * D, 4 * D> driven_tangent(const MovingCoordinates<double, D>& q,
-                                                   const MovingCoordinates<double, D>& rate,
-                                                   const MovingCoordinates<double, D>& a, const TangentWeights& by,
-                                                   const WeightFunction& weights, const ShapeTabulation& table,
-                                                   const MovingLaw<D>& law);
 
 }  // namespace vlbeam
