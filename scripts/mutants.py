@@ -196,8 +196,10 @@ def main():
     tests = sorted({target for mutant in mutants for target in mutant["tests"]})
     if not compile_targets([*tests, "vlbeam"], choice.jobs):  # tests of the harness run the program
         fail("the copy does not compile")
-    if noticed := run_tests(tests):
-        fail("without any mistake there fails " + noticed["by"])
+    with concurrent.futures.ThreadPoolExecutor(choice.jobs) as pool:
+        for noticed in pool.map(lambda target: run_tests([target]), reversed(tests)):
+            if noticed:
+                fail("without any mistake there fails " + noticed["by"])
     if choice.start:
         return 0
 

@@ -9,7 +9,7 @@
 namespace vlbeam {
 
 /// A sample or an event of an integration: what the equations are told of the solution.
-struct Happening {
+struct LoggedEvent {
   int guard = -1;              ///< index of the guard that has turned positive; -1 of a sample
   double t = 0;                ///< [s]
   Eigen::VectorXd y;           ///< before the event
@@ -19,7 +19,7 @@ struct Happening {
 /// All that an integration needs in order to go on with the same digits. The equations come to where they were by being
 /// told all that has happened once more: nothing of theirs, neither meshes nor results, is in here but by this.
 struct Checkpoint {
-  std::vector<Happening> past;
+  std::vector<LoggedEvent> past;
   double t = 0;  ///< [s]
   Eigen::VectorXd y;
   std::vector<double> system;  ///< what the equations remember

@@ -13,7 +13,7 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
-constexpr double least_motion = 1e-3;                                     // of Tolerances::motion
+constexpr double least_motion = 1e-5;                                     // of Tolerances::motion
 
 class GeneralizedAlpha final : public Stepper {
  public:

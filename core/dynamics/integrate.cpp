@@ -227,9 +227,9 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
 }
 
 /// Tells the equations what happens to them, and remembers it where checkpoints are to be kept.
-class Herald {
+class EventLog {
  public:
-  Herald(EventedOde& ode, const Checkpoints* checkpoints)
+  EventLog(EventedOde& ode, const Checkpoints* checkpoints)
       : ode_(ode), checkpoints_(checkpoints && checkpoints->keep ? checkpoints : nullptr) {}
 
   void sample(const Eigen::VectorXd& y, double t) {
@@ -243,7 +243,7 @@ class Herald {
 
   /// Tells all that happened before a checkpoint once more.
   void repeat(const Checkpoint& from) {
-    for (const Happening& happening : from.past) {
+    for (const LoggedEvent& happening : from.past) {
       if (happening.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
       recall(happening.system);
       if (happening.guard < 0) {
@@ -319,7 +319,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   double last_event = t - 1;
   int cascade = 0;
 
-  Herald herald(ode, checkpoints);
+  EventLog log(ode, checkpoints);
   const auto exchange = [&](Memory& memory) {
     memory(dt);
     memory(last_event);
@@ -331,7 +331,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   if (checkpoints != nullptr && checkpoints->from) {
     const Checkpoint& from = *checkpoints->from;
     try {
-      herald.repeat(from);
+      log.repeat(from);
       y = from.y;
       t = from.t;
       Memory memory(from.method);
@@ -342,8 +342,8 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     }
     next_sample = std::upper_bound(sample_times.begin(), sample_times.end(), t);
   } else {
-    for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) herald.sample(y, t);
-    herald.set_next(t);
+    for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) log.sample(y, t);
+    log.set_next(t);
   }
   Eigen::VectorXd before = y;
 
@@ -388,7 +388,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       y = event.y;
     }
     for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
-      herald.sample(state_at(ode, side, *stepper, {t_before, before, t, y}, *next_sample), *next_sample);
+      log.sample(state_at(ode, side, *stepper, {t_before, before, t, y}, *next_sample), *next_sample);
     }
     if (!cut && !last) {
       counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
@@ -400,15 +400,15 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       if (cascade > longest_cascade) {
         throw ComputationFailed("a cascade of length-control events without progress in time", t);
       }
-      herald.event(event.index, y, t);
+      log.event(event.index, y, t);
       stepper->reset();
       dt = tried;
     }
     const bool goes_on = ode.proceed(y, t);
-    if (herald.due(t, goes_on)) {
+    if (log.due(t, goes_on)) {
       Memory memory;
       exchange(memory);
-      herald.keep(y, t, memory.numbers());
+      log.keep(y, t, memory.numbers());
     }
     if (!goes_on) return false;
   }

@@ -20,7 +20,7 @@ struct Tolerances {
   double atol = 1e-9;                            ///< of every entry of the state in its own unit
   std::optional<FieldTolerances> by_field = {};  ///< in place of it
   /// [m] of displacement, from which those of `by_field` hold in full; until something has moved as far they are
-  /// smaller in proportion, down to a thousandth. 0: they always hold. Of generalized-alpha alone.
+  /// smaller in proportion, down to 1e-5 of them. 0: they always hold. Of generalized-alpha alone.
   double motion = 0;
 };
 

@@ -554,11 +554,12 @@ struct SceneOptions {
 
   void integrator() {
     const std::string_view integrator_type = "/integrator/type";
-    number("/integrator/accuracy", "-", Range::closed(1e-10, 1e-2),
-           "of positions in time, over the beam's length, and over its motion where that is smaller: what else the "
-           "integrator needs is chosen for it; excludes all other keys",
-           scene.integrator.accuracy,
-           in_motion({.when = {.pointer = {}, .values = {}, .holds = scene.integrator.automatic, .or_else = {}}}));
+    number(
+        "/integrator/accuracy", "-", Range::closed(1e-10, 1e-2),
+        "of positions in time, over the beam's length, and over its motion where that is smaller, down to 1e-6 of the "
+        "length: what else the integrator needs is chosen for it; excludes all other keys",
+        scene.integrator.accuracy,
+        in_motion({.when = {.pointer = {}, .values = {}, .holds = scene.integrator.automatic, .or_else = {}}}));
     choice(integrator_type, "time integrator; ida, cvode and arkode need a build with SUNDIALS", scene.integrator.type,
            in_motion());
     number("/integrator/rtol", "-", Range::closed(1e-14, 1),
@@ -586,7 +587,7 @@ struct SceneOptions {
              "of their rates; if not given that of the rates of slopes", atol.spin);
       number("/integrator/atol/motion", "m", Range::positive(),
              "displacement from which these tolerances hold in full: until something has moved as far they are smaller "
-             "in proportion, down to a thousandth, and the first step is one in which a wave crosses the shortest "
+             "in proportion, down to 1e-5 of them, and the first step is one in which a wave crosses the shortest "
              "element; if not given they always hold",
              atol.motion, {.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)});
     }

@@ -389,12 +389,12 @@ std::array<double*, 4> BeamSystem<D>::vectors_of(double* q, int k) const {
 /// M a = F with some accelerations a_s given: the others follow from M a = F - M a_s, and what holds a_s is M a - F.
 /// Only the elements at a support or at a joint that is held couple a_s to anything.
 template <int D>
-class BeamSystem<D>::Pull {
+class BeamSystem<D>::PrescribedMotion {
  public:
   /// Takes the inertia of the given accelerations from the forces. `at_joints` holds the elements at the joints; q and
   /// its rates are as the supports have them.
-  Pull(const BeamSystem& system, const JointElements& at_joints, const double* q, const double* rate, double* force,
-       double t)
+  PrescribedMotion(const BeamSystem& system, const JointElements& at_joints, const double* q, const double* rate,
+                   double* force, double t)
       : system_(&system) {
     add_supports(at_joints, q, rate, force, t);
     add_joints(at_joints, force, t);
@@ -532,9 +532,9 @@ class BeamSystem<D>::Pull {
 };
 
 template <int D>
-std::optional<typename BeamSystem<D>::Pull> BeamSystem<D>::solve_apart(const double* q, const double* rate, double t,
-                                                                       double* force) const {
-  std::optional<Pull> pull;
+std::optional<typename BeamSystem<D>::PrescribedMotion> BeamSystem<D>::solve_apart(const double* q, const double* rate,
+                                                                                   double t, double* force) const {
+  std::optional<PrescribedMotion> pull;
   if (model_.driven()) pull.emplace(*this, JointElements{}, q, rate, force, t);
   solve_without_joint(*left_, *right_, force);
   if (pull) pull->complete(force);
@@ -601,7 +601,7 @@ Eigen::VectorXd BeamSystem<D>::forces_at_contacts(const Eigen::VectorXd& y, doub
   add_forces(q, rate, t, a.data(), elements);
   std::vector<JointMotion<D>> motions;
   for (std::size_t i = 0; i < places_.size(); ++i) motions.push_back(joint_motion(i, q, rate, t));
-  std::optional<Pull> pull;
+  std::optional<PrescribedMotion> pull;
   if (model_.driven()) pull.emplace(*this, elements, q, rate, a.data(), t);
   std::optional<Eigen::VectorXd> forces;
   if (solve_joints(elements, motions, a.data())) {
@@ -630,7 +630,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   };
   if (!travel(t)) return invalid();
   Tally power = add_forces(q, rate, t, force, elements_);
-  std::optional<Pull> pull;  // of moving supports
+  std::optional<PrescribedMotion> pull;  // of moving supports
   const Eigen::Index angles = this->angles();
   if (spin_ && !spin_->accelerate(q + angles, rate + angles, t, force + angles, power.dissipated)) return invalid();
 

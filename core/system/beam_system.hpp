@@ -289,7 +289,7 @@ class BeamSystem final : public EventedOde {
   using JointElements = std::vector<MovingEquations<double, D>>;  ///< of the moving parts
 
   /// What moving supports do to the equations of motion.
-  class Pull;
+  class PrescribedMotion;
   /// Lets the supports of the spans stand as they do at time t.
   void orient(double t) const;
   /// Where the four nodal vectors of element k are in an array like q.
@@ -317,28 +317,28 @@ class BeamSystem final : public EventedOde {
   /// Throws ComputationFailed: joint `which` is as near the next one as joints come.
   [[noreturn]] void joints_met(std::size_t which, double t) const;
   /// What is due where a guard is positive.
-  struct Due {
+  struct PendingEvent {
     EventType type;
     Direction direction;
     std::size_t which;    ///< of the joints on the beam
     Remeshing remeshing;  ///< of the mesh at a joint
   };
-  Due due(const Guard& guard, const Eigen::VectorXd& y) const;
+  PendingEvent due(const Guard& guard, const Eigen::VectorXd& y) const;
   /// That, and whatever else of the mesh is due at the same instant, the first one first.
-  std::vector<Due> all_due(int index, const Eigen::VectorXd& y, double t) const;
+  std::vector<PendingEvent> all_due(int index, const Eigen::VectorXd& y, double t) const;
   /// Neighbouring joints ask for the same cut or the same merge: one of them does it.
-  void drop_doubles(std::vector<Due>& dues) const;
+  void drop_doubles(std::vector<PendingEvent>& dues) const;
   /// What a joint, moving in a direction, asks for of the mesh: a cut behind it, a merge ahead.
   Remeshing wanted(std::size_t which, Direction direction, const Eigen::VectorXd& y) const;
   /// Material coordinate of a node of the mesh [m].
   double mark_of(int node, const double* q) const { return view(q, q).mark_of(node); }
   /// The joint leaves the beam where it may; throws ComputationFailed where it may not.
-  void check_leaving(const Due& due, double t) const;
+  void check_leaving(const PendingEvent& due, double t) const;
   /// What an event makes of the chain, and of `y` where it is an impact.
-  MergedWeights change(const Due& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
+  MergedWeights change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
   /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
   /// gone; the iterations it took.
-  int relax_after(const std::vector<Due>& dues, ChainState<D>& chain, double t, double excess) const;
+  int relax_after(const std::vector<PendingEvent>& dues, ChainState<D>& chain, double t, double excess) const;
   bool at_joint(int node) const { return view(nullptr, nullptr).joint_at(node) != nullptr; }
   Guards rider_guards(const Eigen::VectorXd& y, double t) const;
   Guards travel_guards(double t) const;
@@ -358,8 +358,8 @@ class BeamSystem final : public EventedOde {
   /// Where they touch for the first time [m].
   double touching() const { return model_.contact_distance * model_.length_control.standard_length; }
   /// From now on its nodes rest against each other, or no longer.
-  void settle(const Contact& contact, const Eigen::VectorXd& y);
-  void part(const Contact& contact, const Eigen::VectorXd& y);
+  void close_contact(const Contact& contact, const Eigen::VectorXd& y);
+  void open_contact(const Contact& contact, const Eigen::VectorXd& y);
   void find_resting();
   /// All that touch and come nearer strike each other at once, and what rests bears it: new velocities, and what rests
   /// then. Throws ComputationFailed where it cannot.
@@ -388,7 +388,7 @@ class BeamSystem final : public EventedOde {
   /// Where a mass is that has just left a support [m].
   double clear_of_end() const;
   /// Solves M a = f of the nodes of a beam without a joint, in place; what moving supports do is in what it returns.
-  std::optional<Pull> solve_apart(const double* q, const double* rate, double t, double* force) const;
+  std::optional<PrescribedMotion> solve_apart(const double* q, const double* rate, double t, double* force) const;
   /// The law of the mass that rides.
   const SlidingJoint& rider_law() const { return model_.joints.front().law; }
   /// What the rider does to a beam that would have the accelerations `a` without it; completes them.

@@ -224,7 +224,7 @@ Remeshing BeamSystem<D>::wanted(std::size_t which, Direction direction, const Ei
 }
 
 template <int D>
-typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::VectorXd& y) const {
+typename BeamSystem<D>::PendingEvent BeamSystem<D>::due(const Guard& guard, const Eigen::VectorXd& y) const {
   const auto kind = static_cast<Kind>(guard.kind);
   const auto which = static_cast<std::size_t>(guard.part);
   const bool backward = kind == Kind::backward || kind == Kind::start || kind == Kind::near_start ||
@@ -267,7 +267,8 @@ typename BeamSystem<D>::Due BeamSystem<D>::due(const Guard& guard, const Eigen::
 }
 
 template <int D>
-std::vector<typename BeamSystem<D>::Due> BeamSystem<D>::all_due(int index, const Eigen::VectorXd& y, double t) const {
+std::vector<typename BeamSystem<D>::PendingEvent> BeamSystem<D>::all_due(int index, const Eigen::VectorXd& y,
+                                                                         double t) const {
   const Guards now = guards(y, t);
   const Guard& first = now[static_cast<std::size_t>(index)];
   if (static_cast<Kind>(first.kind) == Kind::meeting) joints_met(static_cast<std::size_t>(first.part), t);
@@ -284,12 +285,13 @@ std::vector<typename BeamSystem<D>::Due> BeamSystem<D>::all_due(int index, const
     const auto of = static_cast<Kind>(kind);
     return of == Kind::forward || of == Kind::backward || of == Kind::merge_ahead || of == Kind::merge_behind;
   };
-  std::vector<Due> result{due(first, y)};
+  std::vector<PendingEvent> result{due(first, y)};
   if (places_.size() < 2 || !remeshes(first.kind)) return result;
   for (const Guard& guard : now) {
     const auto which = static_cast<std::size_t>(guard.part);
     if (!remeshes(guard.kind) || guard.value < -same_instant) continue;
-    if (std::any_of(result.begin(), result.end(), [&](const Due& other) { return other.which == which; })) continue;
+    if (std::any_of(result.begin(), result.end(), [&](const PendingEvent& other) { return other.which == which; }))
+      continue;
     result.push_back(due(guard, y));
   }
   drop_doubles(result);
@@ -297,12 +299,12 @@ std::vector<typename BeamSystem<D>::Due> BeamSystem<D>::all_due(int index, const
 }
 
 template <int D>
-void BeamSystem<D>::drop_doubles(std::vector<Due>& dues) const {
-  const auto cut_of = [&](const Due& due) {
+void BeamSystem<D>::drop_doubles(std::vector<PendingEvent>& dues) const {
+  const auto cut_of = [&](const PendingEvent& due) {
     const int node = places_[due.which].node;
     return due.direction == Direction::forward ? node - 1 : node;
   };
-  const auto deleted_by = [&](const Due& due) {
+  const auto deleted_by = [&](const PendingEvent& due) {
     const int node = places_[due.which].node;
     return due.direction == Direction::forward ? node + 1 : node - 1;
   };
@@ -313,7 +315,7 @@ void BeamSystem<D>::drop_doubles(std::vector<Due>& dues) const {
     }
     due->type = type_of(due->remeshing);
   }
-  const auto nothing_left = [](const Due& due) { return !due.remeshing.cut && !due.remeshing.merge; };
+  const auto nothing_left = [](const PendingEvent& due) { return !due.remeshing.cut && !due.remeshing.merge; };
   dues.erase(std::remove_if(dues.begin() + 1, dues.end(), nothing_left), dues.end());
 }
 
@@ -379,14 +381,14 @@ void BeamSystem<D>::find_resting() {
 }
 
 template <int D>
-void BeamSystem<D>::part(const Contact& contact, const Eigen::VectorXd& y) {
+void BeamSystem<D>::open_contact(const Contact& contact, const Eigen::VectorXd& y) {
   const double clear = gap(contact, y).distance - clearance * model_.length_control.standard_length;
   touches_[contact.which][contact.support < 0 ? 0 : 1] = {clear, false};
   find_resting();
 }
 
 template <int D>
-void BeamSystem<D>::settle(const Contact& contact, const Eigen::VectorXd& y) {
+void BeamSystem<D>::close_contact(const Contact& contact, const Eigen::VectorXd& y) {
   touches_[contact.which][contact.support < 0 ? 0 : 1] = {gap(contact, y).distance, true};
   find_resting();
 }
@@ -465,7 +467,7 @@ void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorX
     std::size_t pulled = 0;
     while (pulled < bearing.size() && !pulls(pulled)) ++pulled;
     if (pulled < bearing.size()) {
-      part(bearing[pulled], y);
+      open_contact(bearing[pulled], y);
       bearing.erase(bearing.begin() + static_cast<std::ptrdiff_t>(pulled));
       continue;
     }
@@ -493,7 +495,7 @@ void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
   const auto collides = [&] {
     collide(bearing, y, t);
     for (const Contact& contact : bearing) {
-      if (stays(contact)) settle(contact, y);
+      if (stays(contact)) close_contact(contact, y);
     }
   };
   collides();
@@ -517,7 +519,7 @@ void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
-void BeamSystem<D>::check_leaving(const Due& due, double t) const {
+void BeamSystem<D>::check_leaving(const PendingEvent& due, double t) const {
   const bool forward = due.direction == Direction::forward;
   const int node = places_[due.which].node;
   if (!(forward ? node + 1 == mesh_.last() : node == 1)) {
@@ -529,7 +531,7 @@ void BeamSystem<D>::check_leaving(const Due& due, double t) const {
 }
 
 template <int D>
-MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen::VectorXd& y, double t) {
+MergedWeights BeamSystem<D>::change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t) {
   const auto& control = model_.length_control;
   switch (due.type) {
     case EventType::separation: {
@@ -577,7 +579,7 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
         const auto parts = std::ranges::find_if(resting_, [&](const Contact& contact) {
           return contact.which == due.which && (contact.support < 0) == (due.direction == Direction::backward);
         });
-        part(Contact(*parts), y);
+        open_contact(Contact(*parts), y);
         chain = this->chain(y, t);
       }
       return {};
@@ -589,7 +591,8 @@ MergedWeights BeamSystem<D>::change(const Due& due, ChainState<D>& chain, Eigen:
 }
 
 template <int D>
-int BeamSystem<D>::relax_after(const std::vector<Due>& dues, ChainState<D>& chain, double t, double excess) const {
+int BeamSystem<D>::relax_after(const std::vector<PendingEvent>& dues, ChainState<D>& chain, double t,
+                               double excess) const {
   const auto& control = model_.length_control;
   std::vector<GivingNode> giving;
   const auto slope_is_free = [&](int node) {
@@ -614,7 +617,7 @@ int BeamSystem<D>::relax_after(const std::vector<Due>& dues, ChainState<D>& chai
       giving.push_back({node, place_is_free(node), slope_is_free(node)});
     }
   };
-  for (const Due& due : dues) {
+  for (const PendingEvent& due : dues) {
     const bool forward = due.direction == Direction::forward;
     switch (due.type) {
       case EventType::segment_merge:
@@ -650,7 +653,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   orient(t);
   const bool ramped = ramp_.due(model_.gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
-  const std::vector<Due> dues = all_due(index, y, t);
+  const std::vector<PendingEvent> dues = all_due(index, y, t);
   const EventType type = dues.front().type;
   const bool leaving = type == EventType::separation;
   if (leaving && has_joint()) check_leaving(dues.front(), t);
@@ -670,7 +673,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
                         relaxes(model_.length_control);
   const int reach = reshapes ? 3 : 2;
   int lowest = mesh_.elements(), highest = 0;
-  for (const Due& due : dues) {
+  for (const PendingEvent& due : dues) {
     const int middle = rider_ ? rider_->element : places_[due.which].node;
     lowest = std::min(lowest, std::max(0, middle - reach));
     highest = std::max(highest, std::min(mesh_.elements(), middle + reach));
@@ -698,10 +701,10 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (dues.size() == 1) {
     records.front().merged = change(dues.front(), record.after, y, t);
   } else {  // cuts first, at places that no merge has moved: mirror images stay mirror images
-    const auto remesh = [&](const Due& due, const Remeshing& what) {
+    const auto remesh = [&](const PendingEvent& due, const Remeshing& what) {
       return segment_and_merge(record.after, due.which, due.direction, what, model_.length_control, moving_law(t));
     };
-    for (const Due& due : dues) {
+    for (const PendingEvent& due : dues) {
       if (due.remeshing.cut) remesh(due, {true, false});
     }
     for (std::size_t i = 0; i < dues.size(); ++i) {
@@ -766,20 +769,20 @@ template void BeamSystem<2>::add_feed_guards(std::size_t, const Eigen::VectorXd&
 template void BeamSystem<2>::joints_met(std::size_t, double) const;
 template Guards BeamSystem<2>::rider_guards(const Eigen::VectorXd&, double) const;
 template Remeshing BeamSystem<2>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
-template BeamSystem<2>::Due BeamSystem<2>::due(const Guard&, const Eigen::VectorXd&) const;
-template std::vector<BeamSystem<2>::Due> BeamSystem<2>::all_due(int, const Eigen::VectorXd&, double) const;
-template void BeamSystem<2>::drop_doubles(std::vector<Due>&) const;
+template BeamSystem<2>::PendingEvent BeamSystem<2>::due(const Guard&, const Eigen::VectorXd&) const;
+template std::vector<BeamSystem<2>::PendingEvent> BeamSystem<2>::all_due(int, const Eigen::VectorXd&, double) const;
+template void BeamSystem<2>::drop_doubles(std::vector<PendingEvent>&) const;
 template double BeamSystem<2>::clear_of_end() const;
 template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
-template void BeamSystem<2>::check_leaving(const Due&, double) const;
-template MergedWeights BeamSystem<2>::change(const Due&, ChainState<2>&, Eigen::VectorXd&, double);
+template void BeamSystem<2>::check_leaving(const PendingEvent&, double) const;
+template MergedWeights BeamSystem<2>::change(const PendingEvent&, ChainState<2>&, Eigen::VectorXd&, double);
 template std::vector<BeamSystem<2>::Contact> BeamSystem<2>::contacts() const;
 template BeamSystem<2>::Gap BeamSystem<2>::gap(const Contact&, const Eigen::VectorXd&) const;
 template void BeamSystem<2>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<2>::find_resting();
 template void BeamSystem<2>::comes_to_rest(const Contact&, double) const;
-template void BeamSystem<2>::part(const Contact&, const Eigen::VectorXd&);
-template void BeamSystem<2>::settle(const Contact&, const Eigen::VectorXd&);
+template void BeamSystem<2>::open_contact(const Contact&, const Eigen::VectorXd&);
+template void BeamSystem<2>::close_contact(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<2>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
 template std::optional<Eigen::VectorXd> BeamSystem<2>::press(const std::vector<Contact>&, const JointElements&,
                                                              const double*, const Eigen::VectorXd&, double*) const;
@@ -787,7 +790,7 @@ template double BeamSystem<2>::work_of_prescribed(const std::vector<Contact>&, c
                                                   const JointElements&, const double*, const double*,
                                                   const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<2>::bending_in(const double*) const;
-template int BeamSystem<2>::relax_after(const std::vector<Due>&, ChainState<2>&, double, double) const;
+template int BeamSystem<2>::relax_after(const std::vector<PendingEvent>&, ChainState<2>&, double, double) const;
 template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template Guards BeamSystem<3>::guards(const Eigen::VectorXd&, double) const;
@@ -795,20 +798,20 @@ template void BeamSystem<3>::add_feed_guards(std::size_t, const Eigen::VectorXd&
 template void BeamSystem<3>::joints_met(std::size_t, double) const;
 template Guards BeamSystem<3>::rider_guards(const Eigen::VectorXd&, double) const;
 template Remeshing BeamSystem<3>::wanted(std::size_t, Direction, const Eigen::VectorXd&) const;
-template BeamSystem<3>::Due BeamSystem<3>::due(const Guard&, const Eigen::VectorXd&) const;
-template std::vector<BeamSystem<3>::Due> BeamSystem<3>::all_due(int, const Eigen::VectorXd&, double) const;
-template void BeamSystem<3>::drop_doubles(std::vector<Due>&) const;
+template BeamSystem<3>::PendingEvent BeamSystem<3>::due(const Guard&, const Eigen::VectorXd&) const;
+template std::vector<BeamSystem<3>::PendingEvent> BeamSystem<3>::all_due(int, const Eigen::VectorXd&, double) const;
+template void BeamSystem<3>::drop_doubles(std::vector<PendingEvent>&) const;
 template double BeamSystem<3>::clear_of_end() const;
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
-template void BeamSystem<3>::check_leaving(const Due&, double) const;
-template MergedWeights BeamSystem<3>::change(const Due&, ChainState<3>&, Eigen::VectorXd&, double);
+template void BeamSystem<3>::check_leaving(const PendingEvent&, double) const;
+template MergedWeights BeamSystem<3>::change(const PendingEvent&, ChainState<3>&, Eigen::VectorXd&, double);
 template std::vector<BeamSystem<3>::Contact> BeamSystem<3>::contacts() const;
 template BeamSystem<3>::Gap BeamSystem<3>::gap(const Contact&, const Eigen::VectorXd&) const;
 template void BeamSystem<3>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<3>::find_resting();
 template void BeamSystem<3>::comes_to_rest(const Contact&, double) const;
-template void BeamSystem<3>::part(const Contact&, const Eigen::VectorXd&);
-template void BeamSystem<3>::settle(const Contact&, const Eigen::VectorXd&);
+template void BeamSystem<3>::open_contact(const Contact&, const Eigen::VectorXd&);
+template void BeamSystem<3>::close_contact(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<3>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
 template std::optional<Eigen::VectorXd> BeamSystem<3>::press(const std::vector<Contact>&, const JointElements&,
                                                              const double*, const Eigen::VectorXd&, double*) const;
@@ -816,7 +819,7 @@ template double BeamSystem<3>::work_of_prescribed(const std::vector<Contact>&, c
                                                   const JointElements&, const double*, const double*,
                                                   const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<3>::bending_in(const double*) const;
-template int BeamSystem<3>::relax_after(const std::vector<Due>&, ChainState<3>&, double, double) const;
+template int BeamSystem<3>::relax_after(const std::vector<PendingEvent>&, ChainState<3>&, double, double) const;
 template void BeamSystem<3>::hit(ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

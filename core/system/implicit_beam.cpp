@@ -30,7 +30,7 @@ double ImplicitBeam<D>::Constraint::rate(const double* q, const double* v, const
 }
 
 template <int D>
-void ImplicitBeam<D>::stand(double t) const {
+void ImplicitBeam<D>::update_supports(double t) const {
   refresh();
   if (!system_.model().turns()) return;
   const auto driven = system_.driven_points(t);
@@ -202,7 +202,7 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   expand(y_, a, unused);
   if (multipliers() == 0) return;
   a.tail(system_.resting_forces().size()) = -system_.resting_forces() / reference_mass_;
-  stand(t);
+  update_supports(t);
   // what the equations of motion lack is what the constraints give: their directions are orthonormal, node by node
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
@@ -346,7 +346,7 @@ template <int D>
 double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                  Eigen::VectorXd& r) {
   system_.count_evaluation();
-  stand(t);
+  update_supports(t);
   if (!system_.travel(t)) {
     r.setConstant(std::numeric_limits<double>::quiet_NaN());
     return 0;
@@ -392,7 +392,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
-  stand(t);
+  update_supports(t);
   const DrivenPoints& driven = driven_points(t);
   ConstraintResidual largest;
   for (const auto& constraint : constraints_) {
@@ -417,7 +417,7 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 template <int D>
 void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
-  stand(t);
+  update_supports(t);
   const DrivenPoints& driven = driven_points(t);
   Eigen::Index at = rates.size() - multipliers();
   for (const auto& constraint : constraints_) rates[at++] = constraint.rate(q.data(), v.data(), driven);
@@ -434,7 +434,7 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
   offset.setZero(q.size());
   at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - system_.guided(i, t)->value; });
   if (with_multipliers()) return true;
-  stand(t);
+  update_supports(t);
   const auto points = system_.driven_points(t);
   at_end_nodes([&](int node, const Support<D>& support, int /*joint*/) {
     const std::size_t end = node == 0 ? 0 : 1;
@@ -484,7 +484,7 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
   at_guides([&](std::size_t i) { power.supports += free_[places()[i].mark] * v[places()[i].mark]; });
-  stand(t);
+  update_supports(t);
   at_end_nodes([&](int node, const Support<D>& support, int /*joint*/) {
     const SupportMotion<D>& motion = node == 0 ? system_.model().start_motion : system_.model().end_motion;
     if (!motion) return;
@@ -550,7 +550,7 @@ void ImplicitBeam<D>::add_element(int node, const Matrix& matrix, const std::arr
 template <int D>
 void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                const TangentWeights& by) {
-  stand(t);
+  update_supports(t);
   const auto& model = system_.model();
   tangent_.reset(nodes());
   const bool travels = system_.moving_mesh() != nullptr;

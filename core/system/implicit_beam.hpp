@@ -104,7 +104,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   template <class Run, class Second>
   void for_each_run(const Run& run, const Second& second) const;
   /// The supports as they stand at time t, and the constraints by them.
-  void stand(double t) const;
+  void update_supports(double t) const;
   /// Slopes on the two sides of a joint; with one copy of its node they are the same.
   Slopes joint_slopes(std::size_t which, const double* q) const;
   /// The conditions on the slopes of a kinked joint.

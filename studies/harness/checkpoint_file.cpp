@@ -77,7 +77,7 @@ Checkpoint checkpoint_from(const Json& json) {
 void write_checkpoint(const std::filesystem::path& file, const Scene& scene, const Checkpoint& checkpoint) {
   Json json{{"program", program()}, {"scene", scene_to_json(scene)}};
   Json& past = json["past"] = Json::array();
-  for (const Happening& entry : checkpoint.past) {
+  for (const LoggedEvent& entry : checkpoint.past) {
     past.push_back({entry.guard, entry.t, packed(entry.y), packed(entry.system)});
   }
   json["t"] = checkpoint.t;

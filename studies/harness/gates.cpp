@@ -129,18 +129,18 @@ GateKind kind_of(const Fields& gate) {
   const auto kind = from_string<GateKind>(gate.text("kind"));
   if (!kind) {
     throw InvalidInput(gate.where() + "/kind", excerpt(gate.at("kind")),
-                       "it must be one of exact, independent, self, guard");
+                       "it must be one of exact, independent, self, regression");
   }
   return *kind;
 }
 
-/// Evidence has a reason for its bound; a guard says what it guards.
+/// Evidence has a reason for its bound; one of kind regression says what it guards.
 std::string reason_of(const Fields& gate) {
-  const bool guard = kind_of(gate) == GateKind::guard;
-  if (gate.has(guard ? "reason" : "guards")) {
-    throw InvalidInput(gate.where(), "this gate", "a guard has \"guards\", any other gate \"reason\"");
+  const bool regression = kind_of(gate) == GateKind::regression;
+  if (gate.has(regression ? "reason" : "guards")) {
+    throw InvalidInput(gate.where(), "this gate", "one of kind regression has \"guards\", any other gate \"reason\"");
   }
-  return gate.text(guard ? "guards" : "reason");
+  return gate.text(regression ? "guards" : "reason");
 }
 
 bool applies(const Fields& gate, const Json& report) {
@@ -202,7 +202,7 @@ Json gates_to_json(const std::vector<GateVerdict>& verdicts) {
                  {"kind", to_string(verdict.kind)},
                  {"value", std::isfinite(verdict.value) ? Json(verdict.value) : Json()},
                  {"bound", verdict.bound},
-                 {verdict.kind == GateKind::guard ? "guards" : "reason", verdict.reason},
+                 {verdict.kind == GateKind::regression ? "guards" : "reason", verdict.reason},
                  {"passed", verdict.passed}};
     if (verdict.uncertainty > 0) gate["uncertainty"] = verdict.uncertainty;
     if (!verdict.passed) gate["failure"] = verdict.failure;
@@ -224,7 +224,7 @@ std::string kinds_text(const std::vector<GateVerdict>& verdicts) {
     return std::to_string(std::ranges::count(verdicts, kind, &GateVerdict::kind)) + " ";
   };
   return count(GateKind::exact) + "exact, " + count(GateKind::independent) + "independent, " + count(GateKind::self) +
-         "self; " + count(GateKind::guard) + "guards, which are no evidence";
+         "self; " + count(GateKind::regression) + "regression, which are no evidence";
 }
 
 std::string gates_text(const std::string& title, const std::vector<GateVerdict>& verdicts) {

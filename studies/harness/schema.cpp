@@ -539,7 +539,7 @@ Json run_schema() {
 
 Json study_schema() {
   const Json profile = choice({"ci", "full"});
-  const Json gate_kind = choice({"exact", "independent", "self", "guard"});
+  const Json gate_kind = choice({"exact", "independent", "self", "regression"});
   const Json cell = {{"type", {"number", "string", "boolean", "null"}}};
   const Json study_case =
       record({{"options", Json::object()}, {"results", Json::object()}, {"failure", any_text}}, {"failure"});
@@ -593,8 +593,8 @@ Json study_schema() {
               {"cases", array_of(study_case)},
               {"fits", array_of(fit)},
               {"grid_convergence", array_of(grid_convergence)},
-              {"gate_kinds", record({{"exact", whole}, {"independent", whole}, {"self", whole}, {"guard", whole}},
-                                    {"exact", "independent", "self", "guard"})},
+              {"gate_kinds", record({{"exact", whole}, {"independent", whole}, {"self", whole}, {"regression", whole}},
+                                    {"exact", "independent", "self", "regression"})},
               {"gates", array_of(gate)},
               {"tables", array_of(table)},
               {"figures", array_of(figure)}},
@@ -607,7 +607,7 @@ Json gates_schema() {
       {{"expected", any_number}, {"tolerance", any_number}, {"at_most", any_number}, {"finest_error", any_number}});
   Json gate = record(
       {{"name", nonempty},
-       {"kind", choice({"exact", "independent", "self", "guard"})},
+       {"kind", choice({"exact", "independent", "self", "regression"})},
        {"reason", nonempty},
        {"guards", nonempty},
        {"profiles", {{"type", "array"}, {"items", choice({"ci", "full"})}, {"minItems", 1}}},
@@ -625,11 +625,11 @@ Json gates_schema() {
   gate["dependentSchemas"] = {{"quantity", {{"anyOf", Json::array({needs("max"), needs("min"), needs("equals")})}}},
                               {"fit", needs("order")},
                               {"tolerance", needs("equals")}};
-  // A guard says what it guards, evidence has a reason; a quantity of kind self has an uncertainty.
+  // One of kind regression says what it guards, evidence has a reason; a quantity of kind self has an uncertainty.
   const auto is = [](const char* kind) { return Json{{"properties", {{"kind", {{"const", kind}}}}}}; };
   const auto without = [](const char* key) { return Json{{"not", {{"required", {key}}}}}; };
   gate["allOf"] =
-      Json::array({{{"if", is("guard")},
+      Json::array({{{"if", is("regression")},
                     {"then", {{"allOf", Json::array({needs("guards"), without("reason")})}}},
                     {"else", {{"allOf", Json::array({needs("reason"), without("guards")})}}}},
                    {{"if", is("self")}, {"then", {{"anyOf", Json::array({needs("fit"), needs("uncertainty")})}}}}});

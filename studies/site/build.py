@@ -23,7 +23,7 @@ KINDS = {
     "exact": "a closed form or an identity",
     "independent": "another formulation, another method or another program",
     "self": "finer meshes or steps of the same, judged with their uncertainty",
-    "guard": "the value measured before: it tells a change, and is no evidence",
+    "regression": "the value measured before: it tells a change, and is no evidence",
 }
 # What the papers print, beside ours: study, table, and rows to show.
 PAPERS = [
@@ -215,7 +215,7 @@ class Site:
                 (counts["exact"], "rest on closed forms and identities"),
                 (counts["independent"], "on other methods and programs"),
                 (counts["self"], "on convergence, with its uncertainty"),
-                (counts["guard"], "only guard against change"),
+                (counts["regression"], "only guard against change"),
             ]
         )
         figure9 = ""

@@ -206,6 +206,19 @@ class Documents(unittest.TestCase):
             for name in re.findall(r"\bvlbeam\.([a-z]\w*|[A-Z]\w*)\(", text):
                 self.assertIn(name, known)
 
+    def test_folders_of_the_core_use_those_above_them(self):
+        core = SOURCES / "core"
+        order = re.findall(r"^\| `(\w+)/` \|", (core / "README.md").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(sorted(order), sorted(path.name for path in core.iterdir() if path.is_dir()))
+        for path in sorted(core.rglob("*.[ch]pp")):
+            includes = re.findall(r'#include "(\w+)/(\w+)', path.read_text(encoding="utf-8"))
+            self.assertLessEqual({top for top, _ in includes}, {"core"}, path)
+            if path.parent == core:
+                continue
+            for _, folder in includes:
+                if folder in order:
+                    self.assertLessEqual(order.index(folder), order.index(path.parent.name), path)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -36,7 +36,7 @@ class Claims : public ::testing::Test {
                   "rows": [["A", 5, 0.5], ["A", 10, 0.125], ["B", 5, 0.75], ["B", 10, null]]}],
       "fits": [{"quantity": "tip", "slope": 2.04, "pairwise_orders": [2.1, 1.9]}],
       "grid_convergence": [{"quantity": "x", "uncertainty": 3e-6}],
-      "gates": [{"kind": "exact"}, {"kind": "exact"}, {"kind": "guard"}]})");
+      "gates": [{"kind": "exact"}, {"kind": "exact"}, {"kind": "regression"}]})");
   TemporaryFolder folder_;
   Json given_, checked_;
 };

@@ -93,7 +93,7 @@ TEST(Gates, AFileThatIsNotUnderstoodIsRefused) {
   refused({{"quantity", "drift"}, {"max", 1}, {"profiles", {"fast"}}}, "/gates/0/profiles");
   refused({{"fit", "tip"}, {"order", {{"expected", 4}}}}, "/gates/0/order/tolerance");
   refused({{"quantity", "drift"}, {"max", 1}, {"kind", "measured"}}, "/gates/0/kind");
-  refused({{"quantity", "drift"}, {"max", 1}, {"kind", "guard"}}, "/gates/0");
+  refused({{"quantity", "drift"}, {"max", 1}, {"kind", "regression"}}, "/gates/0");
   refused({{"quantity", "drift"}, {"max", 1}, {"guards", "it"}}, "/gates/0");
   refused({{"quantity", "drift"}, {"max", 1}, {"kind", "self"}}, "/gates/0/uncertainty");
   refused({{"quantity", "drift"}, {"max", 1}, {"uncertainty", true}}, "/gates/0/uncertainty");
@@ -120,10 +120,10 @@ TEST(Gates, BoundsHoldForTheValueWithItsUncertainty) {
 TEST(Gates, KindsAreCounted) {
   Json two = gate({{"quantity", "drift"}, {"max", 1}});
   two["gates"].push_back(
-      {{"name", "b"}, {"kind", "guard"}, {"guards", "the drift"}, {"quantity", "drift"}, {"max", 1}});
+      {{"name", "b"}, {"kind", "regression"}, {"guards", "the drift"}, {"quantity", "drift"}, {"max", 1}});
   const auto verdicts = evaluate_gates(two, report());
-  EXPECT_EQ(kinds_text(verdicts), "1 exact, 0 independent, 0 self; 1 guards, which are no evidence");
-  EXPECT_EQ(kinds_to_json(verdicts), (Json{{"exact", 1}, {"independent", 0}, {"self", 0}, {"guard", 1}}));
+  EXPECT_EQ(kinds_text(verdicts), "1 exact, 0 independent, 0 self; 1 regression, which are no evidence");
+  EXPECT_EQ(kinds_to_json(verdicts), (Json{{"exact", 1}, {"independent", 0}, {"self", 0}, {"regression", 1}}));
   const Json json = gates_to_json(verdicts);
   EXPECT_EQ(json[0].at("kind"), "exact");
   EXPECT_EQ(json[1].at("guards"), "the drift");

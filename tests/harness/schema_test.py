@@ -154,7 +154,7 @@ for path in glob.glob(os.path.join(source, "reports/*.json")):
         with open(path) as file:
             expect(study, json.load(file), True, path)
 rule = {"name": "a", "kind": "exact", "reason": "b", "quantity": "c", "max": 1}
-guard = {"name": "a", "kind": "guard", "guards": "b", "quantity": "c", "max": 1}
+guard = {"name": "a", "kind": "regression", "guards": "b", "quantity": "c", "max": 1}
 order = {"expected": 2, "tolerance": 1, "at_most": 3, "finest_error": 1}
 expect(gates, {"schema": "vlbeam.gates/1", "gates": [rule]}, True, "a gate")
 expect(gates, {"schema": "vlbeam.gates/1", "gates": [{**rule, "fit": "d"}]}, False, "a gate on two things")
@@ -162,7 +162,7 @@ expect(gates, {"schema": "vlbeam.gates/1", "gates": [{k: rule[k] for k in rule i
 for one, valid, what in (
     (guard, True, "a guard"),
     ({**guard, "reason": "c"}, False, "a guard with a reason"),
-    ({**rule, "kind": "guard"}, False, "a guard that guards nothing"),
+    ({**rule, "kind": "regression"}, False, "a guard that guards nothing"),
     ({**rule, "guards": "c"}, False, "evidence that guards"),
     ({**rule, "kind": "measured"}, False, "a kind there is not"),
     ({**rule, "kind": "self"}, False, "self-convergence without uncertainty"),

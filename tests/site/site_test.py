@@ -212,7 +212,7 @@ class TheSite(unittest.TestCase):
             for ground in ("page", "card", "shade"):
                 for ink in ("text", "soft", "accent", "holds", "fails"):
                     self.assertGreaterEqual(contrast(theme[ink], theme[ground]), 4.5, f"{ink} on {ground}")
-            for kind in ("exact", "independent", "self", "guard"):
+            for kind in ("exact", "independent", "self", "regression"):
                 self.assertGreaterEqual(contrast(theme["on-kind"], theme[kind]), 4.5, kind)
 
 
