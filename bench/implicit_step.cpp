@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/dynamics/generalized_alpha.hpp"
-#include "core/scene/build.hpp"
+#include "scene/build.hpp"
 
 namespace {
 

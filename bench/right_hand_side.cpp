@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/element/circular_shaft.hpp"
-#include "core/scene/build.hpp"
 #include "core/system/steady_flow.hpp"
+#include "scene/build.hpp"
 
 namespace {
 

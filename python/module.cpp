@@ -11,8 +11,8 @@
 #include <limits>
 #include <thread>
 
-#include "core/scene/names.hpp"
-#include "core/scene/shape.hpp"
+#include "scene/names.hpp"
+#include "scene/shape.hpp"
 #include "studies/harness/converge.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/own_sweep.hpp"

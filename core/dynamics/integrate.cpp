@@ -346,15 +346,19 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     log.set_next(t);
   }
   Eigen::VectorXd before = y;
+  // A step that adapts is not cut at the end of the run, but looked into: whether its own length would have been
+  // rejected must not depend on how long the run is. Only where it cannot be taken the next one is.
+  bool looks_beyond = options.type == IntegratorType::generalized_alpha && options.generalized_alpha.adaptive;
 
   while (t < t_end) {
     before = y;
     const double t_before = t;
-    const bool last = t_end - t <= dt * (1 + whole_step);
-    if (last) dt = t_end - t;
+    const bool last = t_end - t <= dt * (1 + whole_step), beyond = last && looks_beyond;
+    if (last && !beyond) dt = t_end - t;
     const double tried = dt;
     if (!stepper->try_step(ode, y, t, dt)) {
       ++counters.rejected;
+      if (beyond && !(dt > 0 && dt < tried)) looks_beyond = false;
       shorten(dt, tried, *stepper);
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
@@ -365,10 +369,11 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 10;
       ++counters.rejected;
       stepper->reset();
+      if (beyond) looks_beyond = false;
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
     }
-    if (last) t = t_end;
+    if (last && !beyond) t = t_end;
 
     Located event;
     try {
@@ -379,8 +384,14 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 2;
       ++counters.rejected;
       stepper->resume(*stepper);
+      if (beyond) looks_beyond = false;
       if (dt < smallest) underflow(stuck.t, stuck.dt, method.system != nullptr);
       continue;
+    }
+    if (beyond && !(event.index >= 0 && event.t <= t_end)) {
+      event = {};
+      y = Eigen::VectorXd(state_at(ode, side, *stepper, {t_before, before, t, y}, t_end));
+      t = t_end;
     }
     const bool cut = event.index >= 0 && event.t < t;
     if (cut) {

@@ -13,9 +13,9 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "core/scene/result.hpp"
-#include "core/scene/scene.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/result.hpp"
+#include "scene/scene.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/provenance.hpp"
 #include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/scene/names.hpp"
-#include "core/scene/simulate.hpp"
-#include "core/scene/stiffness.hpp"
+#include "scene/names.hpp"
+#include "scene/simulate.hpp"
+#include "scene/stiffness.hpp"
 #include "studies/app/registry.hpp"
 #include "studies/app/run_outputs.hpp"
 #include "studies/harness/checkpoint_file.hpp"

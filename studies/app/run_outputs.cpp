@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/scene/names.hpp"
+#include "scene/names.hpp"
 #include "studies/harness/messages.hpp"
 
 namespace vlbeam {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/result.hpp"
+#include "scene/result.hpp"
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {

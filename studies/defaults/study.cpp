@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/build.hpp"
+#include "scene/build.hpp"
 #include "studies/defaults/cost.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/scene/derived.hpp"
+#include "scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/run_report.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/derived.hpp"
+#include "scene/derived.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 

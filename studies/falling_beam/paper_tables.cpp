@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "core/scene/derived.hpp"
-#include "core/scene/options.hpp"
+#include "scene/derived.hpp"
+#include "scene/options.hpp"
 #include "studies/falling_beam/tables.hpp"
 #include "studies/harness/measures.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
-#include "core/scene/build.hpp"
-#include "core/scene/options.hpp"
 #include "core/system/mass_condition.hpp"
+#include "scene/build.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"

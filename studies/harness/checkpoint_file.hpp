@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/dynamics/checkpoint.hpp"
-#include "core/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace vlbeam {
 

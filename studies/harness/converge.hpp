@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "studies/harness/observed_order.hpp"
 
 namespace vlbeam {

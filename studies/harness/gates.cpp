@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/names.hpp"
+#include "scene/names.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/observed_order.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/result.hpp"
+#include "scene/result.hpp"
 #include "studies/harness/report.hpp"
 
 namespace vlbeam {

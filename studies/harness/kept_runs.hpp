@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 
 namespace vlbeam {
 

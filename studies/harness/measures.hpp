@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/scene/result.hpp"
+#include "scene/result.hpp"
 
 namespace vlbeam {
 

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/scene/derived.hpp"
-#include "core/scene/options.hpp"
-#include "core/scene/shape.hpp"
+#include "scene/derived.hpp"
+#include "scene/options.hpp"
+#include "scene/shape.hpp"
 #include "studies/harness/gnuplot.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/nearest.hpp"

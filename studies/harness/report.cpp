@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 
 namespace vlbeam {
 namespace {

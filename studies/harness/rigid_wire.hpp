@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace vlbeam {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene/result.hpp"
+#include "scene/result.hpp"
 
 namespace vlbeam {
 

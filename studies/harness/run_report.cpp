@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/derived.hpp"
-#include "core/scene/energy_ledger.hpp"
-#include "core/scene/names.hpp"
-#include "core/scene/options.hpp"
-#include "core/scene/shape.hpp"
+#include "scene/derived.hpp"
+#include "scene/energy_ledger.hpp"
+#include "scene/names.hpp"
+#include "scene/options.hpp"
+#include "scene/shape.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"

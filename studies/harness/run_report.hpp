@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/scene/result.hpp"
+#include "scene/result.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/json.hpp"
 

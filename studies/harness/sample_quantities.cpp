@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/scene/derived.hpp"
+#include "scene/derived.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/result.hpp"
-#include "core/scene/scene.hpp"
+#include "scene/result.hpp"
+#include "scene/scene.hpp"
 
 namespace vlbeam {
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/scene/automatic_integrator.hpp"
-#include "core/scene/derived.hpp"
-#include "core/scene/options.hpp"
-#include "core/scene/scene_options.hpp"
-#include "core/scene/validate.hpp"
+#include "scene/automatic_integrator.hpp"
+#include "scene/derived.hpp"
+#include "scene/options.hpp"
+#include "scene/scene_options.hpp"
+#include "scene/validate.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/nearest.hpp"
 

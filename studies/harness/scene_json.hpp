@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "core/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam {

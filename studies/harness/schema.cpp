@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/build.hpp"
-#include "core/scene/options.hpp"
-#include "core/scene/scene_options.hpp"
+#include "scene/build.hpp"
+#include "scene/options.hpp"
+#include "scene/scene_options.hpp"
 #include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
 

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/scene/names.hpp"
+#include "scene/names.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/kept_runs.hpp"

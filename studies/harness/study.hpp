@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/names.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/names.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/gates.hpp"
 #include "studies/harness/report.hpp"
 #include "studies/harness/sweep.hpp"

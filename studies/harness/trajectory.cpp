@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/nearest.hpp"

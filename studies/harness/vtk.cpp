@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/options.hpp"
-#include "core/scene/shape.hpp"
+#include "scene/options.hpp"
+#include "scene/shape.hpp"
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {

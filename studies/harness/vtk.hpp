@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/scene/result.hpp"
-#include "core/scene/scene.hpp"
+#include "scene/result.hpp"
+#include "scene/scene.hpp"
 
 namespace vlbeam {
 

@@ -58,7 +58,13 @@ class Report {
   }
 
  private:
-  Scene library(const std::string& name) const { return read_scene(root_ / "scenes" / (name + ".json")); }
+  /// A scene of the library, by an integrator whose error is far below what it is compared with.
+  Scene library(const std::string& name) const {
+    Json scene = read_json(root_ / "scenes" / (name + ".json"));
+    const Json& integrators = context_.config.at("integrators");
+    if (integrators.contains(name)) scene["integrator"] = integrators.at(name);
+    return scene_from_json(scene);
+  }
 
   void add(const std::string& name, const char* level, const std::vector<double>& levels,
            const std::vector<double>& errors, double floor) {

@@ -8,7 +8,7 @@
 #include "core/element/moving_element.hpp"
 #include "core/element/quadrature.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/scene/derived.hpp"
+#include "scene/derived.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_sweep.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/build.hpp"
+#include "scene/build.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/rigid_wire.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/scene/scene.hpp"
-#include "core/scene/shape.hpp"
+#include "scene/scene.hpp"
+#include "scene/shape.hpp"
 
 namespace vlbeam::slender {
 

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/derived.hpp"
-#include "core/scene/options.hpp"
+#include "scene/derived.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/observed_order.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/derived.hpp"
-#include "core/scene/options.hpp"
+#include "scene/derived.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"

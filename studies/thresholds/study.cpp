@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 

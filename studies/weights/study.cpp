@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/scene/derived.hpp"
+#include "scene/derived.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/json.hpp"
 
 namespace vlbeam::work_precision {

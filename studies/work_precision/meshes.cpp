@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 
 namespace vlbeam::work_precision {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "core/geometry/elementary.hpp"
-#include "core/scene/options.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam::work_precision {

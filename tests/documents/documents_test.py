@@ -218,6 +218,9 @@ class Documents(unittest.TestCase):
             for _, folder in includes:
                 if folder in order:
                     self.assertLessEqual(order.index(folder), order.index(path.parent.name), path)
+        for path in sorted((SOURCES / "scene").rglob("*.[ch]pp")):
+            tops = set(re.findall(r'#include "(\w+)/', path.read_text(encoding="utf-8")))
+            self.assertLessEqual(tops, {"core", "scene"}, path)
 
 
 if __name__ == "__main__":

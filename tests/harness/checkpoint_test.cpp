@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "tests/harness/report_of.hpp"
 #include "tests/harness/temporary_folder.hpp"

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_library.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/scene/energy_ledger.hpp"
-#include "core/scene/simulate.hpp"
-#include "core/scene/validate.hpp"
+#include "scene/energy_ledger.hpp"
+#include "scene/simulate.hpp"
+#include "scene/validate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "tests/harness/report_of.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {

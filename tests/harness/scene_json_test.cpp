@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/scene/automatic_integrator.hpp"
+#include "scene/automatic_integrator.hpp"
 #include "tests/harness/example_scene.hpp"
 
 namespace vlbeam {

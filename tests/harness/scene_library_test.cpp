@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/quantity.hpp"
 #include "studies/harness/scene_json.hpp"

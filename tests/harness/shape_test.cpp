@@ -1,5 +1,5 @@
 // Points along the axis: what they say of shapes whose strains, forces and velocities are known.
-#include "core/scene/shape.hpp"
+#include "scene/shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {

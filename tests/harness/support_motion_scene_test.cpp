@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "tests/harness/report_of.hpp"
 

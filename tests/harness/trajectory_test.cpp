@@ -11,7 +11,7 @@
 #include "studies/harness/scene_json.hpp"
 #include "tests/harness/temporary_folder.hpp"
 
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 
 namespace vlbeam {
 namespace {

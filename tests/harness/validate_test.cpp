@@ -1,4 +1,4 @@
-#include "core/scene/validate.hpp"
+#include "scene/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {

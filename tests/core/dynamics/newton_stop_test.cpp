@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {

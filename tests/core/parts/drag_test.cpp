@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/build.hpp"
+#include "scene/build.hpp"
 #include "tests/core/support/held_chain.hpp"
 #include "tests/core/support/scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/scene/simulate.hpp"
+#include "scene/simulate.hpp"
 
 namespace vlbeam::test {
 

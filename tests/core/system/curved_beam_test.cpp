@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/build.hpp"
-#include "core/scene/names.hpp"
+#include "scene/build.hpp"
+#include "scene/names.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {

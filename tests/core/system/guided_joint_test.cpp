@@ -3,8 +3,8 @@
 
 #include <boost/math/interpolators/quintic_hermite.hpp>
 
-#include "core/scene/build.hpp"
 #include "core/system/implicit_beam.hpp"
+#include "scene/build.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/scenes.hpp"

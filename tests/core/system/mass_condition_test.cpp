@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/scene/build.hpp"
+#include "scene/build.hpp"
 
 namespace vlbeam::test {
 namespace {

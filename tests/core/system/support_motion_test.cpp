@@ -9,8 +9,8 @@
 
 #include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
-#include "core/scene/build.hpp"
 #include "core/system/implicit_beam.hpp"
+#include "scene/build.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/scenes.hpp"

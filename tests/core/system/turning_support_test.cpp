@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/build.hpp"
-#include "core/scene/time_function.hpp"
 #include "core/system/implicit_beam.hpp"
+#include "scene/build.hpp"
+#include "scene/time_function.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/scenes.hpp"

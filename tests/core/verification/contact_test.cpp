@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/derived.hpp"
-#include "core/scene/energy_ledger.hpp"
-#include "core/scene/names.hpp"
+#include "scene/derived.hpp"
+#include "scene/energy_ledger.hpp"
+#include "scene/names.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/scene/names.hpp"
+#include "scene/names.hpp"
 #include "tests/core/support/reference.hpp"
 #include "tests/core/support/scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <vector>
 
-#include "core/scene/names.hpp"
+#include "scene/names.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {

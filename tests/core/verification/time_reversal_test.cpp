@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/length_control/chain_motion.hpp"
-#include "core/scene/build.hpp"
+#include "scene/build.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/scenes.hpp"
 

@@ -1,0 +1,553 @@
+#include "scene/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/element/circular_shaft.hpp"
+#include "core/error.hpp"
+#include "core/length_control/chain_motion.hpp"
+#include "core/length_control/rest_arc.hpp"
+#include "scene/build_flow.hpp"
+#include "scene/build_loads.hpp"
+#include "scene/options.hpp"
+#include "scene/time_function.hpp"
+
+namespace vlbeam {
+namespace {
+
+// Points beyond which the error of the mesh hides that of the rule (studies/falling_beam, convergence in points).
+constexpr int polynomial_points = 5;
+constexpr int rational_points = 10;
+// EA l^2/EI of an element above which it errs less by sampled axial strain: the falling beam and the elastica cross
+// there (studies/slender). By a little more, for elements of exactly that.
+constexpr double slender = 100 * (1 + 1e-6);
+constexpr double separation_share = 1e-3;  // of the beam's length
+constexpr double default_end_merge = 0.5;  // of L_std
+
+bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && scene.beam.curve.type != CurveType::line; }
+
+LengthControl build_length_control(const Scene& scene) {
+  const auto& control = scene.length_control;
+  return {control.enabled,
+          standard_length(scene),
+          control.upper,
+          control.hysteresis,
+          merge_policy(scene),
+          cut_policy(scene),
+          control.merge_rule,
+          !is_polynomial(scene.beam.element),
+          scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
+          end_merge(scene),
+          merge_below(scene)};
+}
+
+/// The axis, exactly, with one joint at most. The two elements at it are one curve cut in two, so that it is smooth
+/// there, and with transported weights stays what it is while the joint slides.
+template <int D>
+CubicChain<D> exact_shape(const Axis<D>& axis, const InitialNodes& nodes) {
+  const auto& x = nodes.x;
+  const int joint = nodes.joints.empty() ? 0 : nodes.joints.front();
+  const auto j = static_cast<std::size_t>(std::max(joint, 1));
+  if (joint == 0 || !axis.in_one_piece(x[j - 1], x[j + 1])) return exact_chain(axis, x);
+  std::vector<double> others = x;
+  others.erase(others.begin() + joint);
+  auto chain = exact_chain(axis, others);
+  const double l = x[j + 1] - x[j - 1], u = (x[j] - x[j - 1]) / l;
+  const auto whole = RationalCubic<double, D>::from_nodal({chain.r[j - 1], chain.r_x[j - 1], chain.r[j], chain.r_x[j]},
+                                                          l, chain.weights[j - 1]);
+  const auto at = whole.evaluate(u);
+  chain.r.insert(chain.r.begin() + joint, at[0]);
+  chain.r_x.insert(chain.r_x.begin() + joint, at[1] / l);
+  chain.weights[j - 1] = restrict_cubic(whole.weights, 0.0, u);
+  chain.weights.insert(chain.weights.begin() + joint, restrict_cubic(whole.weights, u, 1.0));
+  return chain;
+}
+
+/// n + 1 nodes from 0 to the last of `breaks`, which are all nodes; the elements between two breaks are equal.
+std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
+  const std::size_t spans = breaks.size() - 1;
+  std::vector<int> share(spans, 1);
+  for (int given = static_cast<int>(spans); given < n; ++given) {  // the next one where elements are longest
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < spans; ++i) {
+      if ((breaks[i + 1] - breaks[i]) * share[longest] > (breaks[longest + 1] - breaks[longest]) * share[i])
+        longest = i;
+    }
+    ++share[longest];
+  }
+  std::vector<double> x;
+  for (std::size_t i = 0; i < spans; ++i) {
+    for (int k = 0; k < share[i]; ++k) x.push_back(breaks[i] + (breaks[i + 1] - breaks[i]) * k / share[i]);
+  }
+  x.push_back(breaks.back());
+  return x;
+}
+
+}  // namespace
+
+Scene scene_in(SceneSetting setting) {
+  Scene scene;
+  scene.setting = setting;
+  if (setting == SceneSetting::standard) return scene;
+  scene.beam.element = ElementKind::ale_rancf;
+  scene.beam.rest_shape = RestShape::paper;
+  scene.formulation = Formulation::virtual_work;
+  scene.weights = WeightTransport::frozen;
+  scene.beam.axial_strain = AxialStrain::full;
+  scene.length_control.merge = MergePolicy::point_fit;
+  scene.length_control.cut = CutPolicy::exact;
+  scene.length_control.velocities = VelocityTransfer::nodal;
+  scene.length_control.end_merge = 0;
+  return scene;
+}
+
+BeamSection build_section(const BeamSpec& beam) {
+  BeamSection section;
+  if (beam.section.type == Section::Type::circle) {
+    const double r2 = beam.section.radius * beam.section.radius;
+    const double area = std::numbers::pi * r2;
+    section.rhoA = beam.material.density * area;
+    section.stiffness = {beam.material.youngs_modulus * area, beam.material.youngs_modulus * area * r2 / 4};
+  } else {
+    section.rhoA = beam.section.rhoA;
+    section.stiffness = {beam.section.EA, beam.section.EI};
+  }
+  section.stiffness.law = beam.strain_law;
+  section.damping = beam.material.damping;
+  section.curvature_regularization = beam.material.curvature_regularization;
+  return section;
+}
+
+SpinSection build_spin(const BeamSpec& beam) {
+  const Section& section = beam.section;
+  if (section.type == Section::Type::stiffness) return {section.rhoIp, section.GIp, beam.material.damping};
+  return CircularShaft{.radius = section.radius,
+                       .density = beam.material.density,
+                       .youngs_modulus = beam.material.youngs_modulus,
+                       .poisson_ratio = beam.material.poisson_ratio,
+                       .damping = beam.material.damping}
+      .spin();
+}
+
+template <int D>
+Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent) {
+  switch (spec.type) {
+    case SupportType::clamp:
+      return spec.clamp == ClampType::full ? Support<D>::clamp() : Support<D>::direction_clamp(tangent);
+    case SupportType::pin:
+      return Support<D>::pin();
+    case SupportType::slide:
+      return Support<D>::slide(tangent);
+    case SupportType::free:
+      break;
+  }
+  return Support<D>::free_end();
+}
+
+template <int D>
+Axis<D> build_axis(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  constexpr double degree = std::numbers::pi / 180;
+  switch (curve.type) {
+    case CurveType::arc:
+      return Axis<D>::arc(vector_of<D>(curve.center), curve.radius, curve.from_degrees * degree,
+                          curve.to_degrees * degree);
+    case CurveType::nurbs: {
+      Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, {}};
+      for (const Point& point : curve.control_points) nurbs.points.push_back(vector_of<D>(point));
+      if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
+      return Axis<D>::nurbs(nurbs);
+    }
+    case CurveType::line:
+      break;
+  }
+  return Axis<D>::line(vector_of<D>(curve.start), vector_of<D>(curve.end));
+}
+
+InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) {
+  const int n = scene.beam.elements;
+  InitialNodes nodes{uniform_nodes(breaks, n)};
+  const auto joints = sliding_joints(scene);
+  for (std::size_t which = 0; which < joints.size(); ++which) {
+    const double x = joints[which].position;
+    // the nearest interior node moves to the joint, unless the curve or another joint needs it where it is
+    const int first = nodes.joints.empty() ? 1 : nodes.joints.back() + 1;
+    auto may_move = [&](int k) {
+      const auto i = static_cast<std::size_t>(k);
+      return !std::binary_search(breaks.begin(), breaks.end(), nodes.x[i]) && nodes.x[i - 1] < x && x < nodes.x[i + 1];
+    };
+    int node = 0;
+    for (int k = first; k < n; ++k) {
+      if (!may_move(k)) continue;
+      const auto distance = [&](int i) { return std::abs(nodes.x[static_cast<std::size_t>(i)] - x); };
+      if (node == 0 || distance(k) <= distance(node)) node = k;
+    }
+    if (node == 0) {
+      const bool one = joints.size() == 1;
+      throw InvalidInput(joint_key(scene, which) + "/position", number_text(x),
+                         std::string(one ? "the sliding mass needs a node of its own between two knots of the curve"
+                                         : "each joint needs a node of its own, between two knots of a curve") +
+                             ": take more elements than " + std::to_string(n));
+    }
+    nodes.joints.push_back(node);
+    nodes.x[static_cast<std::size_t>(node)] = x;
+  }
+  return nodes;
+}
+
+bool has_rest_shape(const Scene& scene) {
+  const auto& weights = scene.beam.weights;
+  const bool unit = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
+  return scene.beam.rest_shape == RestShape::as_built && (scene.beam.curve.type != CurveType::line || !unit);
+}
+
+int quadrature_points(const Scene& scene) {
+  if (scene.beam.quadrature_points > 0) return scene.beam.quadrature_points;
+  return is_polynomial(scene.beam.element) ? polynomial_points : rational_points;
+}
+
+AxialStrain axial_strain(const Scene& scene) {
+  const auto& [EA, EI, law] = build_section(scene.beam).stiffness;
+  const double l = standard_length(scene);
+  const bool locks = EI > 0 && EA * l * l > slender * EI;
+  return scene.beam.axial_strain.value_or(locks ? AxialStrain::lobatto : AxialStrain::full);
+}
+
+double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
+
+double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
+
+AxisForm axis_form(const Scene& scene) {
+  const bool curved = scene.beam.curve.type != CurveType::line;
+  const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && sliding_joint(scene));
+  const bool exact = scene.setting == SceneSetting::ding_ouyang_2022 && curved && can_be_exact;
+  return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
+}
+
+CutPolicy cut_policy(const Scene& scene) {
+  const bool sampled = axial_strain(scene) == AxialStrain::lobatto;
+  return scene.length_control.cut.value_or(sampled ? CutPolicy::relaxed : CutPolicy::exact);
+}
+
+MergePolicy merge_policy(const Scene& scene) {
+  const MergePolicy otherwise = axial_strain(scene) == AxialStrain::lobatto ? MergePolicy::relaxed
+                                : is_curved_at_rest(scene)                  ? MergePolicy::rest_arc
+                                                                            : MergePolicy::point_fit;
+  return scene.length_control.merge.value_or(otherwise);
+}
+
+WeightTransport weight_transport(const Scene& scene) {
+  return scene.weights.value_or(is_curved_at_rest(scene) ? WeightTransport::transported : WeightTransport::frozen);
+}
+
+double separation_distance(const Scene& scene, const SlidingMassSpec& joint) {
+  return joint.separation_distance.value_or(separation_share * beam_length(scene));
+}
+
+double end_merge(const Scene& scene) {
+  if (scene.analysis == Analysis::statics) return 0;  // nothing rides there
+  const bool kinked =
+      sliding_joint(scene) && joint_slopes(scene, sliding_joints(scene).front()) != JointSlopes::continuous;
+  const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
+  const bool held = joint_support(scene) != SupportType::free || guided(scene) || threaded(scene);  // it needs a node
+  const bool several = scene.sliding_joints.size() > 1;
+  const double otherwise =
+      !scene.length_control.enabled || (kinked && stops) || held || several || fed(scene) ? 0 : default_end_merge;
+  return scene.length_control.end_merge.value_or(otherwise);
+}
+
+bool joints_may_rest(const Scene& scene) {
+  switch (scene.integrator.type) {
+    case IntegratorType::rosenbrock4:  // these need more than forces of what rests: derivatives
+    case IntegratorType::ida:
+    case IntegratorType::cvode:
+    case IntegratorType::energy_momentum:
+      return false;
+    default:
+      break;
+  }
+  const auto& joints = scene.sliding_joints;
+  return std::ranges::none_of(joints, [](const SlidingJointSpec& joint) { return joint.friction || joint.pitch; });
+}
+
+double merge_below(const Scene& scene) {
+  const auto& control = scene.length_control;
+  const bool several = scene.sliding_joints.size() > 1 || fed(scene);
+  const double otherwise = control.enabled && several ? 2 - control.upper * (1 + control.hysteresis) : 0;
+  return control.lower.value_or(otherwise);
+}
+
+AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene) {
+  if (!atol.angle) atol.angle = atol.length / standard_length(scene);
+  if (!atol.spin) atol.spin = atol.velocity / standard_length(scene);
+  return atol;
+}
+
+std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<double>& breaks) {
+  std::vector<PointMass> masses;
+  if (scene.point_masses.empty()) return masses;
+  const std::vector<double> nodes = place_nodes(scene, breaks).x;
+  for (const PointMassSpec& spec : scene.point_masses) {
+    masses.push_back({nodes[static_cast<std::size_t>(spec.node)], spec.mass});
+  }
+  return masses;
+}
+
+/// A joint's material coordinate, from its way along the beam.
+TimeFunction travelling(double from, const TimeFunction& way) {
+  return [way, shift = from - way(0).value](double t) {
+    Prescribed x = way(t);
+    x.value += shift;
+    return x;
+  };
+}
+
+/// Adds the velocities of the scene's rigid motion to those of a chain's nodes, without what supports hold.
+template <int D>
+void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& chain) {
+  if (!scene.initial_velocity) return;
+  const int last = chain.mesh.last();
+  const auto turning = [&scene](const Vec<double, D>& s) -> Vec<double, D> {
+    return initial_velocity<D>(scene, s) - initial_velocity<D>(scene, Vec<double, D>::Zero());
+  };
+  for (int k = 0; k <= last; ++k) {
+    position<D>(chain.rate.data(), k) += initial_velocity<D>(scene, position<D>(chain.q.data(), k));
+    slope<D>(chain.rate.data(), k) += turning(slope<D>(chain.q.data(), k));
+  }
+  for (auto& joint : chain.joints) {
+    if (joint.kink) joint.kink->rate += turning(joint.kink->slope);
+  }
+  for (const int k : {0, last}) {
+    const Support<D> support =
+        build_support<D>(k == 0 ? scene.start : scene.end, axis.tangent(k == 0 ? 0 : axis.length()));
+    const auto keep = [&](auto part, const typename Support<D>::Components& free) {
+      part = support.out_of_frame((support.into_frame(part).array() * free).matrix());
+    };
+    keep(position<D>(chain.rate.data(), k), support.free_position);
+    keep(slope<D>(chain.rate.data(), k), support.free_slope);
+  }
+}
+
+template <int D>
+Vec<double, D> initial_velocity(const Scene& scene, const Vec<double, D>& r) {
+  const InitialVelocitySpec& motion = *scene.initial_velocity;
+  const Vec<double, D> arm = r - vector_of<D>(motion.about);
+  Vec<double, D> turned;
+  if constexpr (D == 2) {
+    turned << -arm[1], arm[0];
+  } else {
+    turned = vector_of<D>(motion.axis).normalized().cross(arm);
+  }
+  return vector_of<D>(motion.translation) + motion.rotation * turned;
+}
+
+template <int D>
+BeamModel<D> build_model(const Scene& scene) {
+  BeamModel<D> model;
+  model.section = build_section(scene.beam);
+  model.formulation = scene.formulation;
+  model.transport = weight_transport(scene);
+  model.quadrature_points = quadrature_points(scene);
+  model.axial_strain = axial_strain(scene);
+  model.gravity = vector_of<D>(scene.gravity);
+  if (scene.analysis == Analysis::dynamics) model.gravity_ramp = scene.gravity_ramp;
+  const Axis<D> axis = build_axis<D>(scene);
+  model.start = build_support<D>(scene.start, axis.tangent(0));
+  model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
+  const auto motion_of = [&scene](const std::optional<SupportMotionSpec>& spec) -> SupportMotion<D> {
+    if (!spec) return {};
+    const auto& [direction, displacement, angle] = *spec;
+    SupportMotion<D> motion;
+    if (angle) motion.angle = time_function(*angle);
+    if (direction == Point{}) return motion;
+    motion.direction = vector_of<D>(direction).normalized();
+    motion.displacement = acting(displacement, scene.analysis);
+    return motion;
+  };
+  model.start_motion = motion_of(scene.start.motion);
+  model.end_motion = motion_of(scene.end.motion);
+  model.start_releases = scene.start.type == SupportType::free;
+  model.end_releases = scene.end.type == SupportType::free;
+  for (const SlidingJointSpec& spec : sliding_joints(scene)) {
+    ModelJoint<D>& joint = model.joints.emplace_back();
+    joint.law = SlidingJoint{spec.mass, joint_slopes(scene, spec), spec.friction};
+    if (spec.support == SupportType::pin) joint.support = Support<D>::pin();
+    if (spec.support == SupportType::clamp) {
+      joint.support = Support<D>::direction_clamp(axis.tangent(spec.position));
+    }
+    joint.motion = motion_of(spec.motion);
+    joint.separation_distance = separation_distance(scene, spec);
+    joint.at_support = {spec.at_support, spec.restitution};
+    if (spec.x) joint.x = travelling(spec.position, acting(*spec.x, scene.analysis));
+    joint.pitch = spec.pitch.value_or(0);
+  }
+  const ContactSpec contact = scene.contact.value_or(ContactSpec{});
+  model.at_meeting = {contact.joints, contact.restitution};
+  model.joints_rest = joints_may_rest(scene);
+  model.contact_distance = contact.distance;
+  if (scene.start.feed) {
+    model.joints.emplace_back().x = travelling(0, [in = time_function(*scene.start.feed)](double t) -> Prescribed {
+      const Prescribed length = in(t);
+      return {-length.value, -length.rate, -length.acceleration};
+    });
+  }
+  if (scene.end.feed) model.joints.emplace_back().x = travelling(axis.length(), time_function(*scene.end.feed));
+  model.masses.points = build_point_masses(scene, axis.breaks());
+  const double of_mass = scene.beam.material.mass_damping * model.section.rhoA;
+  const DragSpec drag = scene.drag.value_or(DragSpec{});
+  model.drag = {{drag.linear.normal + of_mass, drag.linear.tangential + of_mass},
+                {drag.quadratic.normal, drag.quadratic.tangential},
+                model.quadrature_points};
+  model.time_is_load_factor = scene.analysis == Analysis::statics;
+  model.constraints = scene.constraints;
+  model.length_control = build_length_control(scene);
+  if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
+  auto [loads, torques] = build_loads<D>(scene);
+  const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
+  const auto stay = [&](auto& points) {  // at what the node marks now, wherever it moves to
+    if (flows(scene)) return;
+    for (auto& load : points) {
+      if (load.node >= 0) load.x = [x = nodes[static_cast<std::size_t>(load.node)]](double) { return x; };
+    }
+  };
+  stay(loads.points);
+  stay(torques.points);
+  if (scene.spin) {
+    SpinModel& spin = model.spin.emplace();
+    spin.section = build_spin(scene.beam);
+    spin.field = scene.spin->angles;
+    spin.rate = initial_spin(scene);
+    for (const auto& drive : scene.spin->drives) spin.drives.push_back({drive.node, time_function(drive.angle)});
+    spin.torques = std::move(torques);
+  }
+  model.loads = std::move(loads);
+  if (flows(scene)) add_flow<D>(scene, axis.tangent(0).normalized(), model);
+  return model;
+}
+
+template <int D>
+ChainState<D> build_shape(const Scene& scene) {
+  const Axis<D> axis = build_axis<D>(scene);
+  const InitialNodes nodes = place_nodes(scene, axis.breaks());
+  const auto& x = nodes.x;
+  CubicChain<D> shape;
+  if (axis.straight() || axis_form(scene) == AxisForm::even) {
+    shape = even_chain(axis, x, !is_polynomial(scene.beam.element));
+    if (axis.straight()) shape.weights.assign(x.size() - 1, scene.beam.weights);
+  } else {
+    shape = exact_shape(axis, nodes);
+  }
+  ChainState<D> chain;
+  chain.mesh.x = x;
+  chain.q.resize(static_cast<std::size_t>(node_size<D>) * x.size());
+  chain.rate.assign(chain.q.size(), 0);
+  for (int k = 0; k <= scene.beam.elements; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    position<D>(chain.q.data(), k) = shape.r[i];
+    slope<D>(chain.q.data(), k) = shape.r_x[i];
+    if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
+  }
+  if (has_rest_shape(scene)) chain.rest = chain.q;
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const int j = nodes.joints[i];
+    auto& joint = chain.joints.emplace_back();
+    joint = {.node = j, .index = static_cast<int>(i)};
+    if (joint_slopes(scene, joints[i]) == JointSlopes::continuous) continue;
+    joint.kink = {slope<D>(chain.q.data(), j), Vec<double, D>::Zero()};
+  }
+  const LengthControl control = build_length_control(scene);
+  const bool even = has_rest_shape(scene) && axis_form(scene) == AxisForm::even;
+  if (even && control.enabled && takes_rest_arc(chain, control) &&
+      weight_transport(scene) == WeightTransport::transported) {
+    for (int k = 0; k < chain.mesh.elements(); ++k) {
+      if (!chain.moves(k)) continue;
+      chain.mesh.weights[static_cast<std::size_t>(k)] = rest_arc(axis, chain, k, control.trigger_length());
+    }
+  }
+  return chain;
+}
+
+/// Makes joints of the ends through which the beam is fed.
+template <int D>
+void add_feeds(const Scene& scene, ChainState<D>& chain) {
+  const auto rate = [](const TimeSpec& feed) { return time_function(feed)(0).rate; };
+  int index = static_cast<int>(sliding_joints(scene).size());
+  if (scene.start.feed) {
+    chain.joints.insert(chain.joints.begin(), {.node = 0, .rate = -rate(*scene.start.feed), .index = index++});
+  }
+  if (scene.end.feed) {
+    chain.joints.push_back({.node = chain.mesh.last(), .rate = rate(*scene.end.feed), .index = index});
+  }
+}
+
+template <int D>
+void set_in_motion(const Scene& scene, ChainState<D>& chain) {
+  const Axis<D> axis = build_axis<D>(scene);
+  const bool built = !starts_in_equilibrium(scene), straight = built && axis.straight();
+  add_rigid_motion(scene, axis, chain);
+  // the beam is at rest or moves as a rigid body, so each moving node travels along it
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    auto& joint = chain.joints[i];
+    const int j = joint.node;
+    const double x = chain.mesh.x[static_cast<std::size_t>(j)];
+    const auto r_x = slope<D>(chain.q.data(), j);
+    const bool held = joints[i].support != SupportType::free;
+    // what is held stands still, and what goes through it is the beam
+    const double own = joints[i].x       ? time_function(*joints[i].x)(0).rate
+                       : joints[i].pitch ? -initial_spin(scene) * *joints[i].pitch / (2 * std::numbers::pi)
+                                         : joints[i].velocity;
+    const double rate = held ? -position<D>(chain.rate.data(), j).dot(r_x) / r_x.squaredNorm() : own;
+    joint.rate = rate;
+    position<D>(chain.rate.data(), j) += rate * r_x;
+    Vec<double, D> before = Vec<double, D>::Zero(), behind = before;
+    if (built && has_rest_shape(scene)) {
+      before = behind = rate * axis.derivatives(x)[2];
+    } else if (!straight) {
+      before = rate * motion_at(chain, j - 1, x, weight_transport(scene)).r_xx;
+      behind = rate * motion_at(chain, j, x, weight_transport(scene)).r_xx;
+    }
+    const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
+    before += turning;
+    behind += joint.kink ? joint.kink->rate : turning;
+    if (joint.kink) joint.kink->rate = behind;
+    slope<D>(chain.rate.data(), j) = joint.kink ? before : Vec<double, D>((before + behind) / 2);
+    if (held) position<D>(chain.rate.data(), j).setZero();
+    if (joints[i].support != SupportType::clamp) continue;
+    const auto sleeve = Support<D>::direction_clamp(axis.tangent(joints[i].position));
+    slope<D>(chain.rate.data(), j) =
+        sleeve.out_of_frame((sleeve.into_frame(slope<D>(chain.rate.data(), j)).array() * sleeve.free_slope).matrix());
+  }
+  add_feeds(scene, chain);
+}
+
+template <int D>
+ChainState<D> build_chain(const Scene& scene) {
+  if (flows(scene)) {
+    ChainState<D> chain = flowing_chain(scene, build_model<D>(scene));
+    add_rigid_motion(scene, build_axis<D>(scene), chain);
+    return chain;
+  }
+  ChainState<D> chain = build_shape<D>(scene);
+  set_in_motion(scene, chain);
+  return chain;
+}
+
+template Support<2> build_support(const SupportSpec&, const Vec<double, 2>&);
+template Support<3> build_support(const SupportSpec&, const Vec<double, 3>&);
+template Vec<double, 2> initial_velocity(const Scene&, const Vec<double, 2>&);
+template Vec<double, 3> initial_velocity(const Scene&, const Vec<double, 3>&);
+template Axis<2> build_axis(const Scene&);
+template Axis<3> build_axis(const Scene&);
+template BeamModel<2> build_model(const Scene&);
+template BeamModel<3> build_model(const Scene&);
+template ChainState<2> build_shape(const Scene&);
+template ChainState<3> build_shape(const Scene&);
+template void set_in_motion(const Scene&, ChainState<2>&);
+template void set_in_motion(const Scene&, ChainState<3>&);
+template ChainState<2> build_chain(const Scene&);
+template ChainState<3> build_chain(const Scene&);
+
+}  // namespace vlbeam

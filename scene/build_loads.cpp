@@ -1,0 +1,93 @@
+#include "scene/build_loads.hpp"
+
+#include <algorithm>
+
+#include "core/geometry/elementary.hpp"
+#include "scene/build.hpp"
+#include "scene/time_function.hpp"
+
+namespace vlbeam {
+namespace {
+
+/// A force may turn about `axis`, a unit vector.
+template <int D>
+PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis, Analysis analysis) {
+  const TimeFunction magnitude = acting(spec.magnitude, analysis), x = beside_loads(spec.x, analysis);
+  PointLoad<D> load;
+  if (spec.at == LoadPlace::node) load.node = spec.node;
+  if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
+  auto size = [magnitude](double t) { return magnitude(t).value; };
+  if (spec.type == LoadType::follower) load.follower = size;
+  if (spec.type == LoadType::moment) load.moment = size;
+  if (spec.type == LoadType::force) {
+    const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
+    const TimeFunction turn = beside_loads(spec.turn, analysis);
+    load.force = [=](double t) -> Vec<double, D> {
+      const double angle = turn(t).value, c = portable::cos(angle), s = portable::sin(angle);
+      if constexpr (D == 2) {
+        return size(t) * Vec<double, D>(c * direction[0] - s * direction[1], s * direction[0] + c * direction[1]);
+      } else {
+        return size(t) *
+               (c * direction + s * axis.cross(direction) + (1 - c) * axis.dot(direction) * axis);  // Rodrigues
+      }
+    };
+  }
+  return load;
+}
+
+/// Material coordinate at t = 0 of where a load acts; of one on the whole beam its start [m].
+double initial_place(const LoadSpec& spec, const std::vector<double>& nodes) {
+  switch (spec.at) {
+    case LoadPlace::node:
+      return nodes[static_cast<std::size_t>(std::clamp(spec.node, 0, static_cast<int>(nodes.size()) - 1))];
+    case LoadPlace::point:
+      return time_function(spec.x)(0).value;
+    case LoadPlace::beam:
+      break;
+  }
+  return 0;
+}
+
+template <class Value>
+void add_to(std::function<Value(double t)>& sum, const std::function<Value(double t)>& more) {
+  if (!sum) {
+    sum = more;
+  } else {
+    sum = [before = sum, more](double t) -> Value { return before(t) + more(t); };
+  }
+}
+
+}  // namespace
+
+template <int D>
+BeamLoads<D> build_loads(const Scene& scene) {
+  BeamLoads<D> result;
+  if (scene.loads.empty()) return result;
+  const Axis<D> axis = build_axis<D>(scene);
+  const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
+  for (const LoadSpec& spec : scene.loads) {
+    const double x = std::clamp(initial_place(spec, nodes), 0.0, axis.length());
+    PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized(), scene.analysis);
+    if (spec.type == LoadType::torque) {
+      const std::function<double(double t)> torque = [size = time_function(spec.magnitude)](double t) {
+        return size(t).value;
+      };
+      if (spec.at == LoadPlace::beam) {
+        add_to(result.torques.line, torque);
+        continue;
+      }
+      result.torques.points.push_back({load.node, load.x, torque});
+    }
+    if (spec.at == LoadPlace::beam) {
+      add_to(result.loads.line_force, load.force);
+    } else {
+      result.loads.points.push_back(std::move(load));
+    }
+  }
+  return result;
+}
+
+template BeamLoads<2> build_loads(const Scene&);
+template BeamLoads<3> build_loads(const Scene&);
+
+}  // namespace vlbeam

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <algorithm>
+
+#include "scene/scene.hpp"
+
+namespace vlbeam {
+
+// What follows from a scene where it does not say.
+
+/// A scene to which nothing but the setting is given. Options that depend on others stay open; what they stand for is
+/// said by the functions below.
+Scene scene_in(SceneSetting setting);
+
+/// Gauss points an element that a scene asks for, its element's default filled in.
+int quadrature_points(const Scene& scene);
+
+/// Where the axial strain of the scene's elements is summed: if it does not say so at nodes and middle where EA l^2/EI
+/// of an element of standard length is above 100, else at all points; of ropes, EI = 0, at all points, too.
+AxialStrain axial_strain(const Scene& scene);
+
+/// Length of the beam [m] and standard element length L_std [m].
+double beam_length(const Scene& scene);
+double standard_length(const Scene& scene);
+
+/// Whether strains are measured from a shape other than a straight, unstrained one.
+bool has_rest_shape(const Scene& scene);
+
+/// How the elements of the scene follow a curved axis: evenly; in the paper's setting exactly, where its elements can
+/// and no mass slides along a beam that is curved at rest.
+AxisForm axis_form(const Scene& scene);
+
+/// Where a cut's new node is, and how the scene's elements are merged: if it does not say so, both relaxed with sampled
+/// axial strain. Else cuts are exact, and merges are by the paper's fit, or, where the beam is curved at rest, with the
+/// weights of the arc.
+CutPolicy cut_policy(const Scene& scene);
+MergePolicy merge_policy(const Scene& scene);
+
+/// Whether an element's weights are 1, and stay so.
+inline bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
+
+/// What slides along the beam, in order; a sliding mass is one that is free.
+inline std::vector<SlidingJointSpec> sliding_joints(const Scene& scene) {
+  if (!scene.sliding_mass) return scene.sliding_joints;
+  SlidingJointSpec free;
+  static_cast<SlidingMassSpec&>(free) = *scene.sliding_mass;
+  return {free};
+}
+/// The first of them, or null; how it is held, and the pointer of the options of one.
+inline const SlidingMassSpec* sliding_joint(const Scene& scene) {
+  if (!scene.sliding_joints.empty()) return &scene.sliding_joints.front();
+  return scene.sliding_mass ? &*scene.sliding_mass : nullptr;
+}
+inline SupportType joint_support(const Scene& scene) {
+  return scene.sliding_joints.empty() ? SupportType::free : scene.sliding_joints.front().support;
+}
+/// Whether something guides a joint along the beam.
+inline bool guided(const Scene& scene) {
+  return std::any_of(scene.sliding_joints.begin(), scene.sliding_joints.end(),
+                     [](const SlidingJointSpec& joint) { return joint.x.has_value(); });
+}
+/// Whether one of the joints is a nut.
+inline bool threaded(const Scene& scene) {
+  return std::any_of(scene.sliding_joints.begin(), scene.sliding_joints.end(),
+                     [](const SlidingJointSpec& joint) { return joint.pitch.has_value(); });
+}
+/// Whether beam comes in or leaves through its ends.
+inline bool fed(const Scene& scene) { return scene.start.feed || scene.end.feed; }
+inline std::string joint_key(const Scene& scene, std::size_t which = 0) {
+  return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/" + std::to_string(which);
+}
+
+/// What the beam's slopes do at it: in statics a sleeve has one on each side of it, in its direction, so that the
+/// stretch may jump there as the tension does.
+inline JointSlopes joint_slopes(const Scene& scene, const SlidingJointSpec& joint) {
+  const bool sleeve = scene.analysis == Analysis::statics && joint.support == SupportType::clamp;
+  return sleeve ? JointSlopes::tangent : joint.slopes;
+}
+
+/// Whether a motion starts from an equilibrium.
+inline bool starts_in_equilibrium(const Scene& scene) {
+  return scene.analysis == Analysis::dynamics && scene.initial_shape == InitialShape::equilibrium;
+}
+
+/// What becomes of joints while an equilibrium is sought: released in statics, held where a motion starts from it.
+inline StaticJoints static_joints(const Scene& scene) {
+  return scene.statics.joints.value_or(scene.analysis == Analysis::statics ? StaticJoints::released
+                                                                           : StaticJoints::held);
+}
+
+/// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
+/// the beam is curved at rest.
+WeightTransport weight_transport(const Scene& scene);
+
+/// Whether several joints may come to rest against supports and each other.
+bool joints_may_rest(const Scene& scene);
+/// Between the nodes of joints that touch, or of one and a support that it strikes, over the length of an element.
+inline double contact_distance(const Scene& scene) { return scene.contact.value_or(ContactSpec{}).distance; }
+/// Distance from a free end at which a joint of the scene leaves [m].
+double separation_distance(const Scene& scene, const SlidingMassSpec& joint);
+
+/// Length of the last element, over L_std, at which the sliding mass of the scene loses its node; 0 for never.
+double end_merge(const Scene& scene);
+/// Length of an element beside a joint, over L_std, below which it is merged with the next one; 0 for never.
+double merge_below(const Scene& scene);
+/// With what is not given.
+AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
+
+/// Whether a scene flows or has rotary inertia: the nodes of its beam then travel as prescribed, or stand still so.
+inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_inertia != BendingInertia::none; }
+
+/// Whether its samples have what FlowSample holds.
+inline bool has_flow_sample(const Scene& scene) { return flows(scene) || scene.spin || !scene.loads.empty(); }
+
+/// What such a scene starts with where it does not say: the spin of its first drive [rad/s], and the velocity of the
+/// matter along the axis at which node 0 stands still [m/s].
+double initial_spin(const Scene& scene);
+double initial_velocity(const Scene& scene);
+
+}  // namespace vlbeam

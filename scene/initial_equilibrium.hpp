@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/system/equilibrium.hpp"
+#include "scene/result.hpp"
+#include "scene/scene.hpp"
+
+namespace vlbeam {
+
+/// How a scene wants its equilibria found.
+EquilibriumOptions equilibrium_options(const Scene& scene);
+
+/// What a sample says of an equilibrium.
+inline StaticSample static_sample_of(const Equilibrium& at) {
+  return {at.factor, at.negative_pivots, at.holding_force};
+}
+
+/// Where a motion starts, at rest.
+template <int D>
+struct InitialEquilibrium {
+  ChainState<D> chain;
+  StaticSample seen;
+};
+
+/// The equilibrium of a scene under what acts at t = 0: gravity and loads as they are then, supports and joints where
+/// they are. Calls `goes_on` at every equilibrium on the way; nothing is returned where it says false. Throws
+/// ComputationFailed where there is no equilibrium.
+template <int D>
+std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, const std::function<bool()>& goes_on);
+
+}  // namespace vlbeam

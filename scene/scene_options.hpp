@@ -1,0 +1,651 @@
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "scene/options.hpp"
+
+namespace vlbeam {
+
+/// Visits the options of a scene, part by part: see visit_options(), which names what a visitor has to know.
+template <class Visitor, class SceneT>
+struct SceneOptions {
+  Visitor& visitor;
+  SceneT& scene;
+
+  void all() {
+    whole();
+    beam_parts();
+    axis();
+    cross_section();
+    material();
+    elements();
+    supports();
+    joints();
+    contact();
+    spin();
+    flow();
+    loads();
+    point_masses();
+    initial_velocity();
+    drag();
+    equations();
+    length_control();
+    statics();
+    integrator();
+    output();
+  }
+
+ private:
+  static constexpr std::string_view paper = "Ding & Ouyang 2022";
+  static constexpr std::string_view example1 = "Ding & Ouyang 2022, §6.1";
+  static constexpr std::string_view analysis = "/analysis";
+  static constexpr std::string_view initial_shape = "/initial_shape";
+  static constexpr std::string_view section_type = "/beam/section/type";
+
+  bool in_time() const { return scene.analysis == Analysis::dynamics; }
+  Condition of_analysis(Analysis which) const { return only_if(analysis, scene.analysis, which); }
+  void section(std::string_view pointer, std::string_view description) {
+    visitor.section(Option{.pointer = pointer, .unit = "", .description = description});
+  }
+  /// What most options do not need.
+  struct More {
+    std::string_view source = "";
+    Condition when = {};
+    bool required = false;
+    std::string_view instead = "";
+    std::string_view without = "";
+    std::string_view standard = "";
+  };
+  /// There is no such option in statics, where there is no time.
+  More in_motion(More more = {}) const {
+    if (!in_time()) more.when = of_analysis(Analysis::dynamics);
+    return more;
+  }
+
+  Option option(std::string_view pointer, std::string_view unit, std::string_view description, const More& more) {
+    return {.pointer = pointer,
+            .unit = unit,
+            .description = description,
+            .source = more.source,
+            .when = more.when,
+            .required = more.required,
+            .instead = more.instead,
+            .without = more.without,
+            .standard = more.standard};
+  }
+  /// One or several numbers with a range.
+  template <class Member>
+  void number(std::string_view pointer, std::string_view unit, const Range& range, std::string_view description,
+              Member& member, const More& more = {}) {
+    Option line = option(pointer, unit, description, more);
+    line.range = range;
+    visitor(line, member);
+  }
+  /// One or several points or directions, with as many components as the scene has dimensions.
+  template <class Member>
+  void vector(std::string_view pointer, std::string_view unit, std::string_view description, Member& member,
+              const More& more = {}) {
+    Option line = option(pointer, unit, description, more);
+    line.components = scene.dimension;
+    visitor(line, member);
+  }
+  /// A name, true or false, or a text.
+  template <class Member>
+  void choice(std::string_view pointer, std::string_view description, Member& member, const More& more = {}) {
+    visitor(option(pointer, "", description, more), member);
+  }
+  template <class Part>
+  bool present(std::string_view pointer, std::string_view description, Part& part) {
+    return visitor.present(option(pointer, "", description, {}), part);
+  }
+  template <class List>
+  void list(std::string_view pointer, std::string_view description, List& entries) {
+    visitor.list(option(pointer, "", description, {}), entries);
+  }
+  /// A function of time: value, rate, ... below the pointer `at`.
+  template <class Function>
+  void time_function(const std::string& at, const std::string& unit, Function& f, const Condition& when = {}) {
+    const auto part = [&](const char* key, const std::string& part_unit, const char* description, const Range& range,
+                          auto& member) {
+      number(at + "/" + key, part_unit, range, description, member, {.when = when});
+    };
+    section(at, "a function of time, S(t/ramp) (value + rate t + acceleration t^2/2 + oscillation)");
+    part("value", unit, "of a function of time: its constant part", {}, f.value);
+    part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
+    part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
+    part("amplitude", unit, "of its part that oscillates", {}, f.amplitude);
+    part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
+    part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
+    part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
+    part("until", "s", "time from which on it goes on evenly, at the rate it has then; if not given it never does",
+         Range::non_negative(), f.until);
+  }
+  template <class Support>
+  void support(const std::string& entry, Support& at) {
+    const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
+                      direction = motion + "/direction", angle = motion + "/angle";
+    choice(type,
+           "how the end is held: clamp, position and slope; pin, position; slide, all of the position but along the "
+           "axis's tangent at t = 0; or free",
+           at.type, {.required = true});
+    choice(clamp, "what a clamp holds: the slope's direction, or the whole slope vector", at.clamp,
+           {.when = only_if(type, at.type, SupportType::clamp)});
+    if (present(motion,
+                "displacement of a clamp or a pin as a function of time, from where it is at t = 0 and from rest, and "
+                "the angle of a clamp",
+                at.motion)) {
+      const bool turns = present(
+          angle, "by which a clamp turns about its point, in the plane, from how it stands at t = 0", at.motion->angle);
+      if (turns) time_function(angle, "rad", *at.motion->angle);
+      vector(direction, "-", "of the displacement; it need not have unit length; needed without an angle",
+             at.motion->direction, {.required = !turns, .instead = "angle"});
+      time_function(motion, "m", at.motion->displacement);
+    }
+    const std::string feed = entry + "/feed";
+    if (present(feed,
+                "length of beam that has come in through this clamp or pin since t = 0, straight and unstrained, as a "
+                "winch pays it out; less than 0 where it draws in",
+                at.feed)) {
+      time_function(feed, "m", *at.feed);
+    }
+  }
+  template <class Joint>
+  void joint_options(const std::string& at, bool massless, Joint& mass) {
+    const std::string friction = at + "/friction", at_support = at + "/at_support";
+    number(at + "/mass", "kg", massless ? Range::non_negative() : Range::positive(), "mass", mass.mass,
+           {.source = example1, .required = !massless});
+    number(at + "/position", "m", Range::positive(),
+           "material coordinate at t = 0, measured along the beam from its start", mass.position,
+           {.source = example1, .required = true});
+    number(at + "/velocity", "m/s", {}, "rate of the material coordinate at t = 0", mass.velocity);
+    choice(at + "/slopes",
+           "the beam's slopes before and behind the mass: one vector, one direction with two magnitudes, a kink with "
+           "one magnitude, or independent",
+           mass.slopes, {.source = "Ding & Ouyang 2022, Eq. 39-40"});
+    if (present(friction,
+                "Coulomb friction along the beam, mu N tanh(v/velocity); around a kink of a cable by Euler and "
+                "Eytelwein, tensions in the ratio e^(mu angle)",
+                mass.friction)) {
+      number(friction + "/coefficient", "-", Range::non_negative(),
+             "mu, friction over the contact force normal to the beam (of what is held, its reaction)",
+             mass.friction->coefficient, {.required = true});
+      number(friction + "/velocity", "m/s", Range::positive(), "relative velocity below which friction fades",
+             mass.friction->velocity);
+    }
+    number(at + "/separation_distance", "m", Range::positive(),
+           "distance from a free end where the mass leaves; 1e-3 of the beam's length if not given",
+           mass.separation_distance);
+    choice(at_support,
+           "what becomes of the mass at an end that it cannot leave: the run stops there, or it rests until the "
+           "contact force turns, or it rebounds",
+           mass.at_support);
+    number(at + "/restitution", "-", Range::closed(0, 1),
+           "of a rebound: speed along the beam after it over that before", mass.restitution,
+           {.when = only_if(at_support, mass.at_support, AtSupport::rebound)});
+  }
+
+  void whole() {
+    SceneSchema schema = SceneSchema::v1;
+    choice("/schema", "what this file is, and its version", schema);
+    choice("/title", "what the scene shows", scene.title);
+    choice(analysis, "a motion, or equilibria under loads that grow", scene.analysis);
+    const Condition dynamics = of_analysis(Analysis::dynamics);
+    choice(initial_shape,
+           "what a motion starts from: the beam as built, or its equilibrium under what acts at t = 0, found as "
+           "/statics says; velocities come on top of it",
+           scene.initial_shape, {.when = dynamics});
+    choice("/setting",
+           "what keys left out stand for: by default what measurements speak for, or what the paper does, as far as it "
+           "says so",
+           scene.setting);
+    number("/dimension", "-", Range::closed(2, 3), "2 for a planar scene, 3 for a spatial one", scene.dimension);
+    vector("/gravity", "m/s^2", "gravitational acceleration", scene.gravity, {.source = example1});
+    number("/gravity_ramp", "s", Range::non_negative(),
+           "time over which gravity grows smoothly from 0; 0 applies it at once", scene.gravity_ramp);
+  }
+
+  void beam_parts() {
+    visitor.section(Option{.pointer = "/beam", .unit = "", .description = "the beam", .required = true});
+    section("/beam/curve", "the beam's axis at t = 0");
+    section("/beam/section", "cross section");
+    section("/beam/material", "material");
+    section("/length_control", "how the mesh follows the sliding mass");
+    section("/integrator", "integration in time");
+    section("/output", "what is kept of the motion");
+  }
+
+  void axis() {
+    auto& beam = scene.beam;
+    constexpr std::string_view curve_type = "/beam/curve/type";
+    choice(curve_type, "kind of the beam's initial axis", beam.curve.type);
+    const Condition line = only_if(curve_type, beam.curve.type, CurveType::line);
+    const Condition arc = only_if(curve_type, beam.curve.type, CurveType::arc);
+    const Condition nurbs = only_if(curve_type, beam.curve.type, CurveType::nurbs);
+    vector("/beam/curve/start", "m", "where the beam starts", beam.curve.start, {.source = example1, .when = line});
+    vector("/beam/curve/end", "m", "where the beam ends", beam.curve.end, {.source = example1, .when = line});
+    vector("/beam/curve/center", "m", "center of the circle; in 3D it lies in a plane parallel to the first two axes",
+           beam.curve.center, {.source = "Ding & Ouyang 2022, §6.3", .when = arc, .required = true});
+    number("/beam/curve/radius", "m", Range::positive(), "radius of the circle", beam.curve.radius,
+           {.when = arc, .required = true});
+    number("/beam/curve/from_degrees", "degrees", {}, "where the beam starts, from the first axis towards the second",
+           beam.curve.from_degrees, {.when = arc, .required = true});
+    number("/beam/curve/to_degrees", "degrees", {}, "where the beam ends", beam.curve.to_degrees,
+           {.when = arc, .required = true});
+    number("/beam/curve/degree", "-", Range::closed(1, 3), "degree of the NURBS curve", beam.curve.degree,
+           {.when = nurbs, .required = true});
+    number("/beam/curve/knots", "-", {}, "knots, not decreasing: as many as control points, degree and 1 together",
+           beam.curve.knots, {.when = nurbs, .required = true});
+    number("/beam/curve/weights", "-", Range::positive(), "weights of the control points; none are equal weights",
+           beam.curve.weights, {.when = nurbs});
+    vector("/beam/curve/control_points", "m", "control points", beam.curve.control_points,
+           {.when = nurbs, .required = true});
+  }
+
+  void cross_section() {
+    auto& beam = scene.beam;
+    choice(section_type, "how the section is given", beam.section.type);
+    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+    const Condition stiffness = only_if(section_type, beam.section.type, Section::Type::stiffness);
+    number("/beam/section/radius", "m", Range::positive(), "radius of the full circular section", beam.section.radius,
+           {.source = example1, .when = circle});
+    number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
+           {.when = stiffness, .required = true});
+    number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
+           {.when = stiffness, .required = true});
+    number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
+           {.when = stiffness, .required = true});
+    number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin", beam.section.GIp,
+           {.when = stiffness});
+    number("/beam/section/rhoIp", "kg m", Range::non_negative(),
+           "moment of inertia per length about the axis, needed by spin", beam.section.rhoIp, {.when = stiffness});
+  }
+
+  void material() {
+    auto& beam = scene.beam;
+    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+    number("/beam/material/density", "kg/m^3", Range::positive(), "density", beam.material.density,
+           {.source = example1, .when = circle});
+    number("/beam/material/youngs_modulus", "Pa", Range::positive(), "Young's modulus", beam.material.youngs_modulus,
+           {.source = example1, .when = circle});
+    number("/beam/material/poisson_ratio", "-", {.low = -1, .high = 0.5, .low_open = true, .high_open = true},
+           "Poisson's ratio, of the torsional stiffness", beam.material.poisson_ratio, {.when = circle});
+    number("/beam/material/damping", "s", Range::non_negative(),
+           "Kelvin-Voigt time c: stresses E (strain + c strain rate)", beam.material.damping,
+           {.source = "Ding & Ouyang 2022, Eq. 19"});
+    number("/beam/material/mass_damping", "1/s", Range::non_negative(),
+           "alpha of damping in proportion to the beam's mass: a force -alpha times the momentum",
+           beam.material.mass_damping);
+    number("/beam/material/curvature_regularization", "1/m", Range::non_negative(),
+           "kappa_reg of bending damping and of a curved rest shape in 3D, which have no direction on a straight beam",
+           beam.material.curvature_regularization);
+  }
+
+  void elements() {
+    auto& beam = scene.beam;
+    number("/beam/elements", "-", Range::closed(2, 1e6), "number of elements N", beam.elements, {.source = example1});
+    choice("/beam/element", "element family; ALE elements let nodes move along the beam", beam.element,
+           {.source = paper});
+    choice("/beam/axis",
+           "how elements follow a curved axis: evenly, material coordinate and arc length the same to a high order, or "
+           "exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights); if not given even, in the "
+           "setting ding-ouyang-2022 exact where the scene allows it",
+           beam.axis, {.source = "Ding & Ouyang 2022, Eq. 43 is exact"});
+    choice("/beam/rest_shape", "where strains are measured from: the initial shape, or a straight beam",
+           beam.rest_shape);
+    choice("/beam/strain_law", "how stretch and curvature are measured", beam.strain_law);
+    choice("/beam/rotary_inertia",
+           "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,
+           {.source = "Katz 2001"});
+    choice("/beam/out_of_plane",
+           "what resists loads across the plane of a beam that is curved at rest, in space: to be written there, for "
+           "nothing does",
+           beam.out_of_plane);
+    choice("/beam/axial_strain",
+           "where an element's axial strain is summed: at all its quadrature points (full), or at both nodes and the "
+           "middle (lobatto), which bends slender beams without locking",
+           beam.axial_strain);
+    number("/beam/quadrature_points", "-", Range::closed(0, 25),
+           "Gauss points an element, 3 to 25; 0 takes the element's default", beam.quadrature_points);
+    number("/beam/weights", "-", Range::positive(), "initial rational weights of every element", beam.weights,
+           {.source = "Ding & Ouyang 2022, Eq. 5"});
+  }
+
+  void supports() {
+    support("/supports/at=start", scene.start);
+    support("/supports/at=end", scene.end);
+    section("/supports", "what holds the ends of the beam; one that is not listed is free");
+  }
+
+  void joints() {
+    if (present("/sliding_mass", "a lumped mass that slides along the beam", scene.sliding_mass)) {
+      joint_options("/sliding_mass", false, *scene.sliding_mass);
+    }
+    list("/sliding_joints",
+         "what slides along the beam, in order from its start: masses, and rings and sleeves that are held in space",
+         scene.sliding_joints);
+    for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+      auto& joint = scene.sliding_joints[i];
+      const std::string at = "/sliding_joints/" + std::to_string(i), held = at + "/support";
+      choice(held,
+             "free, with a mass; pin: a ring, held where the beam is at t = 0; clamp: a sleeve, which holds the beam's "
+             "direction, too",
+             joint.support, {.without = "slide", .standard = "free"});
+      const std::string motion = at + "/motion", direction = motion + "/direction";
+      if (present(motion,
+                  "displacement of a ring or a sleeve as a function of time, from where it is at t = 0 and from rest",
+                  joint.motion)) {
+        vector(direction, "-", "of the displacement; it need not have unit length", joint.motion->direction,
+               {.required = true});
+        time_function(motion, "m", joint.motion->displacement);
+      }
+      const bool guided = present(at + "/x",
+                                  "its way along the beam as a function of time, counted from where it is at t = 0: "
+                                  "what guides it does the work",
+                                  joint.x);
+      if (guided) time_function(at + "/x", "m", *joint.x);
+      number(at + "/pitch", "m", {},
+             "of a nut on a beam that spins: its way along the beam at one turn of the section, backwards at a "
+             "positive angle where the thread is right-handed, > 0; it does not turn itself",
+             joint.pitch);
+      joint_options(at, guided || joint.support != SupportType::free, joint);
+    }
+  }
+
+  void contact() {
+    if (present("/contact", "how several joints touch: each other, and the supports that they strike", scene.contact)) {
+      auto& contact = *scene.contact;
+      choice("/contact/joints",
+             "what becomes of two joints that meet: the run stops there, or they stay together until the force between "
+             "them turns, or they rebound",
+             contact.joints);
+      number("/contact/restitution", "-", Range::closed(0, 1),
+             "of their rebound: relative speed after it over that before", contact.restitution,
+             {.when = only_if("/contact/joints", contact.joints, AtSupport::rebound)});
+      number("/contact/distance", "-", Range::closed(1e-3, 0.1),
+             "between the nodes of what touches, over the uniform element length: results converge as it falls, and "
+             "steps get shorter",
+             contact.distance);
+    }
+  }
+
+  void spin() {
+    if (present("/spin", "the section's rotation about the axis", scene.spin)) {
+      auto& spin = *scene.spin;
+      choice("/spin/angles", "how the section's angle runs between the nodes", spin.angles,
+             {.source = "linear is the shaft element VLBSE, 2017"});
+      number("/spin/rate", "rad/s", {}, "of the whole beam at t = 0; if not given that of the first drive, or 0",
+             spin.rate);
+      list("/spin/drives", "nodes whose angle is prescribed", spin.drives);
+      for (std::size_t i = 0; i < spin.drives.size(); ++i) {
+        const std::string at = "/spin/drives/" + std::to_string(i), node = at + "/node";
+        number(node, "-", Range::non_negative(), "number of the node, from 0", spin.drives[i].node, {.required = true});
+        time_function(at + "/angle", "rad", spin.drives[i].angle);
+      }
+    }
+  }
+
+  void flow() {
+    if (present("/flow", "nodes that move along the beam as prescribed; without it they rest", scene.flow)) {
+      auto& flow = *scene.flow;
+      number("/flow/tension", "N", {}, "initial axial force", flow.tension);
+      number("/flow/velocity", "m/s", {}, "of the matter along the axis at t = 0; if not given, node 0 stands still",
+             flow.velocity);
+      choice("/flow/steady", "whether to start from the steady flow under the loads at t = 0", flow.steady);
+      list("/flow/nodes",
+           "nodes whose material coordinates are given, the first and the last among them; those between two of them "
+           "are equally spaced",
+           flow.nodes);
+      for (std::size_t i = 0; i < flow.nodes.size(); ++i) {
+        auto& guide = flow.nodes[i];
+        const std::string at = "/flow/nodes/" + std::to_string(i), node = at + "/node",
+                          support_pointer = at + "/support";
+        number(node, "-", Range::non_negative(), "number of the node, from 0", guide.node, {.required = true});
+        time_function(at + "/x", "m", guide.x);
+        choice(support_pointer,
+               "of an inner node, through which the beam then flows; those of the ends are in /supports",
+               guide.support);
+      }
+    }
+  }
+
+  void loads() {
+    list("/loads", "forces and torques as functions of time", scene.loads);
+    for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+      auto& load = scene.loads[i];
+      const std::string at = "/loads/" + std::to_string(i), type = at + "/type", place = at + "/at",
+                        node = at + "/node", direction = at + "/direction";
+      choice(type,
+             "force in a direction of its own, force along the tangent, moment that turns the tangent (in the plane), "
+             "or torque about the axis",
+             load.type);
+      choice(place, "a node, a material point, or the whole beam", load.at);
+      number(node, "-", Range::non_negative(), "number of the node, from 0", load.node,
+             {.when = only_if(place, load.at, LoadPlace::node), .required = true});
+      time_function(at + "/x", "m", load.x, only_if(place, load.at, LoadPlace::point));
+      time_function(at + "/magnitude", "N, N m, or these per m", load.magnitude);
+      const Condition has_direction = only_if(type, load.type, LoadType::force);
+      vector(direction, "-", "of the force; it need not have unit length", load.direction,
+             {.when = has_direction, .required = true});
+      time_function(at + "/turn", "rad", load.turn, has_direction);
+    }
+  }
+
+  void point_masses() {
+    list("/point_masses", "lumped masses on material points", scene.point_masses);
+    for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
+      const std::string at = "/point_masses/" + std::to_string(i), node = at + "/node", mass = at + "/mass";
+      number(node, "-", Range::non_negative(), "number of the node, from 0, that marks the material point at t = 0",
+             scene.point_masses[i].node, {.required = true});
+      number(mass, "kg", Range::positive(), "mass", scene.point_masses[i].mass, {.required = true});
+    }
+  }
+
+  void initial_velocity() {
+    if (present("/initial_velocity", "of a rigid motion at t = 0, without what supports hold of slopes",
+                scene.initial_velocity)) {
+      auto& velocity = *scene.initial_velocity;
+      vector("/initial_velocity/translation", "m/s", "velocity of the point that it turns about", velocity.translation);
+      number("/initial_velocity/rotation", "rad/s", {},
+             "how fast it turns, in the plane from the first axis towards the second", velocity.rotation);
+      vector("/initial_velocity/axis", "-", "of the rotation, in space; it need not have unit length", velocity.axis);
+      vector("/initial_velocity/about", "m", "the point that it turns about", velocity.about);
+    }
+  }
+
+  void drag() {
+    if (present("/drag", "of still air: a force per unstretched length against the beam's velocity", scene.drag)) {
+      auto& drag = *scene.drag;
+      const auto coefficient = [&](std::string_view pointer, std::string_view unit, std::string_view description,
+                                   auto& member) { number(pointer, unit, Range::non_negative(), description, member); };
+      section("/drag/linear", "in proportion to the velocity");
+      section("/drag/quadratic", "in proportion to the square of the velocity");
+      coefficient("/drag/linear/normal", "N s/m^2", "of the velocity across the axis", drag.linear.normal);
+      coefficient("/drag/linear/tangential", "N s/m^2", "of the velocity along the axis", drag.linear.tangential);
+      coefficient("/drag/quadratic/normal", "N s^2/m^3",
+                  "of the velocity across the axis: half the density of the air "
+                  "times the coefficient of drag and the width",
+                  drag.quadratic.normal);
+      coefficient("/drag/quadratic/tangential", "N s^2/m^3", "of the velocity along the axis",
+                  drag.quadratic.tangential);
+    }
+  }
+
+  void equations() {
+    choice("/formulation", "equations of motion at a moving node: Lagrange's, or the paper's virtual work",
+           scene.formulation, {.source = "Ding & Ouyang 2022, Eq. 17 is virtual-work"});
+    choice("/weights",
+           "how the rational weights follow the moving ends of an element; if not given transported with an as-built "
+           "arc or NURBS curve, frozen otherwise",
+           scene.weights, {.source = "Ding & Ouyang 2022 is frozen"});
+  }
+
+  void length_control() {
+    choice("/length_control/enabled", "whether elements beside the mass are segmented and merged",
+           scene.length_control.enabled);
+    number("/length_control/upper", "-", Range::positive(),
+           "length that triggers a segmentation, over the uniform element length", scene.length_control.upper,
+           {.source = "Ding & Ouyang 2022, §4"});
+    number("/length_control/hysteresis", "-", Range::non_negative(),
+           "the trigger is upper (1 + hysteresis), in [1.5, 2): no event re-fires at once",
+           scene.length_control.hysteresis);
+    choice("/length_control/cut",
+           "new node of a cut element: on its curve (exact), or at the least strain energy of the two halves "
+           "(relaxed); if not given, relaxed with sampled axial strain",
+           scene.length_control.cut, {.source = "Ding & Ouyang 2022, Eq. 21-28 is exact"});
+    choice("/length_control/merge",
+           "shape of a merged element: weights by the paper's fit, unit weights, weights of the arc that its rest "
+           "shape turns by, or weights and slopes by the least change at constant strain energy, or (own) weights by a "
+           "rule of the program that links the library, or (relaxed) weights as by default and the outer nodes at the "
+           "least strain energy; if not given, relaxed with sampled axial strain, else rest-arc with an as-built arc "
+           "or NURBS curve, point-fit otherwise",
+           scene.length_control.merge, {.source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"});
+    choice("/length_control/velocities",
+           "velocities after length control: nodes keep theirs, or the old field is projected, or projected and scaled "
+           "to the old total energy",
+           scene.length_control.velocities, {.source = "Ding & Ouyang 2022 is nodal"});
+    number("/length_control/end_merge", "-", {.low = 0, .high = 0.9},
+           "length of the element between the mass and an end of the beam, over the uniform element length, below "
+           "which the mass rides inside an element without a node of its own; 0 never; 0.5 if not given, but 0 without "
+           "length control, and for a kinked mass that stops at supports",
+           scene.length_control.end_merge);
+
+    number("/length_control/lower", "-", {.low = 0, .high = 1},
+           "length over the uniform element length below which an element beside a joint is merged with the next one, "
+           "even where the other side is not cut; 0, with one joint only: never; if not given 2 - upper (1 + "
+           "hysteresis) with several joints or a feed, where both fall together on even elements, and 0 with one joint",
+           scene.length_control.lower);
+
+    choice("/constraints",
+           "supports and the beam's continuity at the mass: eliminated coordinates, or equations with multipliers "
+           "(generalized-alpha and ida only)",
+           scene.constraints);
+  }
+
+  void statics() {
+    const Condition statics = of_analysis(Analysis::statics);
+    const Condition equilibrium =
+        either(statics, only_if(initial_shape, scene.initial_shape, InitialShape::equilibrium));
+    section("/statics", "how equilibria are found");
+    number("/statics/steps", "-", Range::closed(1, 1e5),
+           "equal steps in which loads, gravity and displacements of supports grow to what they are after all ramps, "
+           "or, where a motion starts from the equilibrium, at t = 0; with arc-length the first step has that size",
+           scene.statics.steps, {.when = equilibrium});
+    choice("/statics/control",
+           "whether the load factor grows evenly, or steps go along the path of equilibria, on which it may also fall, "
+           "until it is 1",
+           scene.statics.control, {.source = "Riks 1979 is arc-length", .when = equilibrium});
+    number("/statics/tolerance", "-", {.low = 1e-15, .high = 1e-4},
+           "where Newton's iteration ends: its last correction, of positions over the beam's length and of slopes; "
+           "rounding ends it, too",
+           scene.statics.tolerance, {.when = equilibrium});
+    number("/statics/frequencies", "-", Range::closed(0, 1000),
+           "how many of the lowest natural frequencies about the last equilibrium are reported",
+           scene.statics.frequencies, {.when = statics});
+    choice("/statics/joints",
+           "what becomes of a ring, a sleeve or a sliding mass, which keeps its place on the beam while the load "
+           "grows: it is released and slides to where it is in equilibrium, or held, in the natural frequencies, too; "
+           "if not given released in statics, and held until t = 0 where a motion starts from the equilibrium",
+           scene.statics.joints, {.when = equilibrium});
+  }
+
+  void integrator() {
+    const std::string_view integrator_type = "/integrator/type";
+    number(
+        "/integrator/accuracy", "-", Range::closed(1e-10, 1e-2),
+        "of positions in time, over the beam's length, and over its motion where that is smaller, down to 1e-6 of the "
+        "length: what else the integrator needs is chosen for it; excludes all other keys",
+        scene.integrator.accuracy,
+        in_motion({.when = {.pointer = {}, .values = {}, .holds = scene.integrator.automatic, .or_else = {}}}));
+    choice(integrator_type, "time integrator; ida, cvode and arkode need a build with SUNDIALS", scene.integrator.type,
+           in_motion());
+    number("/integrator/rtol", "-", Range::closed(1e-14, 1),
+           "relative tolerance of a step, of the methods that choose their step", scene.integrator.rtol, in_motion());
+    if (!in_time()) {
+      number("/integrator/atol", "m", {}, "absolute tolerance of a step", scene.integrator.atol, in_motion());
+    } else if (visitor.number_or(
+                   Option{.pointer = "/integrator/atol",
+                          .unit = "m, m/s, rad, rad/s, -, 1/s",
+                          .description =
+                              "absolute tolerance of a step, of the methods that choose their step: a number for all "
+                              "of the state in its own units, or an object with one for each kind",
+                          .range = Range::positive()},
+                   scene.integrator.atol, scene.integrator.atol_by_kind)) {
+      auto& atol = *scene.integrator.atol_by_kind;
+      number("/integrator/atol/length", "m", Range::positive(),
+             "of positions and material coordinates, and over the uniform element length of slopes", atol.length,
+             {.required = true});
+      number("/integrator/atol/velocity", "m/s", Range::positive(), "of their rates", atol.velocity,
+             {.required = true});
+      number("/integrator/atol/angle", "rad", Range::positive(),
+             "of angles about the axis, and over the uniform element length of twist; if not given that of slopes",
+             atol.angle);
+      number("/integrator/atol/spin", "rad/s", Range::positive(),
+             "of their rates; if not given that of the rates of slopes", atol.spin);
+      number("/integrator/atol/motion", "m", Range::positive(),
+             "displacement from which these tolerances hold in full: until something has moved as far they are smaller "
+             "in proportion, down to 1e-5 of them, and the first step is one in which a wave crosses the shortest "
+             "element; if not given they always hold",
+             atol.motion, {.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)});
+    }
+    number("/integrator/step", "s", Range::positive(),
+           "length of a step, of the methods that do not choose it; at most the duration", scene.integrator.step,
+           in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::adams_bashforth_moulton,
+                                      IntegratorType::generalized_alpha, IntegratorType::energy_momentum)}));
+    number("/integrator/rho_inf", "-", {.low = 0, .high = 1},
+           "spectral radius at infinity: 1 keeps energy, 0 damps high frequencies most", scene.integrator.rho_inf,
+           in_motion({.source = "Arnold & Bruels 2007",
+                      .when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
+    choice("/integrator/newton", "a new tangent at every iteration (full) or when one converges too slowly (modified)",
+           scene.integrator.newton,
+           in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
+    number("/integrator/newton_tolerance", "-", {.low = 1e-15, .high = 1e-2},
+           "where Newton's iteration ends: its estimated error over the step's own increment, field by field; rounding "
+           "ends it, too",
+           scene.integrator.newton_tolerance,
+           in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
+    choice("/integrator/adaptive", "the step follows rtol and atol of the positions, up to the length given",
+           scene.integrator.adaptive,
+           in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
+    choice("/integrator/error_estimate",
+           "what of the estimated error limits an adaptive step: all of it, or what the method does not damp by itself "
+           "(filtered)",
+           scene.integrator.error_estimate,
+           in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
+    choice("/integrator/locate_events",
+           "whether events happen when they are due, or at the end of the step in which they are, which leaves every "
+           "method of first order",
+           scene.integrator.locate_events, in_motion());
+  }
+
+  void output() {
+    number("/duration", "s", Range::positive(), "simulated time", scene.duration,
+           in_motion({.when = of_analysis(Analysis::dynamics), .required = true}));
+    number("/output/interval", "s", Range::positive(), "time between samples", scene.output.interval, in_motion());
+    number("/output/configurations", "s", Range::non_negative(), "times, ascending, at which the whole shape is kept",
+           scene.output.configurations, in_motion());
+    number("/output/points", "-", {.low = 0, .high = 1000},
+           "intervals an element: the report then has, for each shape that is kept, points along the axis with "
+           "velocity, strain, curvature and tension; 0 for none",
+           scene.output.points);
+  }
+};
+
+/// Calls the visitor for every option of a scene, each after the options it depends on:
+///   visitor(option, member)           for an option; `member` is a reference into the scene;
+///   visitor.section(option)           for an object whose options follow, and which every scene needs if it is
+///   required; visitor.present(option, optional) for a part that may be absent; the part's options follow if it says
+///   true; visitor.list(option, vector)      for a list of any length; the options of its entries follow,
+///   "/loads/0/type";
+///   visitor.number_or(option, number, optional)  for a number that may be a part instead, whose options follow if it
+///   says true.
+template <class Visitor, class SceneT>
+requires std::same_as<std::remove_const_t<SceneT>, Scene>
+void visit_options(Visitor&& visitor, SceneT& scene) {
+  SceneOptions<std::remove_reference_t<Visitor>, SceneT>{visitor, scene}.all();
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,286 @@
+#include "scene/simulate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/system/steady_flow.hpp"
+#include "scene/build.hpp"
+#include "scene/energy_ledger.hpp"
+#include "scene/initial_equilibrium.hpp"
+#include "scene/model_errors.hpp"
+#include "scene/plausibility.hpp"
+#include "scene/run_support.hpp"
+#include "scene/stiffness.hpp"
+#include "scene/validate.hpp"
+
+namespace vlbeam {
+
+template <int D>
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
+  Configuration shape;
+  shape.t = t;
+  shape.x = chain.mesh.x;
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
+    shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));
+  }
+  for (int k = 0; chain.curved_at_rest() && k <= chain.mesh.last(); ++k) {
+    shape.rest.r.push_back(point_of<D>(position<D>(chain.rest.data(), k)));
+    shape.rest.r_x.push_back(point_of<D>(slope<D>(chain.rest.data(), k)));
+  }
+  for (const auto& joint : chain.joints) {
+    if (!joint.kink) continue;
+    shape.kinks.push_back(
+        {static_cast<std::size_t>(joint.node), point_of<D>(joint.kink->slope), point_of<D>(joint.kink->rate)});
+  }
+  for (int k = 0; k < chain.mesh.elements(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const auto& weights = chain.mesh.weights[i];
+    const bool restricted = transport == WeightTransport::transported && weights.w != unit_weights;
+    shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
+  }
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    const double x_rate = chain.mark_rate(k);
+    shape.rates.x.push_back(x_rate);
+    shape.rates.v.push_back(point_of<D>(position<D>(chain.rate.data(), k) - x_rate * slope<D>(chain.q.data(), k)));
+    shape.rates.r_x.push_back(point_of<D>(slope<D>(chain.rate.data(), k)));
+  }
+  return shape;
+}
+
+template Configuration configuration_of(const ChainState<2>&, double, WeightTransport);
+template Configuration configuration_of(const ChainState<3>&, double, WeightTransport);
+
+namespace {
+
+/// Runs one scene of a known dimension, and fills in its result.
+template <int D>
+class Run {
+ public:
+  Run(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints, const ChainState<D>& chain)
+      : scene_(scene),
+        progress_(progress),
+        checkpoints_(checkpoints),
+        stops_(scene),
+        system_(build_model<D>(scene), chain) {
+    system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
+    system_.on_step = [this](double t) { return !progress_ || progress_(t); };
+    system_.on_event = [this](const EventRecord<D>& record) { event(record); };
+  }
+
+  /// Remembers what the first sample says of the equilibrium that the run starts from.
+  void starts_from(const StaticSample& equilibrium) { start_ = equilibrium; }
+
+  RunResult operator()() {
+    const std::vector<double>& x = system_.mesh().x;
+    double shortest = x.back() - x.front();
+    for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
+    const auto options = integration_options(scene_, system_.model().section, shortest);
+    const auto initial = [this]() -> Eigen::VectorXd {
+      const Eigen::VectorXd y = system_.initial_state();
+      return scene_.flow && scene_.flow->steady ? steady_state(system_, y) : y;
+    };
+    run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
+    result_.timing.motion -= result_.timing.length_control + observing_;
+    result_.solver.rhs_evaluations = system_.rhs_evaluations();
+    return std::move(result_);
+  }
+
+ private:
+  void keep_shape(const Eigen::VectorXd& y, double t) {
+    const ChainState<D> chain = system_.chain(y, t);
+    Configuration shape = configuration_of(chain, t, weight_transport(scene_));
+    for (int k = 0; system_.spin() != nullptr && k <= chain.mesh.last(); ++k) {
+      const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
+      if (system_.marks() != nullptr) {
+        shape.angles.push_back(angles[system_.spin()->angle(k)]);
+        shape.rates.spins.push_back(rates[system_.spin()->angle(k)]);
+        continue;
+      }
+      const auto section = system_.spin()->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
+      shape.angles.push_back(section.angle);
+      shape.rates.spins.push_back(section.spin);
+    }
+    result_.configurations.push_back(std::move(shape));
+  }
+
+  void sample(const Eigen::VectorXd& y, double t) {
+    const auto started = std::chrono::steady_clock::now();
+    if (stops_.keeps_shape_at(t)) keep_shape(y, t);
+    if (stops_.samples_at(t)) {
+      const Observation<D> seen = system_.observe(y, t, ledger_points, true);
+      const Observation<D> own = system_.observe(y, t, system_.model().quadrature_points);
+      Sample sample;
+      sample.t = t;
+      const ChainState<D> chain = system_.chain(y, t);
+      sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
+      sample.beam_length = seen.beam_length;
+      sample.beam_length_rate = seen.beam_length_rate;
+      sample.energy = seen.energy;
+      sample.discrete_total = own.energy.total();
+      sample.momentum = point_of<D>(seen.momentum);
+      sample.angular_momentum = point_of<3>(seen.angular_momentum);
+      sample.strains = strain_sample(*seen.extremes);
+      const OuterForces<D> forces = system_.forces(y, t);
+      if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
+      for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+      look_at_mass(y, chain, forces, sample);
+      if (result_.samples.empty()) {
+        first_total_ = sample.discrete_total;
+        sample.equilibrium = start_;
+      }
+      result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
+      const double supplied = sample.energy.supplied + seen.load_work + seen.end_work + seen.mesh_work;
+      const double gain = sample.discrete_total - supplied - first_total_ - jumps_;
+      result_.max_energy_drift = std::max(result_.max_energy_drift, std::abs(gain));
+      result_.samples.push_back(std::move(sample));
+      most_energy_ = std::max(most_energy_, energy_there_is(result_.samples.front(), result_.samples.back()));
+      check_source_of_energy(scene_, most_energy_, gain, t);
+    }
+    observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  void look_at_mass(const Eigen::VectorXd& y, const ChainState<D>& chain, const OuterForces<D>& forces,
+                    Sample& sample) {
+    const std::size_t count = sliding_joints(scene_).size();  // the model's at its ends come behind them
+    for (std::size_t i = 0; i < count; ++i) {
+      const int index = static_cast<int>(i);
+      SlidingSample joint;
+      joint.position = mark_of(chain, index);
+      if (const auto mass = system_.mass_motion(y, index)) joint.mass_position = point_of<D>(mass->r);
+      if (system_.on_beam(index)) joint.on_beam = joint_sample(y, chain, index, forces);
+      if (i == 0) {
+        sample.joint_position = joint.position;
+        sample.mass_position = joint.mass_position;
+        sample.joint = joint.on_beam;
+      }
+      if (count > 1) sample.joints.push_back(joint);
+    }
+    const ConstraintResidual slopes = system_.slope_residual(y);
+    result_.slopes.position = std::max(result_.slopes.position, slopes.position);
+    result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
+  }
+
+  std::shared_ptr<const FlowSample> flow_sample(const Eigen::VectorXd& y, double t, const Observation<D>& seen,
+                                                const OuterForces<D>& forces) const {
+    FlowSample flow;
+    flow.mass = seen.mass;
+    if (system_.spin() != nullptr) {
+      flow.end_angles = {y[system_.angle(0)], y[system_.angle(scene_.beam.elements)]};
+      flow.spin_momentum = seen.spin_momentum;
+      flow.torques = forces.drives;
+    }
+    for (const auto& place : system_.load_places(y, t)) flow.loads.push_back(point_of<D>(place));
+    for (const auto& force : forces.guides) flow.supports.push_back(reaction_of<D>(force));
+    flow.ledger = {seen.mass_in, seen.end_work, seen.load_work, seen.mesh_work};
+    return std::make_shared<const FlowSample>(std::move(flow));
+  }
+
+  /// Material coordinate of a joint, while it is on the beam.
+  static std::optional<double> mark_of(const ChainState<D>& chain, int index) {
+    if (chain.rider) return chain.rider->x;
+    const auto* const joint = find(chain, index);
+    if (joint == nullptr) return std::nullopt;
+    return chain.mesh.x[static_cast<std::size_t>(joint->node)];
+  }
+  static const typename ChainState<D>::Joint* find(const ChainState<D>& chain, int index) {
+    const auto found = std::find_if(chain.joints.begin(), chain.joints.end(),
+                                    [index](const auto& joint) { return joint.index == index; });
+    return found == chain.joints.end() ? nullptr : &*found;
+  }
+
+  JointSample joint_sample(const Eigen::VectorXd& y, const ChainState<D>& chain, int index,
+                           const OuterForces<D>& forces) const {
+    const Vec<double, D>& force = forces.on_masses[static_cast<std::size_t>(index)];
+    Vec<double, D> tangent;
+    const auto* const joint = find(chain, index);
+    if (chain.rider) {
+      tangent = system_.rider_motion(y.data(), y.data() + system_.coordinates()).r_x.normalized();
+    } else {
+      tangent = slope<D>(chain.q.data(), joint->node).normalized();
+      if (joint->kink) tangent = (tangent + joint->kink->slope.normalized()).normalized();
+    }
+    const double along = force.dot(tangent);
+    return {chain.rider ? chain.rider->rate : joint->rate, point_of<D>(force), along, (force - along * tangent).norm(),
+            forces.guiding[static_cast<std::size_t>(index)]};
+  }
+
+  void event(const EventRecord<D>& record) {
+    Event event;
+    event.t = record.t;
+    event.type = record.type;
+    event.joint = record.joint;
+    event.joint_position = record.joint_position;
+    event.weights = record.merged.k;
+    event.unit_fallback = record.merged.unit_fallback;
+    event.energy_jump = record.jump;
+    event.discrete_jump = record.discrete_jump;
+    event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
+    event.restored = record.restored;
+    event.relaxation = record.relaxation;
+    event.before = configuration_of(record.before, record.t, weight_transport(scene_));
+    event.after = configuration_of(record.after, record.t, weight_transport(scene_));
+    if (record.type == EventType::separation) result_.status = RunStatus::separated;
+    jumps_ += record.discrete_jump;
+    result_.timing.length_control += record.seconds;
+    result_.events.push_back(std::move(event));
+  }
+
+  const Scene& scene_;
+  ProgressCallback progress_;
+  const Checkpoints* checkpoints_;
+  Stops stops_;
+  BeamSystem<D> system_;
+  RunResult result_;
+  std::optional<StaticSample> start_;
+  double first_total_ = 0, jumps_ = 0, most_energy_ = 0, observing_ = 0;
+};
+
+template <int D>
+RunResult simulate_from_equilibrium(const Scene& scene, const ProgressCallback& progress,
+                                    const Checkpoints* checkpoints) {
+  std::optional<InitialEquilibrium<D>> start;
+  RunResult none;
+  try {
+    start = initial_equilibrium<D>(scene, [&progress] { return !progress || progress(0); });
+    none.status = RunStatus::interrupted;
+  } catch (const ComputationFailed& failure) {
+    none.status = RunStatus::failed;
+    none.failure = std::string("there is no equilibrium to start from: ") + failure.what();
+  }
+  if (!start) return none;
+  set_in_motion(scene, start->chain);
+  Run<D> run(scene, progress, checkpoints, start->chain);
+  run.starts_from(start->seen);
+  return run();
+}
+
+template <int D>
+RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
+  if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
+  if (starts_in_equilibrium(scene)) return simulate_from_equilibrium<D>(scene, progress, checkpoints);
+  return Run<D>(scene, progress, checkpoints, build_chain<D>(scene))();
+}
+
+}  // namespace
+
+RunResult simulate(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
+  validate(scene);
+  if (checkpoints != nullptr && scene.analysis == Analysis::statics) {
+    refuse("/analysis", "\"statics\" with checkpoints", "they are of runs in time");
+  }
+  RunResult result = of_scene([&] {
+    return scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints)
+                                : simulate_in<3>(scene, progress, checkpoints);
+  });
+  if (scene.analysis == Analysis::dynamics) {
+    result.warnings = energy_warnings(scene, result);
+    if (const auto warning = stability_warning(scene, result)) result.warnings.push_back(*warning);
+  }
+  std::ranges::copy(implausible(scene, result), std::back_inserter(result.warnings));
+  return result;
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,84 @@
+#include <chrono>
+
+#include "core/error.hpp"
+#include "core/system/equilibrium.hpp"
+#include "scene/build.hpp"
+#include "scene/initial_equilibrium.hpp"
+#include "scene/run_support.hpp"
+
+namespace vlbeam {
+namespace {
+
+template <int D>
+Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number) {
+  const auto seen = system.observe(at.y, at.factor, ledger_points, true);
+  const ChainState<D> chain = system.chain(at.y, number);
+  Sample sample;
+  sample.t = number;
+  sample.equilibrium = static_sample_of(at);
+  sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
+  sample.beam_length = seen.beam_length;
+  sample.energy = seen.energy;
+  sample.discrete_total = system.observe(at.y, at.factor, system.model().quadrature_points).energy.total();
+  sample.strains = strain_sample(*seen.extremes);
+  const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
+  for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const auto& joint = chain.joints[i];
+    const Vec<double, D> place = position<D>(chain.q.data(), joint.node), &force = forces.on_masses[i];
+    Vec<double, D> tangent = slope<D>(chain.q.data(), joint.node).normalized();
+    if (joint.kink) tangent = (tangent + joint.kink->slope.normalized()).normalized();
+    const double along = force.dot(tangent), held = chain.joints.size() > 1 ? at.holding[i] : 0;
+    const SlidingSample seen_there{chain.mesh.x[static_cast<std::size_t>(joint.node)], point_of<D>(place),
+                                   JointSample{0, point_of<D>(force), along, (force - along * tangent).norm(), held}};
+    if (i == 0) {
+      sample.joint_position = seen_there.position;
+      sample.mass_position = seen_there.mass_position;
+      sample.joint = seen_there.on_beam;
+    }
+    if (chain.joints.size() > 1) sample.joints.push_back(seen_there);
+  }
+  if (!system.model().loads.present()) return sample;
+  FlowSample flow;
+  flow.mass = seen.mass;
+  const ChainView<D> beam = system.view(at.y.data(), at.y.data() + system.coordinates());
+  for (const auto& place : system.model().loads.places(beam, at.factor)) flow.loads.push_back(point_of<D>(place));
+  flow.ledger = {.mass = 0, .ends = 0, .loads = 0, .mesh = 0};
+  sample.flow = std::make_shared<const FlowSample>(std::move(flow));
+  return sample;
+}
+
+}  // namespace
+
+template <int D>
+RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress) {
+  BeamSystem<D> system(build_model<D>(scene), build_chain<D>(scene));
+  const StaticsSpec& statics = scene.statics;
+  RunResult result;
+  std::optional<Equilibrium> last;
+  const auto started = std::chrono::steady_clock::now();
+  const auto on_point = [&](const Equilibrium& at) {
+    const auto number = static_cast<double>(result.samples.size());
+    result.samples.push_back(static_sample(system, at, number));
+    result.configurations.push_back(configuration_of(system.chain(at.y, number), number, weight_transport(scene)));
+    last = at;
+    const bool goes_on = !progress || progress(at.factor);
+    if (!goes_on) result.status = RunStatus::interrupted;
+    return goes_on;
+  };
+  try {
+    trace_equilibria<D>(system, equilibrium_options(scene), on_point, result.solver);
+    if (last && statics.frequencies > 0) result.frequencies = natural_frequencies(system, *last, statics.frequencies);
+  } catch (const ComputationFailed& failure) {
+    result.status = RunStatus::failed;
+    result.failure = failure.what();
+    result.failure_time = failure.t;
+  }
+  result.timing.motion = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return result;
+}
+
+template RunResult simulate_statics<2>(const Scene&, const std::function<bool(double)>&);
+template RunResult simulate_statics<3>(const Scene&, const std::function<bool(double)>&);
+
+}  // namespace vlbeam

@@ -1,0 +1,172 @@
+#include "scene/validate_beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/geometry/nurbs.hpp"
+#include "scene/build.hpp"
+#include "scene/model_errors.hpp"
+#include "scene/options.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double regularization_share = 1e-3;  // of the curvature 1/L: a suggestion
+constexpr double smallest_weight_ratio = 1e-6;
+constexpr double largest_quantity = 1e100;
+
+/// Of weights of one curve: `field` is where they stand.
+void check_weight_ratio(const std::string& field, const double* weights, std::size_t count) {
+  const auto [least, largest] = std::minmax_element(weights, weights + count);
+  if (count == 0 || *least >= smallest_weight_ratio * *largest) return;
+  refuse(field + "/" + std::to_string(least - weights), number_text(*least),
+         "weights of one curve must be within " + number_text(1 / smallest_weight_ratio) +
+             " of each other: the largest here is " + number_text(*largest));
+}
+
+/// Every span between two knots needs an element, and no knot stands more often than the degree.
+void check_knots(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  const std::size_t most = static_cast<std::size_t>(curve.degree) * (static_cast<std::size_t>(scene.beam.elements) + 3);
+  if (curve.knots.size() > most) {
+    refuse("/beam/curve/knots", std::to_string(curve.knots.size()) + " entries",
+           "with " + std::to_string(scene.beam.elements) + " elements there can be at most " + std::to_string(most) +
+               ": each span between two knots needs an element");
+  }
+  check_weight_ratio("/beam/curve/weights", curve.weights.data(), curve.weights.size());
+}
+
+/// Quantities whose squares and products must not leave the range of numbers.
+bool of_usual_size(double value) { return value > 1 / largest_quantity && value < largest_quantity; }
+
+void check_sizes(const Scene& scene) {
+  const BeamSpec& beam = scene.beam;
+  const bool circle = beam.section.type == Section::Type::circle;
+  const BeamSection section = build_section(beam);
+  const auto check = [&](const char* name, double value) {
+    if (of_usual_size(value)) return;
+    const std::string bounds = "it must be between 1e-100 and 1e100";
+    if (!circle) refuse(std::string("/beam/section/") + name, number_text(value), bounds);
+    refuse("/beam/section/radius", number_text(beam.section.radius),
+           "with /beam/material/density = " + number_text(beam.material.density) +
+               " and youngs_modulus = " + number_text(beam.material.youngs_modulus) + " it makes " + name + " = " +
+               number_text(value) + "; " + bounds);
+  };
+  check("rhoA", section.rhoA);
+  check("EA", section.stiffness.EA);
+  if (circle || section.stiffness.EI > 0) check("EI", section.stiffness.EI);
+}
+
+void check_curve(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  double length = 0;
+  switch (curve.type) {
+    case CurveType::line:
+      length = beam_length(scene);
+      if (curve.start == curve.end) {
+        refuse("/beam/curve/end", "the same point as /beam/curve/start", "the beam needs a length > 0 [m]");
+      }
+      break;
+    case CurveType::arc: {
+      length = beam_length(scene);
+      if (!(length > 0)) {
+        refuse("/beam/curve/to_degrees", number_text(curve.to_degrees),
+               "it must not be /beam/curve/from_degrees: the beam needs a length > 0 [m]");
+      }
+      const double turn = std::abs(curve.to_degrees - curve.from_degrees);
+      if (!(turn / scene.beam.elements < 180)) {
+        refuse("/beam/elements", std::to_string(scene.beam.elements),
+               "an element must turn by less than 180 degrees: take more than " + number_text(turn / 180) + " of them");
+      }
+      break;
+    }
+    case CurveType::nurbs:
+      check_knots(scene);
+      try {
+        length = beam_length(scene);
+      } catch (const NurbsError& error) {
+        const auto& numbers = error.field == "knots" ? curve.knots : curve.weights;
+        const bool entry = error.field != "control_points" && error.index < numbers.size();
+        refuse("/beam/curve/" + error.field + (entry ? "/" + std::to_string(error.index) : ""),
+               entry ? number_text(numbers[error.index]) : std::to_string(error.index) + " entries", error.what());
+      }
+      if (const auto spans = build_axis<3>(scene).breaks().size() - 1;
+          spans > static_cast<std::size_t>(scene.beam.elements)) {
+        refuse("/beam/elements", std::to_string(scene.beam.elements),
+               "the curve has " + std::to_string(spans) + " spans between its knots, each of which needs an element");
+      }
+      break;
+  }
+  if (!of_usual_size(length)) {
+    refuse("/beam/curve", "a length of " + number_text(length) + " m", "it must be between 1e-100 and 1e100 m");
+  }
+}
+
+void check_beam(const Scene& scene) {
+  const BeamSpec& beam = scene.beam;
+  if (beam.quadrature_points == 1 || beam.quadrature_points == 2) {
+    refuse("/beam/quadrature_points", std::to_string(beam.quadrature_points),
+           "it must be 0 (the element's default) or 3 to 25: the mass matrix is singular with fewer points");
+  }
+
+  check_weight_ratio("/beam/weights", beam.weights.data(), beam.weights.size());
+  const auto unequal = std::ranges::find_if(beam.weights, [](double w) { return w != 1; });
+  if (unequal != beam.weights.end()) {
+    const std::string field = "/beam/weights/" + std::to_string(unequal - beam.weights.begin());
+    if (beam.element == ElementKind::ancf || beam.element == ElementKind::ale_ancf) {
+      refuse(field, number_text(*unequal),
+             std::string(to_string(beam.element)) + " has unit weights; other weights need RANCF or ALE-RANCF");
+    }
+    if (beam.curve.type != CurveType::line) {
+      refuse(field, number_text(*unequal), "the weights of a curved beam are those of its curve: leave this out");
+    }
+  }
+
+  const bool bends = beam.section.type == Section::Type::circle || beam.section.EI > 0;
+  const bool curved_in_space =
+      scene.dimension == 3 && bends && has_rest_shape(scene) && beam.curve.type != CurveType::line;
+  if (curved_in_space && !beam.out_of_plane) {
+    refuse("/beam/out_of_plane", InvalidInput::missing,
+           "a beam that is curved at rest does not resist loads across its plane here, for its strain energy has the "
+           "magnitude of the curvature and no torsion: write \"none\" if nothing leaves that plane, or \"rest_shape\": "
+           "\"paper\", or \"dimension\": 2");
+  }
+  if (!curved_in_space && beam.out_of_plane) {
+    refuse("/beam/out_of_plane", quoted(*beam.out_of_plane),
+           "it is to be left out but where \"dimension\" is 3 and a beam that bends is curved at rest");
+  }
+  if (scene.dimension == 3 && bends && beam.material.damping > 0 && beam.material.curvature_regularization == 0) {
+    refuse("/beam/material/curvature_regularization", "0",
+           "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], such as " +
+               number_text(regularization_share / beam_length(scene)) + ", or the damping 0");
+  }
+  if (axis_form(scene) == AxisForm::exact && beam.curve.type != CurveType::line) {
+    if (beam.element == ElementKind::ale_ancf || beam.element == ElementKind::ancf) {
+      refuse("/beam/axis", "\"exact\"",
+             "a polynomial element holds no conic: it must be \"even\", or the element rational");
+    }
+    if (has_rest_shape(scene) && sliding_joint(scene)) {
+      refuse(
+          "/beam/axis", "\"exact\"",
+          "a mass that slides along an \"as-built\" beam needs \"even\": at an uneven speed the stretch at a node is "
+          "the mesh's, and changes as the mesh does");
+    }
+  }
+  if (scene.dimension == 3 && bends && beam.material.curvature_regularization == 0 && has_rest_shape(scene)) {
+    refuse("/beam/material/curvature_regularization", "0",
+           "a curved rest shape in 3D has no direction where the beam is straight: it must be a number > 0 [1/m], such "
+           "as " +
+               number_text(regularization_share / beam_length(scene)) + ", or \"rest_shape\": \"paper\"");
+  }
+}
+
+}  // namespace
+
+void validate_beam(const Scene& scene) {
+  check_sizes(scene);
+  check_curve(scene);
+  check_beam(scene);
+}
+
+}  // namespace vlbeam

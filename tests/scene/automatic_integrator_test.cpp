@@ -1,0 +1,132 @@
+#include "scene/automatic_integrator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "scene/simulate.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+Scene wire(double youngs_modulus) {
+  Scene scene;
+  scene.start.type = SupportType::clamp;
+  scene.sliding_mass = SlidingMassSpec{};
+  scene.beam.elements = 10;
+  scene.beam.material.youngs_modulus = youngs_modulus;
+  return scene;
+}
+
+constexpr double steel = 2.1e11, rubber = 2e7;
+
+double largest_difference(const RunResult& a, const RunResult& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(a.samples.size(), b.samples.size()); ++i) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      largest = std::max(largest, std::abs(a.samples[i].end[c] - b.samples[i].end[c]));
+    }
+    if (a.samples[i].joint_position && b.samples[i].joint_position) {
+      largest = std::max(largest, std::abs(*a.samples[i].joint_position - *b.samples[i].joint_position));
+    }
+  }
+  return largest;
+}
+
+TEST(AutomaticIntegrator, TakesTheMethodThatCostsLess) {
+  const IntegratorSpec implicit = automatic_integrator(wire(steel));
+  EXPECT_EQ(implicit.type, IntegratorType::generalized_alpha);
+  EXPECT_TRUE(implicit.adaptive && implicit.automatic && implicit.atol_by_kind);
+  EXPECT_FALSE(implicit.reason.empty());
+  EXPECT_EQ(automatic_integrator(wire(rubber), 1e-9).type, IntegratorType::dopri5);
+  EXPECT_EQ(automatic_integrator(wire(steel), 1e-6).type, IntegratorType::generalized_alpha);
+}
+
+TEST(AutomaticIntegrator, TakesWhatTheSceneAllows) {
+  Scene kinked = wire(steel);
+  kinked.sliding_mass->slopes = JointSlopes::tangent;  // generalized-alpha would need multipliers
+  EXPECT_EQ(automatic_integrator(kinked).type, IntegratorType::dopri5);
+  kinked.constraints = Constraints::multipliers;  // dopri5 does not know them
+  EXPECT_EQ(automatic_integrator(kinked).type, IntegratorType::generalized_alpha);
+  kinked.beam.elements = -1;
+  EXPECT_THROW(automatic_integrator(kinked), InvalidInput);
+}
+
+TEST(AutomaticIntegrator, ToleratesByTheBeamsLength) {
+  const IntegratorSpec metres = automatic_integrator(wire(steel));
+  Scene longer = wire(steel);
+  longer.beam.curve.end = {1000, 0};
+  longer.beam.elements = 10000;
+  EXPECT_NEAR(automatic_integrator(longer).atol_by_kind->length, 1000 * metres.atol_by_kind->length, 1e-12);
+}
+
+// All lengths and times a thousand times as long: the choice must not see it.
+TEST(AutomaticIntegrator, ChoosesAlikeInAllUnits) {
+  for (const double modulus : {steel, rubber}) {
+    Scene scene = wire(modulus);
+    const IntegratorSpec here = automatic_integrator(scene);
+    scene.beam.curve.end[0] *= 1000;
+    scene.beam.section.radius *= 1000;
+    scene.gravity[1] /= 1000;
+    scene.duration *= 1000;
+    scene.sliding_mass->position *= 1000;
+    const IntegratorSpec there = automatic_integrator(scene);
+    EXPECT_EQ(there.type, here.type);
+    EXPECT_NEAR(there.step / here.step, 1000, 1e-6);
+  }
+}
+
+// A scene, and the same to twice its end: the same steps up to there.
+TEST(AutomaticIntegrator, DoesNotSeeTheDuration) {
+  for (const double modulus : {steel, rubber}) {
+    Scene scene = wire(modulus);
+    scene.duration = 0.2;
+    scene.integrator = automatic_integrator(scene);
+    const RunResult once = simulate(scene);
+    scene.duration = 0.4;
+    scene.integrator = automatic_integrator(scene);
+    const RunResult twice = simulate(scene);
+    ASSERT_LT(once.samples.size(), twice.samples.size());
+    EXPECT_LE(largest_difference(once, twice), 1e-10);
+  }
+}
+
+// Its own weight, let go: vibrations of 72 Hz and 0.16 mm, 36 periods of them.
+TEST(AutomaticIntegrator, FollowsSmallVibrationsOfAStiffCantilever) {
+  for (const double radius : {0.05, 0.01}) {
+    Scene scene = wire(steel);
+    scene.sliding_mass.reset();
+    scene.beam.section.radius = radius;
+    scene.duration = 0.5;
+    scene.integrator = automatic_integrator(scene, 1e-5);
+    const RunResult chosen = simulate(scene);
+    scene.integrator = {};
+    scene.integrator.type = IntegratorType::generalized_alpha;
+    scene.integrator.step = 1e-5;
+    const RunResult fine = simulate(scene);
+    double largest = 0, error = 0;
+    for (std::size_t i = 0; i < fine.samples.size(); ++i) {
+      largest = std::max(largest, std::abs(fine.samples[i].end[1]));
+      error = std::max(error, std::abs(fine.samples[i].end[1] - chosen.samples[i].end[1]));
+    }
+    EXPECT_LE(error, 0.02 * largest) << radius;
+  }
+}
+
+// What the accuracy promises, against a run that resolves everything.
+TEST(AutomaticIntegrator, KeepsItsAccuracy) {
+  Scene scene = wire(rubber);
+  scene.duration = 0.4;
+  scene.integrator = {};
+  scene.integrator.rtol = scene.integrator.atol = 1e-11;
+  const RunResult exact = simulate(scene);
+  for (const double accuracy : {1e-3, 1e-4, 1e-6}) {
+    scene.integrator = automatic_integrator(scene, accuracy);
+    EXPECT_LE(largest_difference(simulate(scene), exact), 2 * accuracy);
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test
