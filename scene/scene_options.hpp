@@ -554,12 +554,12 @@ struct SceneOptions {
 
   void integrator() {
     const std::string_view integrator_type = "/integrator/type";
-    number(
-        "/integrator/accuracy", "-", Range::closed(1e-10, 1e-2),
-        "of positions in time, over the beam's length, and over its motion where that is smaller, down to 1e-6 of the "
-        "length: what else the integrator needs is chosen for it; excludes all other keys",
-        scene.integrator.accuracy,
-        in_motion({.when = {.pointer = {}, .values = {}, .holds = scene.integrator.automatic, .or_else = {}}}));
+    number("/integrator/accuracy", "-", Range::closed(1e-10, 1e-2),
+           "of positions in time, over the beam's length; what moves by less than a tenth of that is followed in "
+           "proportion, down to 1e-6 of the length; what else the integrator needs is chosen for it; excludes all "
+           "other keys",
+           scene.integrator.accuracy,
+           in_motion({.when = {.pointer = {}, .values = {}, .holds = scene.integrator.automatic, .or_else = {}}}));
     choice(integrator_type, "time integrator; ida, cvode and arkode need a build with SUNDIALS", scene.integrator.type,
            in_motion());
     number("/integrator/rtol", "-", Range::closed(1e-14, 1),

@@ -136,20 +136,6 @@ double difference(const RunResult& a, const RunResult& b, double length) {
   return largest;
 }
 
-/// How far things move, over the beam's length; 1 at most, and no less than an accuracy goes with it.
-double motion(const RunResult& run, double length) {
-  constexpr double least = 1e-6;
-  const std::vector<double> from = places(run.samples.front(), length);
-  double largest = least;
-  for (const Sample& sample : run.samples) {
-    const std::vector<double> here = places(sample, length);
-    for (std::size_t k = 0; k < std::min(from.size(), here.size()); ++k) {
-      largest = std::max(largest, std::abs(here[k] - from[k]));
-    }
-  }
-  return std::min(largest, 1.0);
-}
-
 double work(const RunResult& run) {
   return static_cast<double>(run.solver.rhs_evaluations) +
          tangent_work * static_cast<double>(run.solver.newton.tangents);
@@ -194,9 +180,8 @@ void add_cost(const StudyContext& context, StudyReport& report) {
   Table costs{.name = "cost",
               .caption =
                   "Scenes whose integrator is left to the program, by the accuracy asked: the method chosen, steps, "
-                  "the largest error of positions in time over all samples, over the beam's length and over the motion "
-                  "where that is smaller, down to 1e-6 of the length, what it is known to, work in evaluations of the "
-                  "equations, and over that of the cheapest setting with an error of "
+                  "the largest error of positions in time over all samples and the beam's length, what it is known "
+                  "to, work in evaluations of the equations, and over that of the cheapest setting with an error of "
                   "at most twice the accuracy",
               .columns = {"scene", "accuracy", "method", "steps", "error", "known_to", "work", "ratio", "cheapest"}};
   Table drawn{.name = "cost_figure",
@@ -206,17 +191,14 @@ void add_cost(const StudyContext& context, StudyReport& report) {
   std::map<double, std::vector<Found>> found;
   for (const auto& [name, runs] : scenes) {
     if (runs.reference == nullptr || runs.other == nullptr) continue;
-    const RunResult& reference = *runs.reference;
-    const double length = runs.length, scale = motion(reference, length);
-    const auto off = [&](const RunResult& run) { return difference(run, reference, length) / scale; };
-    const double known_to = off(*runs.other);
+    const double known_to = difference(*runs.other, *runs.reference, runs.length);
     for (const std::size_t i : runs.automatic) {
       const CostCase& item = cases[i];
-      const double error = off(*outcomes[i]), cost = work(*outcomes[i]);
+      const double error = difference(*outcomes[i], *runs.reference, runs.length), cost = work(*outcomes[i]);
       double least = cost;
       std::string cheapest = "automatic";
       for (const std::size_t k : runs.settings) {
-        if (off(*outcomes[k]) > 2 * item.accuracy) continue;
+        if (difference(*outcomes[k], *runs.reference, runs.length) > 2 * item.accuracy) continue;
         if (work(*outcomes[k]) >= least) continue;
         least = work(*outcomes[k]);
         cheapest = cases[k].setting;
