@@ -83,9 +83,9 @@ inline Condition either(Condition one, const Condition& other) {
 /// One line of the table. `pointer` is a JSON pointer; a segment `at=start` stands for that entry of a list whose key
 /// `at` is "start".
 struct Option {
-  std::string_view pointer;
-  std::string_view unit;  ///< SI; "-" for a pure number, empty for what is no number
-  std::string_view description;
+  std::string_view pointer = {};
+  std::string_view unit = "";  ///< SI; "-" for a pure number, empty for what is no number
+  std::string_view description = "";
   std::string_view source = "";  ///< where the option comes from
   Range range = {};
   int components = 0;  ///< length of a Point as written: the scene's dimension

@@ -48,63 +48,50 @@ struct SceneOptions {
 
   bool in_time() const { return scene.analysis == Analysis::dynamics; }
   Condition of_analysis(Analysis which) const { return only_if(analysis, scene.analysis, which); }
-  void section(std::string_view pointer, std::string_view description) {
-    visitor.section(Option{.pointer = pointer, .unit = "", .description = description});
-  }
-  /// What most options do not need.
-  struct More {
-    std::string_view source = "";
-    Condition when = {};
-    bool required = false;
-    std::string_view instead = "";
-    std::string_view without = "";
-    std::string_view standard = "";
-  };
   /// There is no such option in statics, where there is no time.
-  More in_motion(More more = {}) const {
-    if (!in_time()) more.when = of_analysis(Analysis::dynamics);
-    return more;
+  Option in_motion(Option line = {}) const {
+    if (!in_time()) line.when = of_analysis(Analysis::dynamics);
+    return line;
   }
 
-  Option option(std::string_view pointer, std::string_view unit, std::string_view description, const More& more) {
-    return {.pointer = pointer,
-            .unit = unit,
-            .description = description,
-            .source = more.source,
-            .when = more.when,
-            .required = more.required,
-            .instead = more.instead,
-            .without = more.without,
-            .standard = more.standard};
+  // An option by what all have; `line` says the rest.
+
+  static Option named(Option line, std::string_view pointer, std::string_view description) {
+    line.pointer = pointer;
+    line.description = description;
+    return line;
   }
   /// One or several numbers with a range.
   template <class Member>
   void number(std::string_view pointer, std::string_view unit, const Range& range, std::string_view description,
-              Member& member, const More& more = {}) {
-    Option line = option(pointer, unit, description, more);
+              Member& member, Option line = {}) {
+    line.unit = unit;
     line.range = range;
-    visitor(line, member);
+    visitor(named(line, pointer, description), member);
   }
-  /// One or several points or directions, with as many components as the scene has dimensions.
+  /// One or several points or directions, with as many components as the scene has dimensions unless `line` has some.
   template <class Member>
   void vector(std::string_view pointer, std::string_view unit, std::string_view description, Member& member,
-              const More& more = {}) {
-    Option line = option(pointer, unit, description, more);
-    line.components = scene.dimension;
-    visitor(line, member);
+              Option line = {}) {
+    line.unit = unit;
+    if (line.components == 0) line.components = scene.dimension;
+    visitor(named(line, pointer, description), member);
   }
   /// A name, true or false, or a text.
   template <class Member>
-  void choice(std::string_view pointer, std::string_view description, Member& member, const More& more = {}) {
-    visitor(option(pointer, "", description, more), member);
+  void choice(std::string_view pointer, std::string_view description, Member& member, const Option& line = {}) {
+    visitor(named(line, pointer, description), member);
+  }
+  void section(std::string_view pointer, std::string_view description, const Option& line = {}) {
+    visitor.section(named(line, pointer, description));
   }
   template <class Part>
   bool present(std::string_view pointer, std::string_view description, Part& part) {
-    return visitor.present(option(pointer, "", description, {}), part);
+    return visitor.present(named({}, pointer, description), part);
   }
   template <class List>
   void list(std::string_view pointer, std::string_view description, List& entries) {
-    visitor.list(option(pointer, "", description, {}), entries);
+    visitor.list(named({}, pointer, description), entries);
   }
   /// A function of time: value, rate, ... below the pointer `at`.
   template <class Function>
@@ -209,7 +196,7 @@ struct SceneOptions {
   }
 
   void beam_parts() {
-    visitor.section(Option{.pointer = "/beam", .unit = "", .description = "the beam", .required = true});
+    section("/beam", "the beam", {.required = true});
     section("/beam/curve", "the beam's axis at t = 0");
     section("/beam/section", "cross section");
     section("/beam/material", "material");
@@ -451,7 +438,8 @@ struct SceneOptions {
       vector("/initial_velocity/translation", "m/s", "velocity of the point that it turns about", velocity.translation);
       number("/initial_velocity/rotation", "rad/s", {},
              "how fast it turns, in the plane from the first axis towards the second", velocity.rotation);
-      vector("/initial_velocity/axis", "-", "of the rotation, in space; it need not have unit length", velocity.axis);
+      vector("/initial_velocity/axis", "-", "of the rotation, in space; it need not have unit length", velocity.axis,
+             {.components = 3});
       vector("/initial_velocity/about", "m", "the point that it turns about", velocity.about);
     }
   }

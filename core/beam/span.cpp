@@ -64,8 +64,7 @@ Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, 
       step_(outer <= open ? 1 : -1),
       support_(support),
       section_(section),
-      curved_at_rest_(rest != nullptr),
-      sampled_(with_mass(rule).size() != rule.size()) {
+      curved_at_rest_(rest != nullptr) {
   build_packs(mesh, rule, rest, masses);
   factor(mesh, rule, masses);
 }

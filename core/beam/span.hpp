@@ -93,7 +93,7 @@ class Span {
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
   BeamSection section_;
-  bool curved_at_rest_, sampled_;  ///< sampled_: the axial strain has points of its own
+  bool curved_at_rest_;
   std::vector<PackOfElements> packs_;
   std::vector<Pivot> pivots_;  ///< from the outer node inwards, without the open node
   NodeBlock<D> open_mass_;

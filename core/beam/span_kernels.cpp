@@ -79,8 +79,8 @@ BeamSection known(BeamSection section) {
 
 /// Calls f with the kernel for the section.
 template <class Function>
-auto with_kernel(const BeamSection& section, bool sampled, const Function& f) {
-  if (sampled || section.damped() || !section.bends()) return f.template operator()<Kernel::general>();
+auto with_kernel(const BeamSection& section, const Function& f) {
+  if (section.damped() || !section.bends()) return f.template operator()<Kernel::general>();
   return section.stiffness.green() ? f.template operator()<Kernel::green>()
                                    : f.template operator()<Kernel::engineering>();
 }
@@ -88,11 +88,11 @@ auto with_kernel(const BeamSection& section, bool sampled, const Function& f) {
 // Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
 // calls. Free functions: for a member of a class template GCC takes the attribute at its declaration only.
 
-template <int D, Kernel K, class Packs>
+/// `Sampled`: the axial strain has points of its own. Where it has none, the loop over them costs 2 %.
+template <int D, Kernel K, bool Sampled, class Packs>
 [[gnu::flatten]] double add_pack_forces(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
                                         double* force) {
   const BeamSection section = known<K>(of);
-  const BeamSection across = section.as_felt(Feels::all_but_stretch), along = section.as_felt(Feels::stretch);
   double dissipation = 0;
   for (const auto& pack : packs) {
     const auto offset = lane_offsets<D>(pack.count);
@@ -100,11 +100,10 @@ template <int D, Kernel K, class Packs>
     const auto e_rate = section.damped() ? load_elements<D>(rate, pack.first, offset) : e;
     const auto& basis = pack.tables->basis;
     auto f = FixedForce<Pack, D>::zero();
-    if (K != Kernel::general || basis.stretch.empty()) {
-      add_fixed_force<Pack, D>(basis.points, e, e_rate, section, f);
+    if constexpr (Sampled) {
+      f = fixed_force<Pack, D>(basis, e, e_rate, section);
     } else {
-      add_fixed_force<Pack, D>(basis.points, e, e_rate, across, f);
-      add_fixed_force<Pack, D>(basis.stretch, e, e_rate, along, f);
+      add_fixed_force<Pack, D>(basis.points, e, e_rate, section, f);
     }
     add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
     if (section.damped()) {
@@ -159,8 +158,11 @@ template <int D, Kernel K, class Packs>
 
 template <int D>
 double Span<D>::forces(const double* q, const double* rate, double* force) const {
-  return with_kernel(section_, sampled_,
-                     [&]<Kernel K>() { return add_pack_forces<D, K>(packs_, section_, q, rate, force); });
+  const bool sampled = !packs_.empty() && !packs_.front().tables->basis.stretch.empty();
+  return with_kernel(section_, [&]<Kernel K>() {
+    return sampled ? add_pack_forces<D, K, true>(packs_, section_, q, rate, force)
+                   : add_pack_forces<D, K, false>(packs_, section_, q, rate, force);
+  });
 }
 
 template <int D>
@@ -209,7 +211,7 @@ void Span<D>::rest_tangents(const double* q, double by_q, NodeTangent<D>* diagon
 template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  with_kernel(section_, sampled_,
+  with_kernel(section_,
               [&]<Kernel K>() { add_pack_tangents<D, K>(packs_, section_, q, rate, by, diagonal, upper, lower); });
   if (curved_at_rest_) rest_tangents(q, by.q, diagonal, upper, lower);
 }

@@ -22,6 +22,7 @@ constexpr double whole_step = 1e-9;        // no step for what rounding leaves o
 constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the end of a step to be looked into
 constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int longest_cascade = 8;         // events at one instant
+constexpr int most_looks_beyond = 10;      // steps beyond the end of the run: there may be nothing behind it
 
 /// A stepper with the view of the equations that is its own.
 struct Method {
@@ -243,18 +244,18 @@ class EventLog {
 
   /// Tells all that happened before a checkpoint once more.
   void repeat(const Checkpoint& from) {
-    for (const LoggedEvent& happening : from.past) {
-      if (happening.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
-      recall(happening.system);
-      if (happening.guard < 0) {
-        sample(happening.y, happening.t);
+    for (const LoggedEvent& entry : from.past) {
+      if (entry.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
+      recall(entry.system);
+      if (entry.guard < 0) {
+        sample(entry.y, entry.t);
         continue;
       }
-      Eigen::VectorXd y = happening.y;
-      if (ode_.guards(y, happening.t).size() <= static_cast<std::size_t>(happening.guard)) {
+      Eigen::VectorXd y = entry.y;
+      if (ode_.guards(y, entry.t).size() <= static_cast<std::size_t>(entry.guard)) {
         throw std::out_of_range("an event of other equations");
       }
-      event(happening.guard, y, happening.t);
+      event(entry.guard, y, entry.t);
     }
     if (from.y.size() != ode_.size()) throw std::out_of_range("a state of another size");
     recall(from.system);
@@ -318,12 +319,17 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
   double last_event = t - 1;
   int cascade = 0;
+  // A step that adapts is not cut at the end of the run, but looked into: whether its own length would have been
+  // rejected must not depend on how long the run is.
+  int looks_beyond =
+      options.type == IntegratorType::generalized_alpha && options.generalized_alpha.adaptive ? most_looks_beyond : 0;
 
   EventLog log(ode, checkpoints);
   const auto exchange = [&](Memory& memory) {
     memory(dt);
     memory(last_event);
     memory(cascade);
+    memory(looks_beyond);
     counters.exchange(memory);
     stepper->exchange(memory);
     side.exchange(memory);
@@ -346,19 +352,16 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     log.set_next(t);
   }
   Eigen::VectorXd before = y;
-  // A step that adapts is not cut at the end of the run, but looked into: whether its own length would have been
-  // rejected must not depend on how long the run is. Only where it cannot be taken the next one is.
-  bool looks_beyond = options.type == IntegratorType::generalized_alpha && options.generalized_alpha.adaptive;
 
   while (t < t_end) {
     before = y;
     const double t_before = t;
-    const bool last = t_end - t <= dt * (1 + whole_step), beyond = last && looks_beyond;
+    const bool last = t_end - t <= dt * (1 + whole_step), beyond = last && looks_beyond > 0;
+    if (beyond) --looks_beyond;
     if (last && !beyond) dt = t_end - t;
     const double tried = dt;
     if (!stepper->try_step(ode, y, t, dt)) {
       ++counters.rejected;
-      if (beyond && !(dt > 0 && dt < tried)) looks_beyond = false;
       shorten(dt, tried, *stepper);
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
@@ -369,7 +372,6 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 10;
       ++counters.rejected;
       stepper->reset();
-      if (beyond) looks_beyond = false;
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
     }
@@ -384,7 +386,6 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 2;
       ++counters.rejected;
       stepper->resume(*stepper);
-      if (beyond) looks_beyond = false;
       if (dt < smallest) underflow(stuck.t, stuck.dt, method.system != nullptr);
       continue;
     }

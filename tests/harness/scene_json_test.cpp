@@ -213,6 +213,14 @@ TEST(SceneJson, MethodsOfFixedStepShareTheirOption) {
   EXPECT_FALSE(scene_to_json(Scene{})["integrator"].contains("step"));
 }
 
+TEST(SceneJson, TheAxisOfARotationHasThreeComponentsInThePlaneToo) {
+  Json json = example_scene();
+  json["initial_velocity"] = {{"rotation", 2}, {"axis", {0, 0, 1}}};
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene.initial_velocity->axis, (Point{0, 0, 1}));
+  EXPECT_EQ(scene_from_json(scene_to_json(scene)).initial_velocity->axis, (Point{0, 0, 1}));
+}
+
 TEST(SceneJson, SpatialScenesHaveThreeComponents) {
   Json json = example_scene();
   json["dimension"] = 3;

@@ -7,20 +7,10 @@
 
 #include "scene/automatic_integrator.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/wire.hpp"
 
 namespace vlbeam::test {
 namespace {
-
-Scene wire(double youngs_modulus) {
-  Scene scene;
-  scene.start.type = SupportType::clamp;
-  scene.sliding_mass = SlidingMassSpec{};
-  scene.beam.elements = 10;
-  scene.beam.material.youngs_modulus = youngs_modulus;
-  return scene;
-}
-
-constexpr double steel = 2.1e11, rubber = 2e7;
 
 bool warned(const RunResult& result) {
   return std::ranges::any_of(
