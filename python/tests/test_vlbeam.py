@@ -140,6 +140,7 @@ import os, signal, threading, time, vlbeam
 s = vlbeam.scene("falling_beam")
 s["beam"]["elements"] = 160
 s["duration"] = 0.6
+s["integrator"] = {{"type": "generalized-alpha", "step": 1e-6}}  # minutes, uninterrupted
 threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 start = time.perf_counter()
 try:
