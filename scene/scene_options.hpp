@@ -508,8 +508,7 @@ struct SceneOptions {
            scene.length_control.lower);
 
     choice("/constraints",
-           "supports and the beam's continuity at the mass: eliminated coordinates, or equations with multipliers "
-           "(generalized-alpha and ida only)",
+           "supports: eliminated coordinates, or equations with multipliers (generalized-alpha and ida only)",
            scene.constraints);
   }
 

@@ -217,18 +217,10 @@ void check_joint(const Scene& scene, std::size_t which) {
   const std::string key = joint_key(scene, which);
   const IntegratorType type = scene.integrator.type;
   if (mass.slopes != JointSlopes::continuous) {
-    const bool eliminated = scene.constraints == Constraints::eliminated;
-    if (type == IntegratorType::generalized_alpha && eliminated) {
-      refuse(key + "/slopes", quoted(mass.slopes),
-             "\"generalized-alpha\" needs \"constraints\": \"multipliers\" for two slopes at the mass, or an explicit "
-             "integrator; with \"eliminated\" they must be \"continuous\"");
-    }
     if (type == IntegratorType::rosenbrock4 || type == IntegratorType::energy_momentum ||
         type == IntegratorType::cvode) {
       refuse(key + "/slopes", quoted(mass.slopes),
-             quoted(type) +
-                 " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\" with "
-                 "\"constraints\": \"multipliers\"");
+             quoted(type) + " needs \"continuous\" slopes: take an explicit integrator, or \"generalized-alpha\"");
     }
   }
   if (mass.friction && type == IntegratorType::energy_momentum) {

@@ -17,7 +17,7 @@ class BorderedBlockTridiagonal {
  public:
   using Block = Eigen::Matrix<double, B, B>;
   using Vector = Eigen::Matrix<double, B, 1>;
-  static constexpr int reach = 4;  ///< nodes that one unknown of the border couples to
+  static constexpr int reach = 3;  ///< nodes that one unknown of the border couples to
 
   /// An unknown of the border: its coupling to the nodes from `first` on.
   struct Border {

@@ -11,13 +11,12 @@
 
 namespace vlbeam {
 
-/// Where the coordinates of a joint stand: of a node that moves along the beam freely. It is kept once, with the slope
-/// behind it apart if the beam is kinked there, or twice.
+/// Where the coordinates of a joint stand: of a node that moves along the beam freely. The slope behind
+/// it stands apart if the beam may be kinked there.
 struct JointPlace {
   int node = 0;              ///< of the mesh
   Eigen::Index mark = 0;     ///< where its material coordinate stands
   Eigen::Index behind = -1;  ///< where the slope behind it stands, if not with the node's other coordinates
-  bool cut = false;          ///< its node is there twice, the copies next to each other
   int passed = -1;           ///< how many point masses, in their order, are before it; -1: as its coordinate says
 };
 
@@ -40,19 +39,13 @@ struct ChainView {
   }
   /// Whether an end of the element is a joint.
   bool at_joint(int element) const { return joint_at(element) != nullptr || joint_at(element + 1) != nullptr; }
-  /// The node, copies counted, at which element k starts.
-  int first_node(int k) const {
-    int node = k;
-    for (const JointPlace& joint : joints) node += joint.cut && k >= joint.node ? 1 : 0;
-    return node;
-  }
   /// Where the nodal vector i of element k stands: r_A, s_A, r_B, s_B.
   Eigen::Index vector(int k, int i) const {
     if (i == 1) {
       const JointPlace* const joint = joint_at(k);
       if (joint != nullptr && joint->behind >= 0) return joint->behind;
     }
-    return Eigen::Index{node_size<D>} * first_node(k) + Eigen::Index{D} * i;
+    return Eigen::Index{node_size<D>} * k + Eigen::Index{D} * i;
   }
 
   MovingCoordinates<double, D> coordinates(int k) const {

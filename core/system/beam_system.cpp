@@ -33,12 +33,7 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
     nut_.emplace(joint(i).pitch, x,
                  spin_->section(initial_.data() + angles(), initial_.data() + coordinates() + angles(), x).at.angle);
   }
-  anchors_ = {initial_.head<node_size<D>>(), initial_.segment<node_size<D>>(layout_.mark() - node_size<D>)};
-  joint_anchors_.assign(model.joints.size(), Eigen::Matrix<double, node_size<D>, 1>::Zero());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    joint_anchors_[static_cast<std::size_t>(index_[i])] =
-        initial_.segment<node_size<D>>(Eigen::Index{node_size<D>} * places_[i].node);
-  }
+  held_.anchor(initial_.data());
   impose(initial_, 0);
   ramp_ = RampWork<D>(model.gravity, model.gravity_ramp);
 }
@@ -80,6 +75,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     if (!joint(i).law.kinked()) continue;
     places_[i].behind = layout_.kink(layout_.kinks++);
   }
+  held_.adopt(model_, mesh_.last(), places_, index_);
   const BeamRule rule = beam_rule(model_.quadrature_points, model_.axial_strain);
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
@@ -267,8 +263,7 @@ ConstraintResidual BeamSystem<D>::slope_residual(const Eigen::VectorXd& y) const
 }
 
 template <int D>
-std::optional<RestElement<D>> BeamSystem<D>::rest_of(const MovingPart& part, const double* q,
-                                                     std::span<const JointPlace> places) const {
+std::optional<RestElement<D>> BeamSystem<D>::rest_of(const MovingPart& part, const double* q) const {
   if (!model_.rest) return std::nullopt;
   const auto end = [&](int node, int joint) -> RestEnd<D> {
     if (moving_) {
@@ -276,7 +271,7 @@ std::optional<RestElement<D>> BeamSystem<D>::rest_of(const MovingPart& part, con
       return {x, model_.rest->derivatives(x)};
     }
     if (joint >= 0) {
-      const double x = q[places[static_cast<std::size_t>(joint)].mark];
+      const double x = q[places_[static_cast<std::size_t>(joint)].mark];
       return {x, model_.rest->derivatives(x)};
     }
     return {mesh_.x[static_cast<std::size_t>(node)],
@@ -292,7 +287,7 @@ void BeamSystem<D>::fill_elements(const double* q, const double* rate, double t,
   MovingLaw<D> law = moving_law(t);
   for (const MovingPart& part : parts_) {
     const int k = part.element;
-    const auto rest = rest_of(part, q, places_);
+    const auto rest = rest_of(part, q);
     law.rest = rest ? &*rest : nullptr;
     const auto at = beam.coordinates(k), rates = beam.rates(k);
     const WeightFunction& weights = beam.weights(k);
@@ -336,37 +331,15 @@ void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
     y[places_[i].mark] = guide->value;
     y[coordinates() + places_[i].mark] = guide->rate;
   }
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto point = driven_joint(i, t);
-    if (!point) continue;
-    position<D>(y.data(), places_[i].node) = joint_anchor(i).template head<D>() + point->value;
-    position<D>(y.data() + coordinates(), places_[i].node) = point->rate;
-  }
-  const auto points = driven_points(t);
-  const auto standing = supports(points);
-  for (const std::size_t end : {0, 1}) {
-    const SupportMotion<D>& motion = end == 0 ? model_.start_motion : model_.end_motion;
-    if (!motion) continue;
-    const Support<D>& support = standing[end];
-    const int node = end == 0 ? 0 : mesh_.last();
-    auto set = [&](auto part, const Vector& value, const typename Support<D>::Components& free) {
-      part = support.out_of_frame(
-          (support.into_frame(part).array() * free + support.into_frame(value).array() * (1 - free)).matrix());
-    };
-    set(position<D>(y.data(), node), anchors_[end].template head<D>() + points[end].value, support.free_position);
-    set(position<D>(y.data() + coordinates(), node), points[end].rate, support.free_position);
-    if (!motion.turns()) continue;
-    set(slope<D>(y.data(), node), points[end].turned(anchors_[end].template tail<D>()), support.free_slope);
-    set(slope<D>(y.data() + coordinates(), node), points[end].slope_rate(slope<D>(y.data(), node)), support.free_slope);
-  }
+  held_.impose(t, y.data(), y.data() + coordinates());
 }
 
 template <int D>
 void BeamSystem<D>::orient(double t) const {
   if (!model_.turns()) return;
-  const auto standing = supports(driven_points(t));
-  left_->stand_by(standing[0]);
-  right_->stand_by(standing[1]);
+  const auto& held = held_.at(t);
+  left_->stand_by(held[0].support);
+  right_->stand_by(held[1].support);
   if (rider_) rider_->mass.update(*left_, *right_);
 }
 
@@ -470,34 +443,31 @@ class BeamSystem<D>::PrescribedMotion {
   static constexpr std::size_t usual = 6;  // sides: two supports and two joints
 
   void add_supports(const JointElements& at_joints, const double* q, const double* rate, double* force, double t) {
-    const auto points = system_->driven_points(t);
-    const auto standing = system_->supports(points);
-    for (const std::size_t e : {0, 1}) {
-      Side& side = sides_.emplace_back(side_of(e == 0 ? 0 : system_->mesh_.elements() - 1, e == 0 ? 0 : 2, at_joints));
+    for (const HeldNode<D>& held : system_->held_.at(t)) {
+      if (held.end < 0) continue;
+      const bool start = held.end == 0;
+      Side& side = sides_.emplace_back(side_of(start ? 0 : system_->mesh_.elements() - 1, start ? 0 : 2, at_joints));
       const auto parts = system_->vectors_of(force, side.element);
-      side.parts[0] = {Eigen::Map<const Vector>(parts[side.held]), points[e].rate, points[e].acceleration};
-      if (!(e == 0 ? system_->model_.start_motion : system_->model_.end_motion).turns()) continue;
-      const int node = side.element + (side.held == 0 ? 0 : 1);
-      const Vector s = slope<D>(q, node), s_rate = slope<D>(rate, node);
+      side.parts[0] = {Eigen::Map<const Vector>(parts[side.held]), held.driven.rate, held.driven.acceleration};
+      if (!held.turns()) continue;
+      const Vector s = slope<D>(q, held.node), s_rate = slope<D>(rate, held.node);
       side.parts[1] = {Eigen::Map<const Vector>(parts[side.held + 1]),
-                       DrivenPoint<D>::held(standing[e], points[e].slope_rate(s)),
-                       DrivenPoint<D>::held(standing[e], points[e].slope_acceleration(s, s_rate))};
+                       DrivenPoint<D>::held(held.support, held.driven.slope_rate(s)),
+                       DrivenPoint<D>::held(held.support, held.driven.slope_acceleration(s, s_rate))};
       side.driven = 2;
     }
   }
 
   void add_joints(const JointElements& at_joints, const double* force, double t) {
-    for (std::size_t i = 0; i < system_->places_.size(); ++i) {
-      const auto point = system_->driven_joint(i, t);
-      if (!point) continue;
-      const int node = system_->places_[i].node;
+    for (const HeldNode<D>& held : system_->held_.at(t)) {
+      if (held.joint < 0 || held.motion == nullptr) continue;
       for (const bool before : {true, false}) {
-        Side& side = sides_.emplace_back(side_of(before ? node - 1 : node, before ? 2 : 0, at_joints));
-        side.parts[0] = {Vector::Zero(), point->rate, point->acceleration};
+        Side& side = sides_.emplace_back(side_of(before ? held.node - 1 : held.node, before ? 2 : 0, at_joints));
+        side.parts[0] = {Vector::Zero(), held.driven.rate, held.driven.acceleration};
         side.of_node = before;
         if (!before) continue;
-        side.parts[0].force = position<D>(force, node);
-        side.lumped = system_->joint(i).law.mass;
+        side.parts[0].force = position<D>(force, held.node);
+        side.lumped = system_->joint(static_cast<std::size_t>(held.joint)).law.mass;
       }
     }
   }
@@ -751,11 +721,8 @@ template <int D>
 double BeamSystem<D>::line_power(const ChainView<D>& beam, double t) const {
   if (!model_.loads.line_force) return 0;
   const double rhoA = model_.section.rhoA;
-  const auto shift = [&](int node) { return Eigen::Index{node_size<D>} * (beam.first_node(node) - node); };
-  Vector sum = (left_->first_moment(beam.rate) + right_->first_moment(beam.rate + shift(mesh_.last()))) / rhoA;
-  for (const SpanBetween<D>& span : between_) {
-    sum += span.span().first_moment(beam.rate + shift(span.low())) / rhoA;
-  }
+  Vector sum = (left_->first_moment(beam.rate) + right_->first_moment(beam.rate)) / rhoA;
+  for (const SpanBetween<D>& span : between_) sum += span.span().first_moment(beam.rate) / rhoA;
   for (const MovingPart& part : parts_) {
     const bool reshaped =
         model_.transport == WeightTransport::transported && beam.weights(part.element).w != unit_weights;

@@ -9,12 +9,15 @@
 #include "core/beam/span_between.hpp"
 #include "core/dynamics/integrate.hpp"
 #include "core/joint/joint_chain.hpp"
+#include "core/joint/kinks.hpp"
 #include "core/joint/rider.hpp"
 #include "core/length_control/event_type.hpp"
 #include "core/parts/nut.hpp"
 #include "core/system/beam_model.hpp"
+#include "core/system/held.hpp"
 #include "core/system/layout.hpp"
 #include "core/system/moving_mesh.hpp"
+#include "core/system/node_contact.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
 
@@ -196,11 +199,7 @@ class BeamSystem final : public EventedOde {
   }
   /// Slopes at a joint, before and behind it, of an array of coordinates or rates.
   Eigen::Matrix<double, 2 * D, 1> joint_slopes(std::size_t which, const double* q) const {
-    const JointPlace& place = places_[which];
-    Eigen::Matrix<double, 2 * D, 1> slopes;
-    slopes << slope<D>(q, place.node),
-        Eigen::Map<const Vector>(q + (place.behind < 0 ? Eigen::Index{node_size<D>} * place.node + D : place.behind));
-    return slopes;
+    return slopes_at<D>(places_[which], q);
   }
   /// How far the slopes at joints are from their conditions [-], [1/s].
   ConstraintResidual slope_residual(const Eigen::VectorXd& y) const;
@@ -214,59 +213,20 @@ class BeamSystem final : public EventedOde {
   MovingLaw<D> moving_law(double t) const {
     return {model_.section, model_.formulation, model_.transport, beam_gravity(t)};
   }
-  /// The rest shape of an element at joints whose marks stand where `places` says in `q`; nothing if it is straight.
-  std::optional<RestElement<D>> rest_of(const MovingPart& part, const double* q,
-                                        std::span<const JointPlace> places) const;
+  /// The rest shape of an element at joints whose coordinates are in `q`; nothing if it is straight.
+  std::optional<RestElement<D>> rest_of(const MovingPart& part, const double* q) const;
   /// The fixed elements before the first and behind the last joint, or before and behind the middle of the beam.
   const Span<D>& left() const { return *left_; }
   const Span<D>& right() const { return *right_; }
-  /// Those between joints, and how many joints are before each.
+  /// Those between joints.
   const std::vector<SpanBetween<D>>& between() const { return between_; }
-  int joints_before(const SpanBetween<D>& span) const {
-    return static_cast<int>(std::count_if(places_.begin(), places_.end(),
-                                          [&](const JointPlace& place) { return place.node < span.low(); }));
-  }
-  /// Two nodes that strike each other once they are near enough, or rest against each other: of joints, or of a joint
-  /// and an end of the beam.
-  struct Contact {
-    int behind, ahead;  ///< nodes
-    std::size_t which;  ///< of the joints on the beam: the first of the two
-    int support;        ///< -1: that at the start, 1: at the end, 0: another joint
-    Impact impact;
-    double distance;  ///< where they touch [m]
-    bool rests;
-
-    /// C [m] of the line from the one to the other.
-    double value(const Vector& apart) const { return (apart.squaredNorm() / distance - distance) / 2; }
-    /// Its gradient, of length 1 at rest.
-    Vector line(const double* q) const { return difference(q) / distance; }
-    /// Of an array like q.
-    Vector difference(const double* q) const { return position<D>(q, ahead) - position<D>(q, behind); }
-  };
-  /// What rests: C = (|r|^2 - d^2)/(2 d) = 0 for the line r between its nodes and their distance d.
+  using Contact = NodeContact<D>;
+  /// What rests against each other.
   const std::vector<Contact>& resting() const { return resting_; }
   /// With what its nodes push each other apart, by the accelerations that rhs() has given last [N].
   const Eigen::VectorXd& resting_forces() const { return resting_forces_; }
-  /// What the supports hold: position and slope of the first and of the last node at the start.
-  const std::array<Eigen::Matrix<double, node_size<D>, 1>, 2>& anchors() const { return anchors_; }
-  /// Where a joint's node was at the start: what a ring or a sleeve holds.
-  const Eigen::Matrix<double, node_size<D>, 1>& joint_anchor(std::size_t which) const {
-    return joint_anchors_[static_cast<std::size_t>(index_[which])];
-  }
-  /// What the supports at start and end prescribe at time t.
-  std::array<DrivenPoint<D>, 2> driven_points(double t) const {
-    return {model_.start_motion.at(model_.start, t), model_.end_motion.at(model_.end, t)};
-  }
-  /// What holds a joint prescribes there; nothing where nothing moves it.
-  std::optional<DrivenPoint<D>> driven_joint(std::size_t which, double t) const {
-    const ModelJoint<D>& joint = this->joint(which);
-    if (!joint.support || !joint.motion) return std::nullopt;
-    return joint.motion.at(*joint.support, t);
-  }
-  /// The supports at start and end as they stand then.
-  std::array<Support<D>, 2> supports(const std::array<DrivenPoint<D>, 2>& at) const {
-    return {model_.start.turned(at[0].angle.value), model_.end.turned(at[1].angle.value)};
-  }
+  /// What holds nodes in space.
+  const Held<D>& holding() const { return held_; }
   /// Whether a guide prescribes a joint's material coordinate.
   bool guides(std::size_t which) const { return static_cast<bool>(joint(which).x); }
   /// What it prescribes; nothing where there is none.
@@ -453,7 +413,7 @@ class BeamSystem final : public EventedOde {
   mutable std::optional<MovingMesh<D>> moving_;  ///< its nodes are where travel() was told last
   std::array<double, 2> end_limit_{};            ///< [m], of the last and of the first element
   double cut_limit_ = 0;                         ///< distance of a rider from the end at which it gets a node [m]
-  std::vector<Eigen::Matrix<double, node_size<D>, 1>> joint_anchors_;  ///< of the model's joints
+  Held<D> held_;
   Layout<D> layout_;
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;
@@ -465,7 +425,6 @@ class BeamSystem final : public EventedOde {
   Eigen::VectorXd initial_, imposed_;
   Eigen::VectorXd flow_residual_, flow_forces_;  ///< of flow_power()
   std::vector<double> on_marks_;                 ///< the same
-  std::array<Eigen::Matrix<double, node_size<D>, 1>, 2> anchors_;
   mutable std::optional<Spin> spin_;
   std::optional<Nut> nut_;
   RampWork<D> ramp_;

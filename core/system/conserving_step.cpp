@@ -11,15 +11,6 @@ NodalCubic<double, D> mean(const NodalCubic<double, D>& a, const NodalCubic<doub
   return {(a.r_a + b.r_a) / 2, (a.s_a + b.s_a) / 2, (a.r_b + b.r_b) / 2, (a.s_b + b.s_b) / 2};
 }
 
-template <int D>
-void project(const Support<D>& support, double* nodes, int k) {
-  auto keep = [&](auto part, const typename Support<D>::Components& free) {
-    part = support.out_of_frame((support.into_frame(part).array() * free).matrix());
-  };
-  keep(position<D>(nodes, k), support.free_position);
-  keep(slope<D>(nodes, k), support.free_slope);
-}
-
 }  // namespace
 
 template <int D>
@@ -110,8 +101,7 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     r.segment<D>(extra) =
         model.joints.front().law.mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
   }
-  project<D>(model.start, out, 0);
-  project<D>(model.end, out, mesh.last());
+  system_.holding().project(out);
   return dissipation;
 }
 

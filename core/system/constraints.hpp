@@ -2,7 +2,7 @@
 
 namespace vlbeam {
 
-/// How an implicit method treats supports and the continuity of the beam at the joint.
+/// How an implicit method treats supports.
 enum class Constraints {
   eliminated,   ///< the coordinates they fix or tie are left out
   multipliers,  ///< they are equations, and their reactions unknowns

@@ -27,7 +27,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
     assemble(q, v, a_, t, by);
     dense.setZero(n, n);
     tangent_.expand(dense);
-    for (Eigen::Index k = 0; k < n; ++k) project(dense.col(k).data());
+    for (Eigen::Index k = 0; k < n; ++k) holding().project(dense.col(k).data());
   };
   tangent({1, 0, 0}, stiffness_);
   tangent({0, 1, 0}, damping_);
@@ -113,27 +113,20 @@ double ImplicitBeam<D>::wave_time() const {
 /// comes with two derivatives only, and accelerations take them both.
 template <int D>
 void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
-  const auto& model = system_.model();
   at_guides([&](std::size_t i) {
     dfdy.col(places()[i].mark).setZero();
     dfdy.col(coordinates() + places()[i].mark).setZero();
   });
-  for (std::size_t i = 0; i < system_.places().size(); ++i) {
-    if (!system_.driven_joint(i, t)) continue;
-    const Eigen::Index position = Eigen::Index{B} * system_.places()[i].node;
-    dfdy.middleCols<D>(position).setZero();
-    dfdy.middleCols<D>(coordinates() + position).setZero();
-  }
-  for (const bool start : {true, false}) {
-    if (!(start ? model.start_motion : model.end_motion)) continue;
-    const Support<D>& support = start ? model.start : model.end;  // its frame does not matter for its point
+  for (const HeldNode<D>& held : holding().nodes()) {
+    if (held.motion == nullptr) continue;
+    const Support<D>& support = *held.built;  // its frame does not matter for its point
     const Eigen::Matrix<double, D, D> keep =
         support.frame * support.free_position.matrix().asDiagonal() * support.frame.transpose();
-    const Eigen::Index position = start ? 0 : Eigen::Index{B} * (nodes() - 1);
+    const Eigen::Index position = Eigen::Index{B} * held.node;
     for (const Eigen::Index first : {position, coordinates() + position}) {
       dfdy.middleCols<D>(first) = (dfdy.middleCols<D>(first) * keep).eval();
     }
-    if (!(start ? model.start_motion : model.end_motion).turns()) continue;
+    if (!held.turns()) continue;
     Eigen::VectorXd column(y.size());  // what turns depends on the slope that it turns
     for (Eigen::Index k = position + D; k < position + 2 * D; ++k) {
       rhs_difference(y, t, k, 1, column);

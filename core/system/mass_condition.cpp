@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/geometry/dense.hpp"
-#include "core/system/free_directions.hpp"
 
 namespace vlbeam {
 namespace {
@@ -16,7 +15,7 @@ constexpr double beyond_forces = 0x1p100;
 template <int D>
 double mass_condition(BeamSystem<D>& system, const Eigen::VectorXd& y) {
   const Eigen::Index n = system.coordinates();
-  const Eigen::MatrixXd directions = free_directions(system);
+  const Eigen::MatrixXd directions = system.holding().directions(n);
   const Eigen::VectorXd q = y.head(n), at_rest = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd momenta(n, directions.cols());
   Eigen::VectorXd a(n), r(n);

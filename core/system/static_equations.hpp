@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/beam/block_tridiagonal.hpp"
-#include "core/joint/slope_conditions.hpp"
+#include "core/joint/kinks.hpp"
 #include "core/system/beam_system.hpp"
 
 namespace vlbeam {
@@ -15,7 +14,7 @@ template <int D>
 class StaticEquations {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit StaticEquations(BeamSystem<D>& system) : system_(system), omitted_axis_(system.model().joints.size(), 0) {}
+  explicit StaticEquations(BeamSystem<D>& system) : system_(system) {}
 
   /// Whether a joint's material coordinate stays what it is; that of one which is guided always does.
   bool holds(std::size_t which) const { return held_ || system_.guides(which); }
@@ -29,7 +28,7 @@ class StaticEquations {
   Eigen::Index size() const { return system_.coordinates() + conditions(); }
   /// Where a joint's material coordinate stands among the unknowns.
   Eigen::Index mark(std::size_t which = 0) const { return system_.places()[which].mark; }
-  int conditions() const;
+  int conditions() const { return kinks().count(); }
   /// What turns where the multipliers of parallel slopes in space change their meaning: starts them again.
   void choose_conditions(Eigen::VectorXd& u);
 
@@ -42,7 +41,7 @@ class StaticEquations {
   void solve(Eigen::VectorXd& r) const { tangent_.solve(r.data()); }
   /// Of what linearize() factored: the number of directions, within the conditions on the slopes, in which the energy
   /// falls. `zero` is what counts as no fall, over what a coordinate alone does.
-  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero) - active_conditions(); }
+  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero) - kinks().active(); }
 
   /// The tangent of the coordinates alone, nothing eliminated, plus `by_a` times the mass matrix.
   Eigen::MatrixXd dense(const Eigen::VectorXd& u, double factor, double by_a);
@@ -51,40 +50,24 @@ class StaticEquations {
 
  private:
   static constexpr int B = node_size<D>;
-  using Block = Eigen::Matrix<double, B, B>;
-  using Keep = Eigen::Matrix<double, D, D>;
-  using Conditions = SlopeConditions<D>;
-
-  /// Of a joint: those that are not met by what holds its slopes.
-  Conditions slope_conditions(std::size_t which) const;
   /// Its multipliers are 0 then.
   bool suspended(std::size_t which) const {
     return holds(which) && !keep_conditions_ && system_.joint(which).law.slopes == JointSlopes::equal_stretch;
   }
-  int active_conditions() const;
-  /// Calls function(which, conditions, where their multipliers stand) for the joints that have any.
-  template <class Function>
-  void at_conditions(const Function& function) const;
+  /// The conditions that are not met by what holds slopes, as they are now.
+  Kinks<D>& kinks() const;
   ChainView<D> view(const Eigen::VectorXd& u) const { return system_.view(u.data(), zero_.data()); }
-  /// Projections on what a support leaves free.
-  static Keep keep(const Support<D>& support, const typename Support<D>::Components& free) {
-    return support.frame * free.matrix().asDiagonal() * support.frame.transpose();
-  }
   /// Calls function(part) with the kind of the part for the elements at joints.
   template <class Function>
   void at_parts(const Function& function) const;
-  template <class Function>
-  void at_held_nodes(const Function& function) const;
   void assemble(const Eigen::VectorXd& u, double factor, double by_a);
-  void add(const ChainView<D>& beam, int element, const PointMatrix<D>& matrix);
-  void add_conditions(const Eigen::VectorXd& u);
-  void eliminate();
   void prepare() const { zero_.setZero(system_.coordinates()); }
 
   BeamSystem<D>& system_;
   bool held_ = true, keep_conditions_ = false;
-  std::vector<int> omitted_axis_;  ///< of the model's joints: of tangent slopes in space
-  BorderedBlockTridiagonal<B> tangent_;
+  mutable std::size_t revision_ = static_cast<std::size_t>(-1);
+  mutable Kinks<D> kinks_;
+  BeamMatrix<D> tangent_;
   mutable Eigen::VectorXd zero_;  ///< nothing moves
 };
 

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/system/free_directions.hpp"
 #include "core/system/implicit_beam.hpp"
 
 namespace vlbeam {
@@ -79,7 +78,7 @@ void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::Vect
   Eigen::MatrixXd axis, angles;
   view.travelling_tangent(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
   const Spin* spin = beam.spin();
-  const Eigen::MatrixXd free = free_directions(beam);
+  const Eigen::MatrixXd free = beam.holding().directions(beam.coordinates());
   const Eigen::Index turning = spin == nullptr ? 0 : spin->coordinates();
   const Eigen::MatrixXd basis = free.topLeftCorner(axis.rows(), free.cols() - turning);
   flows.axis.*which = basis.transpose() * axis * basis;

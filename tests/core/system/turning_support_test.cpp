@@ -67,7 +67,7 @@ TEST(TurningSupport, HoldsTheSlopeAsItTurns) {
       const auto e = static_cast<std::size_t>(end);
       const Eigen::Index at = (end == 0 ? 0 : Eigen::Index{4} * c.system->mesh().last()) + 2;
       auto held = [&](double s) -> Eigen::Vector2d {
-        const auto support = c.system->supports(c.system->driven_points(instant + s))[e];
+        const auto support = c.system->holding().at(instant + s)[e].support;
         const Eigen::Vector2d slope =
             c.y.segment<2>(at) + s * rates.segment<2>(at) + s * s / 2 * rates.segment<2>(n + at);
         return (support.into_frame(slope).array() * (1 - support.free_slope)).matrix();
@@ -77,7 +77,7 @@ TEST(TurningSupport, HoldsTheSlopeAsItTurns) {
       const Eigen::Vector2d second = (held(h) + held(-h) - 2 * held(0)) / (h * h);
       const auto& model = c.system->model();
       const Eigen::Vector2d anchor =
-          ((end == 0 ? model.start : model.end).into_frame(c.system->anchors()[e].tail<2>()).array() *
+          ((end == 0 ? model.start : model.end).into_frame(c.system->holding().nodes()[e].anchor.tail<2>()).array() *
            (1 - (end == 0 ? model.start : model.end).free_slope))
               .matrix();
       EXPECT_LE((held(0) - anchor).norm(), 1e-14);
@@ -108,15 +108,15 @@ TEST(TurningSupport, IsTheSameToImplicitMethods) {
       EXPECT_NEAR(implicit.supplied_power(q, v, a, instant).supports, power, 1e-11 * (1 + a.norm()));
       // forces on the point, and the moment about it
       const auto forces = c.system->forces(c.y, instant).supports;
-      const auto points = c.system->driven_points(instant);
+      const auto& held_ends = c.system->holding().at(instant);
       double work = 0;
       for (const std::size_t e : {0U, 1U}) {
         const Eigen::Index node = e == 0 ? 0 : Eigen::Index{4} * c.system->mesh().last();
         const Eigen::Vector2d slope = c.y.segment<2>(node + 2);
-        const auto support = c.system->supports(points)[e];
+        const auto& [support, point] = std::tie(held_ends[e].support, held_ends[e].driven);
         const Eigen::Vector2d on_slope = DrivenPoint<2>::held(support, forces[e].tail<2>());
         const double moment = slope[0] * on_slope[1] - slope[1] * on_slope[0];
-        work += forces[e].head<2>().dot(points[e].rate) + moment * points[e].angle.rate;
+        work += forces[e].head<2>().dot(point.rate) + moment * point.angle.rate;
       }
       EXPECT_NEAR(work, power, 1e-11 * (1 + a.norm()));
     }

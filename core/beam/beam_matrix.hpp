@@ -1,0 +1,173 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/beam/block_tridiagonal.hpp"
+#include "core/beam/chain_view.hpp"
+#include "core/beam/support.hpp"
+
+namespace vlbeam {
+
+/// The tangent of a beam's equations. Nodes are its blocks; its border holds, as coordinates do, the material
+/// coordinates of joints and the slopes behind kinks, then whatever else is added.
+template <int D>
+class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
+ public:
+  static constexpr int B = node_size<D>;
+  using Base = BorderedBlockTridiagonal<B>;
+  using Base::add_border, Base::border, Base::corner, Base::diagonal, Base::lower, Base::upper;
+  using typename Base::Block;
+
+  /// A zero matrix of so many nodes, with the border of these joints.
+  void start(int nodes, std::span<const JointPlace> joints) {
+    Base::reset(nodes);
+    for (const JointPlace& joint : joints) add_border(std::max(0, joint.node - 1));
+    for (const JointPlace& joint : joints) {
+      for (int c = 0; c < (joint.behind < 0 ? 0 : D); ++c) add_border(std::max(0, joint.node - 1));
+    }
+  }
+
+  /// Coordinates of nodes: those behind them are the border's.
+  Eigen::Index nodal() const { return Eigen::Index{B} * Base::nodes(); }
+
+  /// The entry of two coordinates, of nodes next to each other or of the border and a node that it reaches.
+  double& entry(Eigen::Index row, Eigen::Index column) {
+    const Eigen::Index n = nodal();
+    if (row >= n && column >= n) return corner(row - n, column - n);
+    const auto of = [](Eigen::Index at) { return static_cast<std::size_t>(at / B); };
+    const auto reached = [&](const typename Base::Border& b, Eigen::Index at) {
+      return of(at) - static_cast<std::size_t>(b.first);
+    };
+    if (column >= n) {
+      auto& b = border[static_cast<std::size_t>(column - n)];
+      return b.column[reached(b, row)][row % B];
+    }
+    if (row >= n) {
+      auto& b = border[static_cast<std::size_t>(row - n)];
+      return b.row[reached(b, column)][column % B];
+    }
+    auto& band = of(row) == of(column) ? diagonal : of(column) > of(row) ? upper : lower;
+    return band[of(row)](row % B, column % B);
+  }
+
+  /// Adds the matrix of element k, for its nodal vectors in order. Its row and column 4 D + e belong to the material
+  /// coordinate of joint marks[e], if to any.
+  template <class Matrix>
+  void add_element(const ChainView<D>& beam, int k, const Matrix& matrix, const std::array<int, 2>& marks = {-1, -1}) {
+    const JointPlace* const start = beam.joint_at(k);
+    if (start != nullptr && start->behind >= 0) return add_behind_kink(beam, k, matrix, marks);
+    constexpr int X = 4 * D;
+    const auto i = static_cast<std::size_t>(k);
+    diagonal[i] += matrix.template block<B, B>(0, 0);
+    upper[i] += matrix.template block<B, B>(0, B);
+    lower[i + 1] += matrix.template block<B, B>(B, 0);
+    diagonal[i + 1] += matrix.template block<B, B>(B, B);
+    for (int e = 0; e < 2; ++e) {
+      const int mark = marks[static_cast<std::size_t>(e)];
+      if (mark < 0) continue;
+      auto& b = border[static_cast<std::size_t>(mark)];
+      const auto here = static_cast<std::size_t>(k - b.first);
+      for (int end = 0; end < 2; ++end) {
+        b.column[here + static_cast<std::size_t>(end)] += matrix.template block<B, 1>(end * B, X + e);
+        b.row[here + static_cast<std::size_t>(end)] += matrix.template block<1, B>(X + e, end * B).transpose();
+      }
+      for (int f = 0; f < 2; ++f) {
+        const int other = marks[static_cast<std::size_t>(f)];
+        if (other >= 0) corner(mark, other) += matrix(X + e, X + f);
+      }
+    }
+  }
+
+  /// The same of a point inside element k, with a row and a column for the material coordinate of each of its ends.
+  template <class Matrix>
+  void add_point(const ChainView<D>& beam, int k, const Matrix& matrix) {
+    const auto mark = [&](int node) {
+      const JointPlace* const joint = beam.joint_at(node);
+      return joint == nullptr ? -1 : static_cast<int>(joint - beam.joints.data());
+    };
+    add_element(beam, k, matrix, {mark(k), mark(k + 1)});
+  }
+
+  /// Adds a mass, or the like, to the place of a node.
+  void add_mass(int node, double mass) {
+    diagonal[static_cast<std::size_t>(node)].template topLeftCorner<D, D>().diagonal().array() += mass;
+  }
+
+  /// Takes what a support holds at a node, and at the slope behind a kink there, out of rows and columns, and leaves
+  /// its stiffness in its place.
+  void hold(int node, Eigen::Index behind, const Support<D>& support) {
+    if ((support.free_position > 0).all() && (support.free_slope > 0).all()) return;
+    using Keep = Eigen::Matrix<double, D, D>;
+    const auto kept = [&](const typename Support<D>::Components& free) {
+      return Keep(support.frame * free.matrix().asDiagonal() * support.frame.transpose());
+    };
+    Block keep = Block::Zero();
+    keep.template topLeftCorner<D, D>() = kept(support.free_position);
+    keep.template bottomRightCorner<D, D>() = kept(support.free_slope);
+    const auto k = static_cast<std::size_t>(node);
+    const auto sizes = diagonal[k].diagonal().cwiseAbs().eval();
+    const double slope_size = sizes.template tail<D>().maxCoeff() > 0 ? sizes.template tail<D>().maxCoeff() : 1;
+    typename Base::Vector size;  // of what is fixed: slopes have another unit
+    size.template head<D>().setConstant(sizes.template head<D>().maxCoeff());
+    size.template tail<D>().setConstant(slope_size);
+    diagonal[k] = keep * diagonal[k] * keep + size.asDiagonal() * (Block::Identity() - keep);
+    if (k + 1 < diagonal.size()) {
+      upper[k] = keep * upper[k];
+      lower[k + 1] = lower[k + 1] * keep;
+    }
+    if (k > 0) {
+      lower[k] = keep * lower[k];
+      upper[k - 1] = upper[k - 1] * keep;
+    }
+    for (auto& b : border) {
+      const int reached = node - b.first;
+      if (reached < 0 || reached >= Base::reach) continue;
+      auto& column = b.column[static_cast<std::size_t>(reached)];
+      auto& row = b.row[static_cast<std::size_t>(reached)];
+      column = keep * column;
+      row = keep * row;
+    }
+    if (behind >= 0) hold_border(behind - nodal(), kept(support.free_slope), slope_size);
+  }
+
+ private:
+  /// Keeps a part of D unknowns of the border.
+  void hold_border(Eigen::Index at, const Eigen::Matrix<double, D, D>& keep, double size) {
+    for (std::size_t n = 0; n < Base::reach; ++n) {
+      Eigen::Matrix<double, B, D> columns, rows;
+      for (int c = 0; c < D; ++c) {
+        columns.col(c) = border[static_cast<std::size_t>(at + c)].column[n];
+        rows.col(c) = border[static_cast<std::size_t>(at + c)].row[n];
+      }
+      columns = (columns * keep).eval();
+      rows = (rows * keep).eval();
+      for (int c = 0; c < D; ++c) {
+        border[static_cast<std::size_t>(at + c)].column[n] = columns.col(c);
+        border[static_cast<std::size_t>(at + c)].row[n] = rows.col(c);
+      }
+    }
+    corner.template middleRows<D>(at) = (keep * corner.template middleRows<D>(at)).eval();
+    corner.template middleCols<D>(at) = (corner.template middleCols<D>(at) * keep).eval();
+    corner.template block<D, D>(at, at) += size * (Eigen::Matrix<double, D, D>::Identity() - keep);
+  }
+
+  template <class Matrix>
+  void add_behind_kink(const ChainView<D>& beam, int k, const Matrix& matrix, const std::array<int, 2>& marks) {
+    std::array<Eigen::Index, 4 * D + 2> at{};  // where the rows stand, -1 where there is none
+    at.fill(-1);
+    for (int i = 0; i < 4 * D; ++i) at[static_cast<std::size_t>(i)] = beam.vector(k, i / D) + i % D;
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (marks[e] >= 0) at[4 * D + e] = nodal() + marks[e];
+    }
+    for (int i = 0; i < matrix.rows(); ++i) {
+      for (int j = 0; j < matrix.cols(); ++j) {
+        const Eigen::Index row = at[static_cast<std::size_t>(i)], column = at[static_cast<std::size_t>(j)];
+        if (row >= 0 && column >= 0) entry(row, column) += matrix(i, j);
+      }
+    }
+  }
+};
+
+}  // namespace vlbeam
