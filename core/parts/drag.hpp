@@ -4,7 +4,7 @@
 
 #include "core/element/moving_points.hpp"
 #include "core/parts/material_point.hpp"
-#include "core/tangent_weights.hpp"
+#include "core/parts/part.hpp"
 
 namespace vlbeam {
 
@@ -58,6 +58,23 @@ struct Drag {
  private:
   PointMatrix<D> fixed_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
   PointMatrix<D> moving_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
+};
+
+/// Drag as a part of the equations; `drag` must outlive it.
+template <int D>
+class ActingDrag final : public Part<D> {
+ public:
+  explicit ActingDrag(const Drag<D>& drag) : drag_(drag) {}
+  Tally add_force(const Motion<D>& motion, double* force) const override {
+    return {.dissipated = drag_.add_forces(motion.beam, force)};
+  }
+  void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
+    drag_.add_tangent(motion.beam, by,
+                      [&](int k, const PointMatrix<D>& matrix) { tangent.add_point(motion.beam, k, matrix); });
+  }
+
+ private:
+  const Drag<D>& drag_;
 };
 
 }  // namespace vlbeam

@@ -6,7 +6,7 @@
 
 #include "core/element/moving_points.hpp"
 #include "core/parts/material_point.hpp"
-#include "core/tangent_weights.hpp"
+#include "core/parts/part.hpp"
 
 namespace vlbeam {
 
@@ -80,6 +80,23 @@ struct Loads {
  private:
   ElementMatrix tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k, double t) const;
   static ElementMatrix moment_tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k, double t);
+};
+
+/// The concentrated ones as a part of the equations; `loads` must outlive it.
+template <int D>
+class ActingLoads final : public Part<D> {
+ public:
+  explicit ActingLoads(const Loads<D>& loads) : loads_(loads) {}
+  Tally add_force(const Motion<D>& motion, double* force) const override {
+    return {.loads = loads_.add_forces(motion.beam, motion.t, force)};
+  }
+  void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
+    loads_.add_tangent(motion.beam, motion.t, by,
+                       [&](int k, const PointMatrix<D>& matrix) { tangent.add_point(motion.beam, k, matrix); });
+  }
+
+ private:
+  const Loads<D>& loads_;
 };
 
 /// Rate of the integral of r dx over an element [m^2/s], by the points of its table: as they move along the beam, or,

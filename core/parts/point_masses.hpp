@@ -2,7 +2,7 @@
 
 #include "core/beam/point_mass.hpp"
 #include "core/parts/material_point.hpp"
-#include "core/tangent_weights.hpp"
+#include "core/parts/part.hpp"
 
 namespace vlbeam {
 
@@ -50,6 +50,24 @@ struct PointMasses {
  private:
   static PointMatrix<D> tangent(const PointMass& point, const ChainView<D>& beam, int k, const double* a,
                                 const Vector& gravity, const TangentWeights& by);
+};
+
+/// Point masses as a part of the equations; `masses` must outlive it.
+template <int D>
+class ActingPointMasses final : public Part<D> {
+ public:
+  explicit ActingPointMasses(const PointMasses<D>& masses) : masses_(masses) {}
+  Tally add_force(const Motion<D>& motion, double* force) const override {
+    masses_.add_weight(motion.beam, motion.gravity, force);
+    return {};
+  }
+  void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
+    masses_.add_tangent(motion.beam, motion.a, motion.gravity, by,
+                        [&](int k, const PointMatrix<D>& matrix) { tangent.add_point(motion.beam, k, matrix); });
+  }
+
+ private:
+  const PointMasses<D>& masses_;
 };
 
 }  // namespace vlbeam

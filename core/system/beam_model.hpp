@@ -59,7 +59,8 @@ struct BeamModel {
   Drag<D> drag;
   std::optional<SpinModel> spin;  ///< without it there is no angle at all
   PointMasses<D> masses;
-  Impact at_meeting = {};         ///< of two joints
+  std::vector<std::shared_ptr<const Part<D>>> parts = {};  ///< what else acts on the beam
+  Impact at_meeting = {};                                  ///< of two joints
   bool joints_rest = false;       ///< what bounces lower and lower stays, else the run ends there
   double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
   /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
@@ -78,7 +79,7 @@ struct BeamModel {
 
   /// Whether energy is lost.
   bool dissipates() const {
-    return section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
+    return !parts.empty() || section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
   }
   /// Whether there is friction at a joint.
   bool rubs() const {
@@ -104,8 +105,8 @@ struct BeamModel {
   /// The energies that the state counts.
   Tallies tallies() const {
     if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
-    return {dissipates(), loads.present() || (spin && spin->torques.present()), spin && !spin->drives.empty(),
-            driven()};
+    return {dissipates(), loads.present() || !parts.empty() || (spin && spin->torques.present()),
+            spin && !spin->drives.empty(), driven()};
   }
 };
 

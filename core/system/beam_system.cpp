@@ -24,6 +24,10 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
                      "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
   }
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
+  if (model_.loads.present()) acting_.push_back(std::make_shared<ActingLoads<D>>(model_.loads));
+  if (model_.drag.present()) acting_.push_back(std::make_shared<ActingDrag<D>>(model_.drag));
+  if (model_.masses.present()) acting_.push_back(std::make_shared<ActingPointMasses<D>>(model_.masses));
+  acting_.insert(acting_.end(), model_.parts.begin(), model_.parts.end());
   adopt(chain);
   initial_ = state_of(chain, {});
   if (spin_) spin_->start(initial_.data() + angles(), initial_.data() + coordinates() + angles());
@@ -518,16 +522,12 @@ Tally BeamSystem<D>::add_forces(const double* q, const double* rate, double t, d
   Tally power;
   power.dissipated = left_->add_forces(q, rate, on_beam, force) + right_->add_forces(q, rate, on_beam, force);
   for (const SpanBetween<D>& span : between_) power.dissipated += span.span().add_forces(q, rate, on_beam, force);
-  if (model_.loads.present()) {
-    const ChainView<D> beam = view(q, rate);
-    power.loads = model_.loads.add_forces(beam, t, force);
-    if (!moving_) {  // else flow_power() counts it
-      power.loads += line_power(beam, t);
-      power.supports += fed_line_power(beam, t);
-    }
+  const Motion<D> now = motion(q, rate, nullptr, t);
+  for (const auto& part : acting_) power = power + part->add_force(now, force);
+  if (model_.loads.present() && !moving_) {  // else flow_power() counts it
+    power.loads += line_power(now.beam, t);
+    power.supports += fed_line_power(now.beam, t);
   }
-  if (model_.drag.present()) power.dissipated += model_.drag.add_forces(view(q, rate), force);
-  if (model_.masses.present()) model_.masses.add_weight(view(q, rate), g, force);
   if (parts_.empty()) return power;
   fill_elements(q, rate, t, elements);
   double lost = 0;

@@ -93,6 +93,12 @@ class BeamSystem final : public EventedOde {
   ChainView<D> view(const double* q, const double* rate) const {
     return {mesh_, model_.transport, q, rate, places_, marks()};
   }
+  /// That at time t, with the accelerations `a` or null.
+  Motion<D> motion(const double* q, const double* rate, const double* a, double t) const {
+    return {view(q, rate), a, t, gravity(t)};
+  }
+  /// What acts on the beam, but for its elements and what slides on it.
+  const std::vector<std::shared_ptr<const Part<D>>>& acting() const { return acting_; }
   /// Lets nodes that travel be where they are at time t; false where they tangle.
   bool travel(double t) const {
     if (!moving_) return true;
@@ -414,6 +420,7 @@ class BeamSystem final : public EventedOde {
   std::array<double, 2> end_limit_{};            ///< [m], of the last and of the first element
   double cut_limit_ = 0;                         ///< distance of a rider from the end at which it gets a node [m]
   Held<D> held_;
+  std::vector<std::shared_ptr<const Part<D>>> acting_;
   Layout<D> layout_;
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;

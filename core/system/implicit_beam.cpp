@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/element/active.hpp"
-#include "core/element/moving_tangent.hpp"
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 
@@ -61,78 +59,13 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   a.segment(first_kink_multiplier(), kinks_.count()) = -kinks_.nearest(q.data(), free_.data(), reference_mass_);
 }
 
+/// With what rests against each other, and without what holds.
 template <int D>
 double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                       double t, Eigen::VectorXd& r) const {
-  const auto& model = system_.model();
-  const Vec<double, D> gravity = system_.gravity(t), on_beam = system_.beam_gravity(t);
-  r.setZero();
-  double dissipation = 0;
-  at_spans([&](const Span<D>& span) { dissipation += span.add_forces(q.data(), v.data(), on_beam, r.data()); });
-  model.loads.add_forces(view(q, v), t, r.data());
-  if (model.drag.present()) dissipation += model.drag.add_forces(view(q, v), r.data());
-  const bool bears_masses = model.masses.present();
-  if (bears_masses) model.masses.add_weight(view(q, v), gravity, r.data());
-  r = -r;
-  if (bears_masses) model.masses.add_residual(view(q, v), a.data(), gravity, r.data());
-  at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data()); });
-  const Eigen::Index extra = after_nodes();
-  if (system_.moving_mesh() != nullptr) {
-    dissipation += system_.add_travelling_residual(q.data(), v.data(), a.data(), t, r.data());
-  } else if (system_.has_joint()) {
-    const ChainView<D> beam = view(q, v), accelerations = view(q, a);
-    auto law = system_.moving_law(t);
-    for (const MovingPart& part : system_.moving_parts()) {
-      const auto rest = system_.rest_of(part, q.data());
-      law.rest = rest ? &*rest : nullptr;
-      auto add = [&]<MovingEnds Ends>() {
-        const int k = part.element;
-        const auto of = moving_residual<Ends, double, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k),
-                                                         beam.weights(k), part.table, law, &dissipation);
-        for (int i = 0; i < 4; ++i) {
-          Eigen::Map<Vec<double, D>>(r.data() + beam.vector(k, i)) += of.nodes[static_cast<std::size_t>(i)];
-        }
-        for (int e = 0; e < moving_ends<Ends>; ++e) {
-          r[extra + (is_end_a<Ends>(e) ? part.a : part.b)] += of.ends[static_cast<std::size_t>(e)];
-        }
-      };
-      with_ends(part.ends, add);
-    }
-    for (std::size_t i = 0; i < places().size(); ++i) {
-      const SlidingJoint& joint = system_.joint(i).law;
-      const int node = places()[i].node;
-      const Vec<double, D> inertia = joint.mass * (position<D>(a.data(), node) - gravity);
-      const Vec<double, D> pull = system_.held(i) == nullptr ? inertia : Vec<double, D>(-position<D>(r.data(), node));
-      position<D>(r.data(), node) += inertia;
-      if (!joint.friction) continue;
-      const Slopes slopes = slopes_at<D>(places()[i], q.data());
-      const Contact<double, D> contact(slopes.template head<D>(), slopes.template tail<D>(), joint.turns());
-      const auto friction = friction_force<double, D>(*joint.friction, pull, contact, v[places()[i].mark]);
-      r[places()[i].mark] -= friction.force;
-      dissipation += friction.dissipation;
-    }
-  } else if (const auto& rider = system_.rider()) {
-    const auto part =
-        rider_residual<double, D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
-                                  a[extra], model.joints.front().law, gravity, rider->held);
-    position<D>(r.data(), rider->element) += part.nodes[0];
-    slope<D>(r.data(), rider->element) += part.nodes[1];
-    position<D>(r.data(), rider->element + 1) += part.nodes[2];
-    slope<D>(r.data(), rider->element + 1) += part.nodes[3];
-    r[extra] = part.x;
-    dissipation += part.dissipation;
-  }
+  const double lost = equations_.residual(q, v, a, t, r);
   contacts_.add_forces(q.data(), a.data() + first_contact_multiplier(), reference_mass_, r.data());
-  for (std::size_t i = 0; i < system_.departed().size(); ++i) {
-    const Eigen::Index at = layout().departed_mass(static_cast<int>(i));
-    const double mass = model.joints[static_cast<std::size_t>(system_.departed()[i])].law.mass;
-    r.segment<D>(at) = mass * (a.segment<D>(at) - gravity);
-  }
-  if (Spin* spin = system_.spin()) {
-    const Eigen::Index at = angles();
-    dissipation += spin->residual(q.data() + at, v.data() + at, a.data() + at, t, r.data() + at);
-  }
-  return dissipation;
+  return lost;
 }
 
 template <int D>
@@ -205,11 +138,12 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     return system_.model().books_flow ? system_.flow_power(q.data(), v.data(), a.data(), t) : Tally{};
   }
   Tally power;
-  const Loads<D>& loads = system_.model().loads;
-  if (loads.present()) {
+  if (system_.model().tallies().loads) {
     free_.setZero(q.size());
-    power.loads = loads.add_forces(view(q, v), t, free_.data()) + system_.line_power(view(q, v), t);
-    power.supports += system_.fed_line_power(view(q, v), t);
+    const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
+    for (const auto& part : system_.acting()) power.loads += part->add_force(now, free_.data()).loads;
+    power.loads += system_.line_power(now.beam, t);
+    power.supports += system_.fed_line_power(now.beam, t);
   }
   if (Spin* spin = system_.spin(); spin != nullptr && spin->model().supplied()) {
     const Eigen::Index at = angles();
@@ -249,121 +183,11 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
 }
 
 template <int D>
-void ImplicitBeam<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                               const TangentWeights& by) {
-  refresh();
-  const auto& model = system_.model();
-  tangent_.start(nodes(), places());
-  const bool travels = system_.moving_mesh() != nullptr;
-  if (travels) {
-    add_travelling_elements(q, v, a, t, by);
-  } else {
-    add_elements(q, v, a, t, by);
-  }
-  const ChainView<D> beam = view(q, v);
-  const auto add_point = [&](int k, const PointMatrix<D>& matrix) { tangent_.add_point(beam, k, matrix); };
-  model.loads.add_tangent(beam, t, by, add_point);
-  model.drag.add_tangent(beam, by, add_point);
-  model.masses.add_tangent(beam, a.data(), system_.gravity(t), by, add_point);
-  if (model.rubs()) add_frictions(q, v, a, t, by);
-}
-
-/// Elements, those at joints among them, and the masses of joints.
-template <int D>
-void ImplicitBeam<D>::add_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                   double t, const TangentWeights& by) {
-  const auto& model = system_.model();
-  auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
-  at_spans([&](const Span<D>& span) { span.add_tangent(q.data(), v.data(), by, diagonal, upper, lower); });
-  const ChainView<D> beam = view(q, v), accelerations = view(q, a);
-  auto law = system_.moving_law(t);
-  for (const MovingPart& part : system_.moving_parts()) {
-    const auto rest = system_.rest_of(part, q.data());
-    law.rest = rest ? &*rest : nullptr;
-    const int k = part.element;
-    const auto add = [&]<MovingEnds Ends>() {
-      const std::array<int, 2> marks = Ends == MovingEnds::a   ? std::array{part.a, -1}
-                                       : Ends == MovingEnds::b ? std::array{part.b, -1}
-                                                               : std::array{part.a, part.b};
-      tangent_.add_element(beam, k,
-                           moving_tangent<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), by,
-                                                   beam.weights(k), part.table, law),
-                           marks);
-    };
-    with_ends(part.ends, add);
-  }
-  for (std::size_t i = 0; i < places().size(); ++i) {
-    tangent_.add_mass(places()[i].node, by.a * system_.joint(i).law.mass);
-  }
-  if (const auto& rider = system_.rider()) {
-    tangent_.add_border(rider->element);
-    tangent_.add_element(
-        beam, rider->element,
-        rider_tangent<D>(system_.rider_motion(q.data(), v.data()), element_nodes<D>(a.data(), rider->element),
-                         a[after_nodes()], model.joints.front().law, system_.gravity(t), rider->held, by),
-        {0, -1});
-  }
-  for (const int index : system_.departed()) {
-    for (int c = 0; c < D; ++c) {
-      tangent_.add_border(0);
-      const int last = tangent_.borders() - 1;
-      tangent_.corner(last, last) = by.a * model.joints[static_cast<std::size_t>(index)].law.mass;
-    }
-  }
-}
-
-/// Elements whose nodes all travel as prescribed, and what flows in.
-template <int D>
-void ImplicitBeam<D>::add_travelling_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                              const Eigen::VectorXd& a, double t, const TangentWeights& by) {
-  system_.travel(t);
-  const auto& model = system_.model();
-  const MovingMesh<D>& mesh = *system_.moving_mesh();
-  const ChainView<D> beam = view(q, v);
-  auto law = system_.moving_law(t);
-  for (const MovingPart& part : system_.moving_parts()) {
-    const auto rest = system_.rest_of(part, q.data());
-    law.rest = rest ? &*rest : nullptr;
-    const int k = part.element;
-    tangent_.add_element(
-        beam, k,
-        moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(a.data(), k), by,
-                                               beam.weights(k), part.table, law));
-    if (!model.rotary.present()) continue;
-    const auto i = static_cast<std::size_t>(k);
-    tangent_.add_element(beam, k,
-                         RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
-  }
-  mesh.add_inflow_tangent(beam, by, [&](int row, int column, const Block& block) {
-    auto& band = column == row ? tangent_.diagonal : column > row ? tangent_.upper : tangent_.lower;
-    band[static_cast<std::size_t>(row)] += block;
-  });
-}
-
-template <int D>
-void ImplicitBeam<D>::add_frictions(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                    double t, const TangentWeights& by) {
-  bool held = false;
-  for (std::size_t i = 0; i < places().size(); ++i) held = held || system_.held(i) != nullptr;
-  if (held) {
-    free_.resize(q.size());
-    free_residual(q, v, a, t, free_);
-  }
-  for (std::size_t i = 0; i < places().size(); ++i) {
-    const SlidingJoint& joint = system_.joint(i).law;
-    if (!joint.friction) continue;
-    Vec<double, D> pull = joint.mass * (position<D>(a.data(), places()[i].node) - system_.gravity(t));
-    if (system_.held(i) != nullptr) pull -= position<D>(free_.data(), places()[i].node);
-    add_friction_tangent(i, pull, q, v, by);
-  }
-}
-
-template <int D>
 void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                          double t, const TangentWeights& by, Eigen::MatrixXd& axis,
                                          Eigen::MatrixXd& angles) {
   refresh();
-  assemble(q, v, a, t, by);
+  equations_.assemble(q, v, a, t, by, tangent_);
   axis.setZero(after_nodes(), after_nodes());
   tangent_.expand(axis);
   angles.resize(0, 0);
@@ -378,7 +202,7 @@ void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::
 template <int D>
 bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                 const TangentWeights& by) {
-  assemble(q, v, a, t, by);
+  equations_.assemble(q, v, a, t, by, tangent_);
   constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
   add_constraints(q, a, t, constraint_scale_);
   contacts_.add_tangent(q.data(), a.data() + first_contact_multiplier(), reference_mass_, constraint_scale_, tangent_);
@@ -444,57 +268,6 @@ void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, co
   nut_.inverse = small.inverse();
 }
 
-/// Friction acts on the joint's material coordinate alone. Where its node is held, the beam pulls at it by what the
-/// node's own equations lack, whose rows stand in the tangent.
-template <int D>
-void ImplicitBeam<D>::add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
-                                           const Eigen::VectorXd& v, const TangentWeights& by) {
-  constexpr int N = 3 * D + 1;  // by the pull, the slopes and x'
-  using Real = Active<N>;
-  const SlidingJoint& joint = system_.joint(which).law;
-  const JointPlace& place = places()[which];
-  const int j = place.node;
-  const bool held = system_.held(which) != nullptr;
-  const Slopes slopes = slopes_at<D>(place, q.data());
-  Vec<Real, D> active_pull, before, behind;
-  for (int c = 0; c < D; ++c) {
-    active_pull[c] = Real(pull[c], c);
-    before[c] = Real(slopes[c], D + c);
-    behind[c] = Real(slopes[D + c], 2 * D + c);
-  }
-  const Real force =
-      friction_force<Real, D>(*joint.friction, active_pull, Contact<Real, D>(before, behind, joint.turns()),
-                              Real(v[place.mark], 3 * D))
-          .force;
-  if (force.derivatives().size() == 0 || force.value() == 0) return;
-  const Eigen::Matrix<double, N, 1>& change = force.derivatives();
-  const Vec<double, D> by_pull = change.template head<D>();
-  auto& border = tangent_.border[which];
-  const auto reached = [&](int node) { return static_cast<std::size_t>(node - border.first); };
-  const auto at = static_cast<Eigen::Index>(which);
-  for (int c = 0; c < D; ++c) {
-    const Eigen::Index at_node = Eigen::Index{B} * j + D + c;
-    tangent_.entry(place.mark, at_node) -= by.q * change[D + c];
-    tangent_.entry(place.mark, place.behind < 0 ? at_node : place.behind + c) -= by.q * change[2 * D + c];
-  }
-  tangent_.corner(at, at) -= by.v * change[3 * D];
-  border.row[reached(j)].template head<D>() -= by.a * joint.mass * by_pull;
-  if (!held) return;
-  const auto k = static_cast<std::size_t>(j);
-  const auto add = [&](int to, const Block& block) {
-    border.row[reached(to)] += block.template topRows<D>().transpose() * by_pull;
-  };
-  add(j - 1, tangent_.lower[k]);
-  add(j, tangent_.diagonal[k]);
-  add(j + 1, tangent_.upper[k]);
-  for (int other = 0; other < tangent_.borders(); ++other) {
-    const auto& column = tangent_.border[static_cast<std::size_t>(other)];
-    const int i = j - column.first;
-    if (i < 0 || i >= BorderedBlockTridiagonal<B>::reach) continue;
-    tangent_.corner(at, other) += by_pull.dot(column.column[static_cast<std::size_t>(i)].template head<D>());
-  }
-}
-
 /// Rows and columns of supports and of conditions on slopes, times `scale`, and what their forces add to the tangent.
 template <int D>
 void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale) {
@@ -508,7 +281,7 @@ void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::Vec
 template <int D>
 void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                               const TangentWeights& by, Eigen::MatrixXd& dense) {
-  assemble(q, v, a, t, by);
+  equations_.assemble(q, v, a, t, by, tangent_);
   add_constraints(q, a, t, reference_mass_);
   dense.setZero(coordinates(), coordinates());
   tangent_.expand(dense);

@@ -7,6 +7,7 @@
 #include "core/joint/kinks.hpp"
 #include "core/system/beam_system.hpp"
 #include "core/system/conserving_step.hpp"
+#include "core/system/equations.hpp"
 #include "core/system/node_contact.hpp"
 #include "core/system/support_constraints.hpp"
 #include "core/tangent_weights.hpp"
@@ -26,7 +27,7 @@ template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system), conserving_step_(system) {}
+  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system), equations_(system), conserving_step_(system) {}
 
   Eigen::Index coordinates() const override { return layout().coordinates(); }
   Eigen::Index multipliers() const override { return layout().multipliers; }
@@ -79,8 +80,6 @@ class ImplicitBeam final : public SecondOrderSystem {
  private:
   static constexpr int B = node_size<D>;
   using Block = Eigen::Matrix<double, B, B>;
-  using Slopes = Eigen::Matrix<double, 2 * D, 1>;
-
   /// What depends on the mesh.
   void refresh() const {
     if (revision_ != system_.revision()) rebuild();
@@ -95,18 +94,6 @@ class ImplicitBeam final : public SecondOrderSystem {
   /// Lets the conditions on slopes be those that serve at q.
   void choose_conditions(const Eigen::VectorXd& q) const {
     kinks_.choose(q.data(), [](Eigen::Index /*first*/, int /*count*/) {});
-  }
-  /// Calls function.operator()<ends>().
-  template <class Function>
-  static void with_ends(MovingEnds ends, const Function& function) {
-    switch (ends) {
-      case MovingEnds::a:
-        return function.template operator()<MovingEnds::a>();
-      case MovingEnds::b:
-        return function.template operator()<MovingEnds::b>();
-      case MovingEnds::both:
-        return function.template operator()<MovingEnds::both>();
-    }
   }
   /// Calls function(which) for the joints on the beam whose material coordinate is prescribed: it has no equation.
   template <class Function>
@@ -125,33 +112,10 @@ class ImplicitBeam final : public SecondOrderSystem {
   Eigen::Index after_nodes() const { return layout().mark(); }
   /// Where the angles of a beam that spins stand.
   Eigen::Index angles() const { return layout().angle(); }
-  ChainView<D> view(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const {
-    return system_.view(q.data(), v.data());
-  }
-  /// Calls function(span) for the runs of fixed elements.
-  template <class Function>
-  void at_spans(const Function& function) const {
-    function(system_.left());
-    function(system_.right());
-    for (const SpanBetween<D>& span : system_.between()) function(span.span());
-  }
   /// Residual without constraints.
   double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                        Eigen::VectorXd& r) const;
-  /// The tangent before constraints and factorization.
-  void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                const TangentWeights& by);
-  void add_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                    const TangentWeights& by);
-  /// Those of a beam whose nodes travel: the angles couple to nothing else.
-  void add_travelling_elements(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                               const TangentWeights& by);
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale);
-  void add_frictions(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                     const TangentWeights& by);
-  /// Of a joint at which the beam pulls by `pull` [N]; all that acts on the nodes is in the tangent.
-  void add_friction_tangent(std::size_t which, const Vec<double, D>& pull, const Eigen::VectorXd& q,
-                            const Eigen::VectorXd& v, const TangentWeights& by);
   /// What the thread does to the angles as it pushes the nut of these coordinates [N].
   Eigen::VectorXd nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double push) const;
   /// Takes the nut's x out of the tangent, with `size` in its place.
@@ -166,6 +130,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   double element_length() const;  ///< mean of the mesh [m]
   double wave_time() const;       ///< of an axial wave through such an element [s]
   BeamSystem<D>& system_;
+  Equations<D> equations_;
   ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable Layout<D> layout_;

@@ -24,7 +24,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   acceleration(q, v, t, a_);
 
   auto tangent = [&](const TangentWeights& by, Eigen::MatrixXd& dense) {
-    assemble(q, v, a_, t, by);
+    equations_.assemble(q, v, a_, t, by, tangent_);
     dense.setZero(n, n);
     tangent_.expand(dense);
     for (Eigen::Index k = 0; k < n; ++k) holding().project(dense.col(k).data());

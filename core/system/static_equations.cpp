@@ -1,6 +1,5 @@
 #include "core/system/static_equations.hpp"
 
-#include "core/element/moving_tangent.hpp"
 #include "core/geometry/dense.hpp"
 
 namespace vlbeam {
@@ -22,57 +21,10 @@ void StaticEquations<D>::choose_conditions(Eigen::VectorXd& u) {
 }
 
 template <int D>
-template <class Function>
-void StaticEquations<D>::at_parts(const Function& function) const {
-  for (const MovingPart& part : system_.moving_parts()) {
-    switch (part.ends) {
-      case MovingEnds::a:
-        function.template operator()<MovingEnds::a>(part);
-        break;
-      case MovingEnds::b:
-        function.template operator()<MovingEnds::b>(part);
-        break;
-      case MovingEnds::both:
-        function.template operator()<MovingEnds::both>(part);
-        break;
-    }
-  }
-}
-
-template <int D>
 void StaticEquations<D>::reactions(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const {
-  const auto& model = system_.model();
   prepare();
-  const ChainView<D> beam = view(u);
-  const Vec<double, D> gravity = system_.gravity(factor), on_beam = system_.beam_gravity(factor);
-  r.setZero(size());
-  system_.left().add_forces(u.data(), zero_.data(), on_beam, r.data());
-  system_.right().add_forces(u.data(), zero_.data(), on_beam, r.data());
-  for (const auto& span : system_.between()) span.span().add_forces(u.data(), zero_.data(), on_beam, r.data());
-  model.loads.add_forces(beam, factor, r.data());
-  if (model.masses.present()) model.masses.add_weight(beam, gravity, r.data());
-  r = -r;
-  if (!system_.has_joint()) return;
-  if (model.masses.present()) model.masses.add_residual(beam, zero_.data(), gravity, r.data());
-  auto law_at = system_.moving_law(factor);
-  at_parts([&]<MovingEnds Ends>(const MovingPart& part) {
-    const auto rest = system_.rest_of(part, u.data());
-    law_at.rest = rest ? &*rest : nullptr;
-    const int k = part.element;
-    const MovingCoordinates<double, D> still = beam.rates(k);
-    const auto of =
-        moving_residual<Ends, double, D>(beam.coordinates(k), still, still, beam.weights(k), part.table, law_at);
-    for (int i = 0; i < 4; ++i) {
-      Eigen::Map<Vec<double, D>>(r.data() + beam.vector(k, i)) += of.nodes[static_cast<std::size_t>(i)];
-    }
-    std::size_t end = 0;
-    for (const int which : {part.a, part.b}) {
-      if (which >= 0) r[mark(static_cast<std::size_t>(which))] += of.ends[end++];
-    }
-  });
-  for (std::size_t which = 0; which < system_.places().size(); ++which) {
-    position<D>(r.data(), system_.places()[which].node) -= system_.joint(which).law.mass * gravity;
-  }
+  r.resize(size());
+  equations_.residual(u, zero_, zero_, factor, r);
   const Eigen::Index at = system_.coordinates();
   kinks().add_residual(u.data(), u.data() + at, 1, r.data(), r.data() + at);
 }
@@ -88,38 +40,8 @@ void StaticEquations<D>::residual(const Eigen::VectorXd& u, double factor, Eigen
 
 template <int D>
 void StaticEquations<D>::assemble(const Eigen::VectorXd& u, double factor, double by_a) {
-  const auto& model = system_.model();
   prepare();
-  const ChainView<D> beam = view(u);
-  tangent_.start(system_.mesh().last() + 1, system_.places());
-  const TangentWeights by{1, 0, by_a};
-  auto *diagonal = tangent_.diagonal.data(), *upper = tangent_.upper.data(), *lower = tangent_.lower.data();
-  system_.left().add_tangent(u.data(), zero_.data(), by, diagonal, upper, lower);
-  system_.right().add_tangent(u.data(), zero_.data(), by, diagonal, upper, lower);
-  for (const auto& span : system_.between()) {
-    span.span().add_tangent(u.data(), zero_.data(), by, diagonal, upper, lower);
-  }
-  const auto add_part = [&](int k, const auto& matrix) { tangent_.add_point(beam, k, matrix); };
-  if (system_.has_joint()) {
-    auto law_at = system_.moving_law(factor);
-    at_parts([&]<MovingEnds Ends>(const MovingPart& part) {
-      const auto rest = system_.rest_of(part, u.data());
-      law_at.rest = rest ? &*rest : nullptr;
-      const int k = part.element;
-      const MovingCoordinates<double, D> still = beam.rates(k);
-      const std::array<int, 2> marks = Ends == MovingEnds::a   ? std::array{part.a, -1}
-                                       : Ends == MovingEnds::b ? std::array{part.b, -1}
-                                                               : std::array{part.a, part.b};
-      tangent_.add_element(
-          beam, k, moving_tangent<Ends, D>(beam.coordinates(k), still, still, by, beam.weights(k), part.table, law_at),
-          marks);
-    });
-    for (std::size_t which = 0; which < system_.places().size(); ++which) {
-      tangent_.add_mass(system_.places()[which].node, by_a * system_.joint(which).law.mass);
-    }
-  }
-  model.loads.add_tangent(beam, factor, by, add_part);
-  model.masses.add_tangent(beam, zero_.data(), system_.gravity(factor), by, add_part);
+  equations_.assemble(u, zero_, zero_, factor, {1, 0, by_a}, tangent_);
 }
 
 template <int D>

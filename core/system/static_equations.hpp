@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/joint/kinks.hpp"
-#include "core/system/beam_system.hpp"
+#include "core/system/equations.hpp"
 
 namespace vlbeam {
 
@@ -14,7 +14,7 @@ template <int D>
 class StaticEquations {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit StaticEquations(BeamSystem<D>& system) : system_(system) {}
+  explicit StaticEquations(BeamSystem<D>& system) : system_(system), equations_(system) {}
 
   /// Whether a joint's material coordinate stays what it is; that of one which is guided always does.
   bool holds(std::size_t which) const { return held_ || system_.guides(which); }
@@ -56,14 +56,11 @@ class StaticEquations {
   }
   /// The conditions that are not met by what holds slopes, as they are now.
   Kinks<D>& kinks() const;
-  ChainView<D> view(const Eigen::VectorXd& u) const { return system_.view(u.data(), zero_.data()); }
-  /// Calls function(part) with the kind of the part for the elements at joints.
-  template <class Function>
-  void at_parts(const Function& function) const;
   void assemble(const Eigen::VectorXd& u, double factor, double by_a);
-  void prepare() const { zero_.setZero(system_.coordinates()); }
+  void prepare() const { zero_.setZero(size()); }
 
   BeamSystem<D>& system_;
+  Equations<D> equations_;
   bool held_ = true, keep_conditions_ = false;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable Kinks<D> kinks_;

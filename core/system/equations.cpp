@@ -1,0 +1,202 @@
+#include "core/system/equations.hpp"
+
+#include "core/element/moving_tangent.hpp"
+#include "core/system/joint_friction.hpp"
+
+namespace vlbeam {
+
+template <int D>
+double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                              Eigen::VectorXd& r) const {
+  const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
+  const Vec<double, D> on_beam = system_.beam_gravity(t);
+  r.setZero();
+  double lost = 0;
+  at_spans([&](const Span<D>& span) { lost += span.add_forces(q.data(), v.data(), on_beam, r.data()); });
+  for (const auto& part : system_.acting()) lost += part->add_force(now, r.data()).dissipated;
+  r = -r;
+  const PointMasses<D>& masses = system_.model().masses;
+  if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
+  at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data()); });
+  if (system_.moving_mesh() != nullptr) {
+    lost += system_.add_travelling_residual(q.data(), v.data(), a.data(), t, r.data());
+  } else if (system_.has_joint()) {
+    add_joints(now, r, lost);
+  } else if (system_.rider()) {
+    add_rider(now, r, lost);
+  }
+  for (std::size_t i = 0; i < system_.departed().size(); ++i) {
+    const Eigen::Index at = system_.layout().departed_mass(static_cast<int>(i));
+    const double mass = system_.model().joints[static_cast<std::size_t>(system_.departed()[i])].law.mass;
+    r.segment<D>(at) = mass * (a.segment<D>(at) - now.gravity);
+  }
+  if (Spin* spin = system_.spin()) {
+    const Eigen::Index at = system_.layout().angle();
+    lost += spin->residual(q.data() + at, v.data() + at, a.data() + at, t, r.data() + at);
+  }
+  return lost;
+}
+
+template <int D>
+template <class Function>
+void Equations<D>::at_moving_parts(const Motion<D>& now, const Function& function) const {
+  MovingLaw<D> law = system_.moving_law(now.t);
+  for (const MovingPart& part : system_.moving_parts()) {
+    const auto rest = system_.rest_of(part, now.beam.q);
+    law.rest = rest ? &*rest : nullptr;
+    switch (part.ends) {
+      case MovingEnds::a:
+        function.template operator()<MovingEnds::a>(part, law);
+        break;
+      case MovingEnds::b:
+        function.template operator()<MovingEnds::b>(part, law);
+        break;
+      case MovingEnds::both:
+        function.template operator()<MovingEnds::both>(part, law);
+        break;
+    }
+  }
+}
+
+/// Elements at joints, joint by joint what slides there, and its friction.
+template <int D>
+void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const {
+  const ChainView<D>&beam = now.beam, accelerations = system_.view(beam.q, now.a);
+  const auto& places = system_.places();
+  at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
+    const int k = part.element;
+    const auto of = moving_residual<Ends, double, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k),
+                                                     beam.weights(k), part.table, law, &lost);
+    for (int i = 0; i < 4; ++i) {
+      Eigen::Map<Vec<double, D>>(r.data() + beam.vector(k, i)) += of.nodes[static_cast<std::size_t>(i)];
+    }
+    for (int e = 0; e < moving_ends<Ends>; ++e) {
+      const int joint = is_end_a<Ends>(e) ? part.a : part.b;
+      r[places[static_cast<std::size_t>(joint)].mark] += of.ends[static_cast<std::size_t>(e)];
+    }
+  });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SlidingJoint& joint = system_.joint(i).law;
+    auto lacking = position<D>(r.data(), places[i].node);
+    const Vec<double, D> inertia = joint.mass * (position<D>(now.a, places[i].node) - now.gravity);
+    const Vec<double, D> pull = system_.held(i) == nullptr ? inertia : Vec<double, D>(-lacking);
+    lacking += inertia;
+    if (!joint.friction) continue;
+    const auto friction = friction_at<D>(joint, places[i], pull, beam.q, beam.rate);
+    r[places[i].mark] -= friction.force;
+    lost += friction.dissipation;
+  }
+}
+
+template <int D>
+void Equations<D>::add_rider(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const {
+  const auto& rider = *system_.rider();
+  const Eigen::Index x = system_.layout().mark();
+  const auto part =
+      rider_residual<double, D>(system_.rider_motion(now.beam.q, now.beam.rate), element_nodes<D>(now.a, rider.element),
+                                now.a[x], system_.model().joints.front().law, now.gravity, rider.held);
+  position<D>(r.data(), rider.element) += part.nodes[0];
+  slope<D>(r.data(), rider.element) += part.nodes[1];
+  position<D>(r.data(), rider.element + 1) += part.nodes[2];
+  slope<D>(r.data(), rider.element + 1) += part.nodes[3];
+  r[x] = part.x;
+  lost += part.dissipation;
+}
+
+template <int D>
+void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                            const TangentWeights& by, BeamMatrix<D>& tangent) {
+  const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
+  tangent.start(system_.layout().nodes, system_.places());
+  if (system_.moving_mesh() != nullptr) {
+    add_travelling_elements(now, by, tangent);
+  } else {
+    add_elements(now, by, tangent);
+  }
+  for (const auto& part : system_.acting()) part->add_tangent(now, by, tangent);
+  if (!system_.model().rubs()) return;
+  const auto& places = system_.places();
+  bool held = false;
+  for (std::size_t i = 0; i < places.size(); ++i) held = held || system_.held(i) != nullptr;
+  if (held) {
+    lacking_.resize(q.size());
+    residual(q, v, a, t, lacking_);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SlidingJoint& joint = system_.joint(i).law;
+    if (!joint.friction) continue;
+    Vec<double, D> pull = joint.mass * (position<D>(a.data(), places[i].node) - now.gravity);
+    const bool holds = system_.held(i) != nullptr;
+    if (holds) pull -= position<D>(lacking_.data(), places[i].node);
+    add_friction_tangent<D>(joint, places[i], pull, holds, q.data(), v.data(), by, tangent);
+  }
+}
+
+/// Elements, those at joints among them, and what slides there.
+template <int D>
+void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const {
+  const auto& joints = system_.model().joints;
+  const ChainView<D>&beam = now.beam, accelerations = system_.view(beam.q, now.a);
+  auto *diagonal = tangent.diagonal.data(), *upper = tangent.upper.data(), *lower = tangent.lower.data();
+  at_spans([&](const Span<D>& span) { span.add_tangent(beam.q, beam.rate, by, diagonal, upper, lower); });
+  at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
+    const std::array<int, 2> marks = Ends == MovingEnds::a   ? std::array{part.a, -1}
+                                     : Ends == MovingEnds::b ? std::array{part.b, -1}
+                                                             : std::array{part.a, part.b};
+    const int k = part.element;
+    tangent.add_element(beam, k,
+                        moving_tangent<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), by,
+                                                beam.weights(k), part.table, law),
+                        marks);
+  });
+  for (std::size_t i = 0; i < system_.places().size(); ++i) {
+    tangent.add_mass(system_.places()[i].node, by.a * system_.joint(i).law.mass);
+  }
+  if (const auto& rider = system_.rider()) {
+    tangent.add_border(rider->element);
+    tangent.add_element(
+        beam, rider->element,
+        rider_tangent<D>(system_.rider_motion(beam.q, beam.rate), element_nodes<D>(now.a, rider->element),
+                         now.a[system_.layout().mark()], joints.front().law, now.gravity, rider->held, by),
+        {0, -1});
+  }
+  for (const int index : system_.departed()) {
+    for (int c = 0; c < D; ++c) {
+      tangent.add_border(0);
+      const int last = tangent.borders() - 1;
+      tangent.corner(last, last) = by.a * joints[static_cast<std::size_t>(index)].law.mass;
+    }
+  }
+}
+
+/// Elements whose nodes all travel as prescribed, and what flows in.
+template <int D>
+void Equations<D>::add_travelling_elements(const Motion<D>& now, const TangentWeights& by,
+                                           BeamMatrix<D>& tangent) const {
+  system_.travel(now.t);
+  const auto& model = system_.model();
+  const MovingMesh<D>& mesh = *system_.moving_mesh();
+  const ChainView<D>& beam = now.beam;
+  at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
+    if constexpr (Ends == MovingEnds::both) {
+      const int k = part.element;
+      tangent.add_element(
+          beam, k,
+          moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(now.a, k), by,
+                                                 beam.weights(k), part.table, law));
+      if (!model.rotary.present()) return;
+      const auto i = static_cast<std::size_t>(k);
+      tangent.add_element(beam, k,
+                          RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
+    }
+  });
+  mesh.add_inflow_tangent(beam, by, [&](int row, int column, const auto& block) {
+    auto& band = column == row ? tangent.diagonal : column > row ? tangent.upper : tangent.lower;
+    band[static_cast<std::size_t>(row)] += block;
+  });
+}
+
+template class Equations<2>;
+template class Equations<3>;
+
+}  // namespace vlbeam
