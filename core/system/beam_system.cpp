@@ -1,12 +1,12 @@
 #include "core/system/beam_system.hpp"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <limits>
 
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/system/implicit_beam.hpp"
+#include "core/system/prescribed_motion.hpp"
 
 namespace vlbeam {
 template <int D>
@@ -153,98 +153,6 @@ void BeamSystem<D>::set_end_limits() {
 }
 
 template <int D>
-Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
-  y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
-  y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const JointPlace& place = places_[i];
-    const auto& joint = chain.joints[i];
-    y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
-    y[coordinates() + place.mark] = joint.rate;
-    if (place.behind < 0) continue;
-    y.segment<D>(place.behind) = joint.kink->slope;
-    y.segment<D>(coordinates() + place.behind) = joint.kink->rate;
-  }
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    y.segment<D>(departed_at(i)) = chain.departed[i].r;
-    y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
-  }
-  if (rider_) {
-    y[layout_.mark()] = chain.rider->x;
-    y[coordinates() + layout_.mark()] = chain.rider->rate;
-  }
-  if (old.size() == 0) return y;
-  const Eigen::Index tallies = layout_.tallies.count();
-  y.tail(tallies) = old.tail(tallies);
-  if (spin_) {
-    const Eigen::Index count = spin_->coordinates(), before = (old.size() - tallies) / 2;
-    y.segment(angles(), count) = old.segment(before - count, count);
-    y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
-  }
-  return y;
-}
-
-template <int D>
-ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
-  ChainState<D> result;
-  result.mesh = mesh_;
-  if (moving_) {
-    travel(t);
-    result.mark_rates.clear();
-    for (std::size_t k = 0; k < mesh_.x.size(); ++k) {
-      result.mesh.x[k] = moving_->marks()[k].value;
-      result.mark_rates.push_back(moving_->marks()[k].rate);
-    }
-  }
-  result.q.assign(y.data(), y.data() + layout_.mark());
-  result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + layout_.mark());
-  result.rest = rest_;
-  result.rest_curve = model_.rest.get();
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const JointPlace& place = places_[i];
-    result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
-    auto& joint = result.joints.emplace_back();
-    joint = {.node = place.node, .rate = y[coordinates() + place.mark], .index = index_[i], .touches = touches_[i]};
-    if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates() + place.behind)};
-    if (!result.curved_at_rest()) continue;
-    const auto at_joint = model_.rest->derivatives(y[place.mark]);
-    position<D>(result.rest.data(), place.node) = at_joint[0];
-    slope<D>(result.rest.data(), place.node) = at_joint[1];
-  }
-  for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
-    const auto at_node = model_.rest->derivatives(result.mesh.x[static_cast<std::size_t>(k)]);
-    position<D>(result.rest.data(), k) = at_node[0];
-    slope<D>(result.rest.data(), k) = at_node[1];
-  }
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    const Eigen::Index at = departed_at(i);
-    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
-  }
-  if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
-  return result;
-}
-
-template <int D>
-std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y,
-                                                                             int index) const {
-  const auto at = [&](Eigen::Index place) {
-    return MassMotion{y.segment<D>(place), y.segment<D>(coordinates() + place)};
-  };
-  if (rider_ && index == 0) {
-    const auto motion = rider_motion(y.data(), y.data() + coordinates());
-    return MassMotion{motion.r, motion.v};
-  }
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (index_[i] == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
-  }
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    if (departed_[i] == index) return at(departed_at(i));
-  }
-  return std::nullopt;
-}
-
-template <int D>
 JointMotion<D> BeamSystem<D>::joint_motion(std::size_t which, const double* q, const double* rate, double t) const {
   const auto guide = guided(which, t);
   return {joint_slopes(which, q), joint_slopes(which, rate), rate[places_[which].mark], gravity(t),
@@ -363,148 +271,6 @@ std::array<double*, 4> BeamSystem<D>::vectors_of(double* q, int k) const {
   return {first, joint != nullptr && joint->behind >= 0 ? q + joint->behind : first + D, first + 2 * D, first + 3 * D};
 }
 
-/// M a = F with some accelerations a_s given: the others follow from M a = F - M a_s, and what holds a_s is M a - F.
-/// Only the elements at a support or at a joint that is held couple a_s to anything.
-template <int D>
-class BeamSystem<D>::PrescribedMotion {
- public:
-  /// Takes the inertia of the given accelerations from the forces. `at_joints` holds the elements at the joints; q and
-  /// its rates are as the supports have them.
-  PrescribedMotion(const BeamSystem& system, const JointElements& at_joints, const double* q, const double* rate,
-                   double* force, double t)
-      : system_(&system) {
-    add_supports(at_joints, q, rate, force, t);
-    add_joints(at_joints, force, t);
-    for (const Side& side : sides_) {
-      const auto parts = system_->vectors_of(force, side.element);
-      for (std::size_t k = 0; k < side.driven; ++k) {
-        const std::size_t row = side.held + k;
-        for (std::size_t i = 0; i < 4; ++i) {
-          Eigen::Map<Vector>(parts[i]) -= side.mass[i][row] * side.parts[k].acceleration;
-        }
-        for (std::size_t j = 0; j < 2; ++j) {
-          if (side.marks[j] >= 0) force[side.marks[j]] -= side.by_joint[j][row].dot(side.parts[k].acceleration);
-        }
-      }
-    }
-  }
-
-  /// Completes the accelerations `a`.
-  void complete(double* a) const {
-    for (const Side& side : sides_) {
-      if (!side.of_node) continue;
-      const auto parts = system_->vectors_of(a, side.element);
-      for (std::size_t k = 0; k < side.driven; ++k) {
-        Eigen::Map<Vector>(parts[side.held + k]) += side.parts[k].acceleration;
-      }
-    }
-  }
-
-  /// `on_rider` acts on the rider, whose shape functions are `s`, and its opposite on the beam.
-  void add_rider(const Vector& on_rider, const std::array<double, 4>& s) {
-    for (Side& side : sides_) {
-      if (side.element != system_->rider_->element) continue;
-      for (std::size_t k = 0; k < side.driven; ++k) side.parts[k].force -= s[side.held + k] * on_rider;
-    }
-  }
-
-  /// Power of the supports at the accelerations `a` [W].
-  double power(double* a) const {
-    double sum = 0;
-    for (const Side& side : sides_) {
-      const auto parts = system_->vectors_of(a, side.element);
-      for (std::size_t k = 0; k < side.driven; ++k) {
-        const std::size_t row = side.held + k;
-        Vector reaction = -side.parts[k].force + side.lumped * Eigen::Map<const Vector>(parts[row]);
-        for (std::size_t j = 0; j < 2; ++j) {
-          if (side.marks[j] >= 0) reaction += side.by_joint[j][row] * a[side.marks[j]];
-        }
-        for (std::size_t i = 0; i < 4; ++i) reaction += side.mass[row][i] * Eigen::Map<const Vector>(parts[i]);
-        sum += reaction.dot(side.parts[k].rate);
-      }
-    }
-    return sum;
-  }
-
- private:
-  /// What is given of a nodal vector, and the force on it.
-  struct Part {
-    Vector force = Vector::Zero(), rate = Vector::Zero(), acceleration = Vector::Zero();
-  };
-  /// The element on one side of what is held, by its mass matrix (order r_A, s_A, r_B, s_B) and its coupling to the
-  /// material coordinates of joints at its ends.
-  struct Side {
-    int element = 0;
-    std::size_t held = 0;                           ///< row of the point that is held
-    bool of_node = true;                            ///< the first of its node: what the node has but once is here
-    double lumped = 0;                              ///< mass at the node [kg]
-    std::array<std::array<double, 4>, 4> mass{};    ///< [kg m^k]
-    std::array<std::array<Vector, 4>, 2> by_joint;  ///< of the joint at A, at B
-    std::array<Eigen::Index, 2> marks{-1, -1};      ///< where their x stand, if there are any
-    std::size_t driven = 1;                         ///< 2 where the slope is driven, too
-    std::array<Part, 2> parts;                      ///< position and slope
-  };
-  static constexpr std::size_t usual = 6;  // sides: two supports and two joints
-
-  void add_supports(const JointElements& at_joints, const double* q, const double* rate, double* force, double t) {
-    for (const HeldNode<D>& held : system_->held_.at(t)) {
-      if (held.end < 0) continue;
-      const bool start = held.end == 0;
-      Side& side = sides_.emplace_back(side_of(start ? 0 : system_->mesh_.elements() - 1, start ? 0 : 2, at_joints));
-      const auto parts = system_->vectors_of(force, side.element);
-      side.parts[0] = {Eigen::Map<const Vector>(parts[side.held]), held.driven.rate, held.driven.acceleration};
-      if (!held.turns()) continue;
-      const Vector s = slope<D>(q, held.node), s_rate = slope<D>(rate, held.node);
-      side.parts[1] = {Eigen::Map<const Vector>(parts[side.held + 1]),
-                       DrivenPoint<D>::held(held.support, held.driven.slope_rate(s)),
-                       DrivenPoint<D>::held(held.support, held.driven.slope_acceleration(s, s_rate))};
-      side.driven = 2;
-    }
-  }
-
-  void add_joints(const JointElements& at_joints, const double* force, double t) {
-    for (const HeldNode<D>& held : system_->held_.at(t)) {
-      if (held.joint < 0 || held.motion == nullptr) continue;
-      for (const bool before : {true, false}) {
-        Side& side = sides_.emplace_back(side_of(before ? held.node - 1 : held.node, before ? 2 : 0, at_joints));
-        side.parts[0] = {Vector::Zero(), held.driven.rate, held.driven.acceleration};
-        side.of_node = before;
-        if (!before) continue;
-        side.parts[0].force = position<D>(force, held.node);
-        side.lumped = system_->joint(static_cast<std::size_t>(held.joint)).law.mass;
-      }
-    }
-  }
-
-  Side side_of(int element, std::size_t held, const JointElements& at_joints) const {
-    Side result;
-    result.element = element;
-    result.held = held;
-    const auto& parts = system_->parts_;
-    const auto moving =
-        std::find_if(parts.begin(), parts.end(), [&](const MovingPart& part) { return part.element == element; });
-    if (moving != parts.end()) {
-      const auto& eq = at_joints[static_cast<std::size_t>(moving - parts.begin())];
-      result.mass = eq.mass;
-      result.by_joint = {eq.mass_a, eq.mass_b};
-      const auto mark = [&](int joint) {
-        return joint < 0 ? Eigen::Index{-1} : system_->places_[static_cast<std::size_t>(joint)].mark;
-      };
-      result.marks = {mark(moving->a), mark(moving->b)};
-    } else {
-      result.mass = system_->end_inertia_[held == 0 ? 0 : 1].mass;
-      for (auto& row : result.mass) {
-        for (double& entry : row) entry *= system_->model_.section.rhoA;
-      }
-      add_point_masses(system_->model_.masses.points, system_->mesh_, element, result.mass);
-    }
-    return result;
-  }
-
-  const BeamSystem* system_;
-  boost::container::small_vector<Side, usual> sides_;
-};
-
 template <int D>
 std::optional<typename BeamSystem<D>::PrescribedMotion> BeamSystem<D>::solve_apart(const double* q, const double* rate,
                                                                                    double t, double* force) const {
@@ -558,27 +324,6 @@ double BeamSystem<D>::contact_force(const Eigen::VectorXd& y, double t) const {
   solve_apart(q, rate, t, a.data());
   const auto solved = solve_rider(rider_motion(q, rate), gravity(t), a.data());
   return solved ? solved->contact : 0;
-}
-
-template <int D>
-Eigen::VectorXd BeamSystem<D>::forces_at_contacts(const Eigen::VectorXd& y, double t) const {
-  Eigen::VectorXd exact = y;
-  impose(exact, t);
-  orient(t);
-  const double *q = exact.data(), *rate = q + coordinates();
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates());
-  JointElements elements;
-  add_forces(q, rate, t, a.data(), elements);
-  std::vector<JointMotion<D>> motions;
-  for (std::size_t i = 0; i < places_.size(); ++i) motions.push_back(joint_motion(i, q, rate, t));
-  std::optional<PrescribedMotion> pull;
-  if (model_.driven()) pull.emplace(*this, elements, q, rate, a.data(), t);
-  std::optional<Eigen::VectorXd> forces;
-  if (solve_joints(elements, motions, a.data())) {
-    if (pull) pull->complete(a.data());
-    forces = press(resting_, elements, q, bending_in(rate), a.data());
-  }
-  return forces.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(resting_.size())));
 }
 
 template <int D>

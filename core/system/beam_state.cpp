@@ -1,0 +1,105 @@
+// A state as a chain, and a chain as a state.
+#include "core/system/beam_system.hpp"
+
+namespace vlbeam {
+
+template <int D>
+Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
+  y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
+  y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    const auto& joint = chain.joints[i];
+    y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
+    y[coordinates() + place.mark] = joint.rate;
+    if (place.behind < 0) continue;
+    y.segment<D>(place.behind) = joint.kink->slope;
+    y.segment<D>(coordinates() + place.behind) = joint.kink->rate;
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    y.segment<D>(departed_at(i)) = chain.departed[i].r;
+    y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
+  }
+  if (rider_) {
+    y[layout_.mark()] = chain.rider->x;
+    y[coordinates() + layout_.mark()] = chain.rider->rate;
+  }
+  if (old.size() == 0) return y;
+  const Eigen::Index tallies = layout_.tallies.count();
+  y.tail(tallies) = old.tail(tallies);
+  if (spin_) {
+    const Eigen::Index count = spin_->coordinates(), before = (old.size() - tallies) / 2;
+    y.segment(angles(), count) = old.segment(before - count, count);
+    y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
+  }
+  return y;
+}
+
+template <int D>
+ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
+  ChainState<D> result;
+  result.mesh = mesh_;
+  if (moving_) {
+    travel(t);
+    result.mark_rates.clear();
+    for (std::size_t k = 0; k < mesh_.x.size(); ++k) {
+      result.mesh.x[k] = moving_->marks()[k].value;
+      result.mark_rates.push_back(moving_->marks()[k].rate);
+    }
+  }
+  result.q.assign(y.data(), y.data() + layout_.mark());
+  result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + layout_.mark());
+  result.rest = rest_;
+  result.rest_curve = model_.rest.get();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
+    auto& joint = result.joints.emplace_back();
+    joint = {.node = place.node, .rate = y[coordinates() + place.mark], .index = index_[i], .touches = touches_[i]};
+    if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates() + place.behind)};
+    if (!result.curved_at_rest()) continue;
+    const auto at_joint = model_.rest->derivatives(y[place.mark]);
+    position<D>(result.rest.data(), place.node) = at_joint[0];
+    slope<D>(result.rest.data(), place.node) = at_joint[1];
+  }
+  for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
+    const auto at_node = model_.rest->derivatives(result.mesh.x[static_cast<std::size_t>(k)]);
+    position<D>(result.rest.data(), k) = at_node[0];
+    slope<D>(result.rest.data(), k) = at_node[1];
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    const Eigen::Index at = departed_at(i);
+    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
+  }
+  if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
+  return result;
+}
+
+template <int D>
+std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y,
+                                                                             int index) const {
+  const auto at = [&](Eigen::Index place) {
+    return MassMotion{y.segment<D>(place), y.segment<D>(coordinates() + place)};
+  };
+  if (rider_ && index == 0) {
+    const auto motion = rider_motion(y.data(), y.data() + coordinates());
+    return MassMotion{motion.r, motion.v};
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (index_[i] == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    if (departed_[i] == index) return at(departed_at(i));
+  }
+  return std::nullopt;
+}
+
+template Eigen::VectorXd BeamSystem<2>::state_of(const ChainState<2>&, const Eigen::VectorXd&) const;
+template ChainState<2> BeamSystem<2>::chain(const Eigen::VectorXd&, double) const;
+template std::optional<BeamSystem<2>::MassMotion> BeamSystem<2>::mass_motion(const Eigen::VectorXd&, int) const;
+template Eigen::VectorXd BeamSystem<3>::state_of(const ChainState<3>&, const Eigen::VectorXd&) const;
+template ChainState<3> BeamSystem<3>::chain(const Eigen::VectorXd&, double) const;
+template std::optional<BeamSystem<3>::MassMotion> BeamSystem<3>::mass_motion(const Eigen::VectorXd&, int) const;
+
+}  // namespace vlbeam

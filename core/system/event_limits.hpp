@@ -1,0 +1,10 @@
+#pragma once
+
+namespace vlbeam::event_limits {
+
+inline constexpr double clearance = 1e-11;  // of L_std: by which a mass leaves a support, so that the guard is negative
+inline constexpr double least_bounce = 1e-9;  // of L_std: a lower one is the last
+inline constexpr double same_instant = 1e-9;  // of L_std: what is this near is due at once
+inline constexpr double merge_slack = 1e-6;   // of the length below which is merged: a cut comes first
+
+}  // namespace vlbeam::event_limits
