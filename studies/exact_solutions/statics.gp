@@ -1,0 +1,3 @@
+set terminal svg
+set output output
+plot x
