@@ -39,7 +39,7 @@ Problem on_meshes(const FamilyData& data, const std::string& family, const std::
   Problem problem{
       .family = family, .name = name, .refined = "elements", .levels = data.levels(), .known = {}, .run = {}};
   problem.known = std::move(known);
-  problem.run = [balance = std::move(balance), length](double level) {
+  problem.run = [balance = std::move(balance), length](double level, double /*share*/) {
     Found found = in_balance(balance, count(level));
     found.displacement /= length * std::sqrt(length);
     found.slope /= std::sqrt(length);

@@ -46,15 +46,17 @@ AxisPoint in_sleeve(const KnownAxis& on, const KnownAxis& back, const Vector& or
 
 Problems roll_ups(const FamilyData& data) {
   Problems problems;
-  for (const std::string law : {"green", "engineering"}) {
-    for (const std::string turns : {"1", "0.25"}) {
-      const std::string name = law + ", " + turns + " turn", reference = "roll-up, " + name;
+  for (const std::string name :
+       {"green, 1 turn", "green, 0.25 turn", "engineering, 1 turn", "engineering, 0.25 turn"}) {
+    for (const bool soft : {false, true}) {
+      const std::string reference = "roll-up, " + name + (soft ? "" : ", EA = 4e6");
+      const std::string law = data.exact.of(reference).at("parameters").at("law");
       const double EA = data.exact.parameter(reference, "EA"), EI = data.exact.parameter(reference, "EI"),
                    M = data.exact.parameter(reference, "moment");
       const Stretching stretching = stretching_of(law);
       Balance balance{.scene =
                           [=](int n, double stiffness) {
-                            Scene scene = cantilever(n, stiffness, EI, stretching, AxialStrain::full);
+                            Scene scene = cantilever(n, stiffness, EI, stretching, AxialStrain::lobatto);
                             LoadSpec load = force_at(n, M, {1, 0, 0});
                             load.type = LoadType::moment;
                             scene.loads = {load};
@@ -63,7 +65,8 @@ Problems roll_ups(const FamilyData& data) {
                       .values = end_of,
                       .axis = all_of({.law = stretching, .EA = EA, .EI = EI, .moment = M}),
                       .EA = EA};
-      problems.push_back(on_meshes(data, "roll-up", name, data.exact.known(reference, {"tip"}), std::move(balance), 1));
+      problems.push_back(on_meshes(data, soft ? "soft roll-up" : "roll-up", name, data.exact.known(reference, {"tip"}),
+                                   std::move(balance), 1));
     }
   }
   return problems;
@@ -149,7 +152,7 @@ Problems arm_scales(const FamilyData& data) {
 
 Problems rods_in_sleeves(const FamilyData& data) {
   Problems problems;
-  for (const std::string degrees : {"15", "30", "60", "90"}) {
+  for (const std::string degrees : {"15", "30", "60"}) {
     const std::string reference = "rod in a sleeve, " + degrees + " degrees";
     const double incline = std::stod(degrees) * degree, outside = data.exact.number(reference, "length");
     const double length = outside * 10 / 7, inside = length - outside;  // three of ten elements are before the sleeve

@@ -13,7 +13,6 @@
 namespace vlbeam::exact_solutions {
 namespace {
 
-
 /// Frequencies [rad per L/c] of a string or a beam that runs at v: lengths over L, F = rhoA = 1, EI = k^2.
 std::vector<double> moving_frequencies(double v, double k, int elements, double EA, std::size_t most) {
   BeamModel<3> model;
@@ -65,7 +64,7 @@ Problem on_meshes(const FamilyData& data, const std::string& family, const std::
       .family = family, .name = name, .refined = "elements", .levels = data.levels(), .known = {}, .run = {}};
   problem.scale = std::ranges::max(known.values);
   problem.known = std::move(known);
-  problem.run = [values = std::move(values), EA = data.number("inextensible")](double elements) {
+  problem.run = [values = std::move(values), EA = data.number("inextensible")](double elements, double /*share*/) {
     Found found{.values = values(static_cast<int>(elements), EA)};
     const std::vector<double> stiffer = values(static_cast<int>(elements), 2 * EA);
     for (std::size_t i = 0; i < stiffer.size(); ++i) found.values[i] = beyond(found.values[i], stiffer[i]);
@@ -153,13 +152,14 @@ Problems torsional_frequencies(const FamilyData& data) {
       }
       return found;
     };
-    Problem problem{
-        .family = "torsion",
-        .name = ends + ", cubic angles",
-        .refined = "elements",
-        .levels = data.levels(),
-        .known = data.exact.known(reference, {"exact"}, 2),
-        .run = [values](double n) { return Found{.values = values(static_cast<int>(n), AngleField::hermite, 2)}; }};
+    Problem problem{.family = "torsion",
+                    .name = ends + ", cubic angles",
+                    .refined = "elements",
+                    .levels = data.levels(),
+                    .known = data.exact.known(reference, {"exact"}, 2),
+                    .run = [values](double n, double /*share*/) {
+                      return Found{.values = values(static_cast<int>(n), AngleField::hermite, 2)};
+                    }};
     problem.scale = problem.known.values.back();
     problem.order = data.number("order");
     problem.floor = data.number("floor");
@@ -168,7 +168,9 @@ Problems torsional_frequencies(const FamilyData& data) {
     problem.name = ends + ", linear angles, discrete";
     problem.levels = {data.exact.parameter(reference, "elements")};
     problem.known = data.exact.known(reference, {"consistent"});
-    problem.run = [values](double n) { return Found{.values = values(static_cast<int>(n), AngleField::linear, 4)}; };
+    problem.run = [values](double n, double /*share*/) {
+      return Found{.values = values(static_cast<int>(n), AngleField::linear, 4)};
+    };
     problem.order = 0;
     problems.push_back(std::move(problem));
   }
@@ -189,7 +191,7 @@ Problems point_torques(const FamilyData& data) {
                     .levels = data.levels(),
                     .known = data.exact.known(reference, {"twist"}),
                     .run = {}};
-    problem.run = [=](double elements) {
+    problem.run = [=](double elements, double /*share*/) {
       const Eigen::MatrixXd K = shaft.flow(static_cast<int>(elements), ends, AngleField::linear).K;
       const auto node = [&](double x) { return std::lround(x * elements) - 1; };  // the first angle is held
       Eigen::VectorXd load = Eigen::VectorXd::Zero(K.rows());
@@ -217,7 +219,7 @@ Problems moving_torques(const FamilyData& data) {
                     .levels = data.levels(),
                     .known = data.exact.known(reference, {"twist_at_0.3", "twist_at_0.55"}),
                     .run = {}};
-    problem.run = [=, speed = std::stod(beta), steps = data.number("steps")](double elements) {
+    problem.run = [=, speed = std::stod(beta), steps = data.number("steps")](double elements, double /*share*/) {
       Section section = section_of(1e4, 1, 1);
       section.GIp = section.rhoIp = 1;
       const int n = static_cast<int>(elements);

@@ -20,6 +20,13 @@ Scene bridge(double elements, double step) {
   return scene;
 }
 
+/// Steps on the whole way: the first mode turns by pi/alpha on it, and the error of its phase grows with the third
+/// power.
+double steps_at(double alpha, double at_one) {
+  constexpr double samples = 8000;  // at equal places, so that they fall on steps
+  return samples * std::ceil(at_one * std::max(1.0, portable::pow(alpha, -1.5)) / samples);
+}
+
 /// The members of two lists in turn.
 void add_names(Known& known, const char* name, std::size_t members) {
   for (std::size_t i = 0; i < members; ++i) known.names.push_back(name + (" " + std::to_string(i + 1)));
@@ -39,8 +46,8 @@ Problems moving_forces(const FamilyData& data) {
                     .levels = data.levels(),
                     .known = data.exact.known(reference, {"middle", "at_0.3"}),
                     .run = {}};
-    problem.run = [=, steps = data.number("steps")](double elements) {
-      Scene scene = bridge(elements, 1 / speed / steps);
+    problem.run = [=, steps = steps_at(speed / pi, data.number("steps"))](double elements, double share) {
+      Scene scene = bridge(elements, 1 / speed / (share * steps));
       scene.loads = {travelling(48 * unit, 0, speed), probe(0.5), probe(0.3)};
       scene.duration = 1 / speed;
       scene.output.interval = 0.05 / speed;
@@ -53,7 +60,9 @@ Problems moving_forces(const FamilyData& data) {
       }
       return found;
     };
+    problem.steps = true;
     problem.order = data.number("order");
+    problem.at_least = true;
     problem.floor = data.number("floor");
     problem.cost = 100;
     problems.push_back(std::move(problem));
@@ -75,8 +84,9 @@ Problems moving_masses(const FamilyData& data) {
                     .levels = data.levels(),
                     .known = data.exact.known(reference, {"middle", "under_mass"}),
                     .run = {}};
-    problem.run = [=, steps = data.number("steps"), from = data.number("from")](double elements) {
-      Scene scene = bridge(elements, 1 / speed / steps);
+    problem.run = [=, steps = steps_at(speed / pi, data.number("steps")), from = data.number("from")](double elements,
+                                                                                                      double share) {
+      Scene scene = bridge(elements, 1 / speed / (share * steps));
       SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
       joint.mass = mass;
       joint.position = from;
@@ -94,7 +104,9 @@ Problems moving_masses(const FamilyData& data) {
       }
       return found;
     };
+    problem.steps = true;
     problem.order = data.number("order");
+    problem.at_least = true;
     problem.floor = data.number("floor");
     problem.cost = 100;
     problems.push_back(std::move(problem));
@@ -124,11 +136,11 @@ Problems rotating_loads(const FamilyData& data) {
     }
     add_names(problem.known, "deflection", problem.known.values.size());
     problem.known.errors.assign(problem.known.values.size(), 1e-8);  // of 400 modes
-    problem.run = [=, steps = data.number("steps")](double elements) {
+    problem.run = [=, steps = steps_at(set.a, data.number("steps"))](double elements, double share) {
       Section section = section_of(1e4, EJ, rhoA);
       section.GIp = 1;
       section.rhoIp = rhoIp;
-      Scene scene = moving_beam(static_cast<int>(elements), section, {0, 0, 1}, 1 / speed / steps);
+      Scene scene = moving_beam(static_cast<int>(elements), section, {0, 0, 1}, 1 / speed / (share * steps));
       scene.dimension = 3;
       scene.beam.curve.start = {};
       scene.beam.axial_strain = AxialStrain::full;
@@ -151,7 +163,9 @@ Problems rotating_loads(const FamilyData& data) {
       }
       return found;
     };
+    problem.steps = true;
     problem.order = data.number("order");
+    problem.at_least = true;
     problem.floor = data.number("floor");
     problem.cost = 300;
     problems.push_back(std::move(problem));

@@ -32,11 +32,14 @@ struct Problem {
   std::string refined;         ///< what its levels are: "elements", "steps", "stiffness"
   std::vector<double> levels;  ///< coarse to fine
   Known known;
-  std::function<Found(double level)> run;
-  double scale = 1;  ///< errors are over this
-  double order = 0;  ///< that theory states of the values; 0 where it states none
-  double floor = 0;  ///< of errors over the scale: below it they are rounding, or of the steps
-  double cost = 1;   ///< of a level, over it
+  /// On a level; with `share` times the steps in time, where it takes some.
+  std::function<Found(double level, double share)> run;
+  bool steps = false;     ///< whether it does
+  double scale = 1;       ///< errors are over this
+  double order = 0;       ///< that theory states of the values; 0 where it states none
+  bool at_least = false;  ///< the order is a lower bound, of the slope over all levels: pairs scatter
+  double floor = 0;       ///< of errors over the scale: below it they are rounding, or of the steps
+  double cost = 1;        ///< of a level, over it
 };
 
 using Problems = std::vector<Problem>;

@@ -15,9 +15,10 @@ Problems straight_wires(const FamilyData& data) {
                   .levels = data.levels("stiffness"),
                   .known = data.exact.known(reference, {"s"}),
                   .run = {}};
-  problem.run = [=, start = data.exact.parameter(reference, "s_0"), step = data.number("step")](double stiffness) {
+  problem.run = [=, start = data.exact.parameter(reference, "s_0"), step = data.number("step")](double stiffness,
+                                                                                                double share) {
     Scene scene = moving_beam(8, section_of(100 * stiffness, stiffness, 1e-3),
-                              {portable::cos(angle), -portable::sin(angle), 0}, step, 0.5);
+                              {portable::cos(angle), -portable::sin(angle), 0}, step / share, 0.5);
     scene.gravity = {0, -9.81, 0};
     scene.start.type = scene.end.type = SupportType::clamp;
     scene.sliding_mass.emplace().mass = 1e-3;
@@ -29,6 +30,7 @@ Problems straight_wires(const FamilyData& data) {
     for (const double t : times) found.values.push_back(*sample_near(result, t).joint_position);
     return found;
   };
+  problem.steps = true;
   problem.order = data.number("order");
   problem.floor = data.number("floor");
   problem.cost = 10;
@@ -48,8 +50,8 @@ Problems circular_wires(const FamilyData& data) {
                     .levels = data.levels(),
                     .known = data.exact.known(reference, {"angle"}),
                     .run = {}};
-    problem.run = [=, stiffness = data.number("stiffness"), step = data.number("step")](double elements) {
-      Scene scene = moving_beam(static_cast<int>(elements), section_of(stiffness, stiffness, 1), {}, step, 0.5);
+    problem.run = [=, stiffness = data.number("stiffness"), step = data.number("step")](double elements, double share) {
+      Scene scene = moving_beam(static_cast<int>(elements), section_of(stiffness, stiffness, 1), {}, step / share, 0.5);
       scene.gravity = {0, -9.81, 0};
       scene.beam.axial_strain = AxialStrain::full;
       scene.beam.curve = {.type = CurveType::arc, .radius = radius, .from_degrees = 180, .to_degrees = 360};
@@ -67,6 +69,8 @@ Problems circular_wires(const FamilyData& data) {
       return found;
     };
     problem.scale = pi;  // of the whole wire
+    problem.at_least = true;
+    problem.steps = true;
     problem.order = data.number("order");
     problem.floor = data.number("floor");
     problem.cost = 100;
@@ -88,8 +92,8 @@ Problems rotating_wires(const FamilyData& data) {
                     .levels = data.levels("stiffness"),
                     .known = data.exact.known(reference, {"r"}),
                     .run = {}};
-    problem.run = [=, step = data.number("step")](double stiffness) {
-      Scene scene = moving_beam(8, section_of(stiffness, stiffness, 1e-2), {1.6, 0, 0}, step, 0.5);
+    problem.run = [=, step = data.number("step")](double stiffness, double share) {
+      Scene scene = moving_beam(8, section_of(stiffness, stiffness, 1e-2), {1.6, 0, 0}, step / share, 0.5);
       scene.gravity = {0, -g, 0};
       scene.start.type = SupportType::clamp;
       scene.start.motion = SupportMotionSpec{.displacement = {}, .angle = TimeSpec{.rate = w}};
@@ -100,6 +104,7 @@ Problems rotating_wires(const FamilyData& data) {
       scene.output.interval = until / 4;
       return Found{.values = {*StudyContext::simulate_to_the_end(scene).samples.back().joint_position}};
     };
+    problem.steps = true;
     problem.order = data.number("order");
     problem.floor = data.number("floor");
     problem.cost = 10;
