@@ -65,8 +65,10 @@ Problems roll_ups(const FamilyData& data) {
                       .values = end_of,
                       .axis = all_of({.law = stretching, .EA = EA, .EI = EI, .moment = M}),
                       .EA = EA};
-      problems.push_back(on_meshes(data, soft ? "soft roll-up" : "roll-up", name, data.exact.known(reference, {"tip"}),
-                                   std::move(balance), 1));
+      Problem problem = on_meshes(data, soft ? "soft roll-up" : "roll-up", name, data.exact.known(reference, {"tip"}),
+                                  std::move(balance), 1);
+      if (name.ends_with(", 1 turn")) problem.levels = data.levels("elements_of_a_whole_turn");
+      problems.push_back(std::move(problem));
     }
   }
   return problems;

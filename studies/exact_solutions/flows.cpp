@@ -6,6 +6,7 @@
 
 #include "core/geometry/elementary.hpp"
 #include "core/system/steady_flow.hpp"
+#include "studies/exact_solutions/balance.hpp"
 #include "studies/exact_solutions/motion.hpp"
 #include "studies/moving_string/transverse.hpp"
 #include "studies/torsion/angle_flow.hpp"
@@ -127,8 +128,15 @@ Problems beck_columns(const FamilyData& data) {
     problems.push_back(on_meshes(data, "Beck's column", "p = " + p,
                                  data.exact.known("Beck's column, p = " + p, {"omega"}, 2),
                                  [load = std::stod(p)](int n, double EA) {
-                                   const auto found = frequencies(beck(load, n, EA));
-                                   return std::vector<double>{2 * pi * found[0], 2 * pi * found[1]};
+                                   Scene scene = beam_at_rest(n, EA, 1, {1, 0, 0}, AxialStrain::full);
+                                   scene.start.type = SupportType::clamp;
+                                   if (load > 0) {
+                                     scene.loads = {force_at(n, -load, {})};
+                                     scene.loads[0].type = LoadType::follower;
+                                   }
+                                   scene.statics = {.steps = 4, .frequencies = 2, .joints = {}};
+                                   const auto found = StudyContext::simulate_to_the_end(scene).frequencies;
+                                   return std::vector<double>{2 * pi * found.at(0), 2 * pi * found.at(1)};
                                  }));
   }
   problems.push_back(on_meshes(data, "Beck's column", "critical load",

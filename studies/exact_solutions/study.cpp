@@ -55,6 +55,12 @@ double order_off(const OrderFit& fit, double stated, bool at_least = false) {
   return off;
 }
 
+/// For tables that gnuplot reads.
+std::string without_commas(std::string text) {
+  std::erase(text, ',');
+  return text;
+}
+
 class Report {
  public:
   explicit Report(const StudyContext& context)
@@ -103,14 +109,19 @@ class Report {
     report_.measured["problems"] = static_cast<double>(problems_.size());
     report_.measured["disagreements"] = disagreements_;
     report_.tables = {std::move(answers_), std::move(errors_)};
+    std::string present;  // for the figures' scripts
+    for (const Problem& problem : problems_) {
+      present += "|" + problem.family + "|" + without_commas(problem.name) + "|";
+    }
+    const GnuplotVariables variables{{"folder", context_.folder.string()}, {"present", present}};
     report_.figures = {{.name = "statics",
                         .caption = "Equilibria and frequencies: error against the number of elements, by family",
                         .script = "statics.gp",
-                        .variables = {{"folder", context_.folder.string()}}},
+                        .variables = variables},
                        {.name = "motions",
                         .caption = "Motions: error against what is refined, by family",
                         .script = "motions.gp",
-                        .variables = {{"folder", context_.folder.string()}}}};
+                        .variables = variables}};
     return std::move(report_);
   }
 
@@ -131,10 +142,15 @@ class Report {
     if (rule.reason.empty()) rule = level_rule_of(context_.config, problem.family);
     const OrderFit fit = fit_order(name, problem.levels, errors, {.floor = problem.floor, .rule = rule});
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      errors_.rows.push_back({problem.family, problem.name, of.empty() ? "values" : of, problem.levels[i], errors[i]});
+      errors_.rows.push_back(
+          {problem.family, without_commas(problem.name), of.empty() ? "values" : of, problem.levels[i], errors[i]});
     }
     if (stated > 0) {
       report_.fits.push_back(fit);
+      const std::string key = problem.family + (of.empty() ? "" : "/" + of);
+      const auto least = report_.measured.try_emplace("least_order/" + key, fit.slope).first;
+      least->second = std::min(least->second, fit.slope);
+      largest("greatest_order/" + key, fit.slope);
       largest("order_off/" + problem.family + (of.empty() ? "" : "/" + of),
               order_off(fit, stated, of.empty() && problem.at_least));
     }
