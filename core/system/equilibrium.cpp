@@ -10,7 +10,9 @@
 
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
+#include "core/geometry/elementary.hpp"
 #include "core/system/static_equations.hpp"
+#include "core/system/steady_flow.hpp"
 
 namespace vlbeam {
 namespace {
@@ -23,6 +25,7 @@ constexpr double largest_relaxation = 0.05;  // the same, of one step of a relax
 constexpr double by_rounding = 1e-7;         // corrections that no longer fall end the iteration from here on
 constexpr double zero_pivot = 1e-13;         // over its block's diagonal
 constexpr double slack = 1e-10;              // over the axial stiffness: of a beam that holds nothing
+constexpr double flutters = 1e-6;            // the lesser part of a motion's rate over its size
 constexpr double unheld = 1e-11;             // over the stiffest
 constexpr double largest_turn = 0.5;         // of a step from the mean of the path's directions at its ends
 constexpr double no_force = 1e-12;           // over EA
@@ -47,18 +50,19 @@ std::string brief(double value) {
 /// Stiffness and mass in the directions that supports leave free.
 struct Modes {
   Eigen::MatrixXd directions, stiffness, mass;
+  Eigen::MatrixXd unsymmetric;  ///< the stiffness as it is: under forces that follow the beam it has no potential
 };
 
 template <int D>
 Modes modes_at(StaticEquations<D>& equations, const Eigen::VectorXd& u, double factor) {
-  Modes modes{equations.directions(u), {}, {}};
+  Modes modes{equations.directions(u), {}, {}, {}};
   const auto in_free = [&](double by_a, double scale) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd matrix =
-        modes.directions.transpose() * equations.dense(u, factor, by_a) * modes.directions / scale;
-    return (matrix + matrix.transpose()) / 2;
+    return modes.directions.transpose() * equations.dense(u, factor, by_a) * modes.directions / scale;
   };
-  modes.stiffness = in_free(0, 1);
+  modes.unsymmetric = in_free(0, 1);
+  modes.stiffness = (modes.unsymmetric + modes.unsymmetric.transpose()) / 2;
   modes.mass = in_free(dominant, dominant);
+  modes.mass = ((modes.mass + modes.mass.transpose()) / 2).eval();
   return modes;
 }
 
@@ -635,6 +639,23 @@ class Path {
   std::vector<double> held_by_;  ///< what then held the joints at first [N]
 };
 
+/// Under forces that follow the beam: they have no potential, and the stiffness is not symmetric.
+std::vector<double> frequencies_without_potential(const Modes& modes, int count, double factor) {
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(modes.mass.rows(), modes.mass.cols());
+  std::vector<double> found;
+  for (const std::complex<double>& rate : eigenvalues({modes.mass, none, modes.unsymmetric})) {
+    const double size = portable::abs(rate);
+    if (static_cast<int>(found.size()) == count) break;
+    if (std::min(std::abs(rate.real()), std::abs(rate.imag())) > flutters * size) {
+      throw ComputationFailed("natural frequencies: the beam flutters under a force that follows it", factor);
+    }
+    if (rate.imag() > flutters * size) found.push_back(size / (2 * std::numbers::pi));
+    if (rate.real() > flutters * size) found.push_back(-size / (2 * std::numbers::pi));
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
 }  // namespace
 
 template <int D>
@@ -650,6 +671,9 @@ std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium
   Eigen::VectorXd u(system.coordinates() + at.multipliers.size());
   u << at.y.head(system.coordinates()), at.multipliers;
   const Modes modes = modes_at<D>(equations, u, at.factor);
+  if (std::ranges::any_of(system.model().loads.points, [](const auto& load) { return bool{load.follower}; })) {
+    return frequencies_without_potential(modes, count, at.factor);
+  }
   const Eigen::VectorXd squares = generalized_eigenvalues(modes.stiffness, modes.mass);
   std::vector<double> frequencies;
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(count, squares.size()); ++i) {

@@ -50,6 +50,7 @@ void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
 
 /// The lowest natural frequencies about an equilibrium [Hz], in increasing order; of a direction in which the energy
 /// falls minus the rate of growth over 2 pi. What slides on the beam does so in them unless it is held. Dense: O(n^3).
+/// Throws ComputationFailed where one of them flutters, under a force that follows the beam.
 template <int D>
 std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium& at, int count);
 

@@ -75,7 +75,7 @@ def cases():
     yield case("bead on a straight wire", "closed form", "s = s_0 + g sin(a) t^2/2", {"g": 9.81, "inclination": 30, "s_0": 0.1, "t": [float(t) for t in times]},
                {**units, "inclination": "degrees"}, [lambda: {"s": [s0 + g * slope * t * t / 2 for t in times]},
                precisely(lambda: {"s": [integrate(lambda _, q: [q[1], g * slope], [s0, mp.mpf(0)], mp.mpf(0), t, 5)[0] for t in times]}, 24)], "integration")
-    for start, mass in ((mp.pi / 16, 0.8), (mp.pi / 4, 0.8), (mp.mpf(0), 1)):
+    for start, mass in (*((k * mp.pi / 16, 0.8) for k in (1, 2, 3, 4, 6)), (mp.mpf(0), 1)):
         data = mp.mpf(2), mp.mpf(mass), mp.pi / 2 - start, [mp.mpf(i) / 4 for i in range(1, 7)]
         yield case(f"bead on a circular wire, from {float(start * 180 / mp.pi):g} degrees below the horizontal", "closed form", "NIST DLMF 22.19; " + source,
                    {"g": 9.81, "radius": 2, "mass": mass, "start": float(start), "t": [float(t) for t in data[3]],

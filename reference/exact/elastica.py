@@ -85,10 +85,11 @@ def cases():
     love = "Love, Mathematical Theory of Elasticity, 262-263"
     force = {"EA": "N", "EI": "N m^2", "length": "m", "P": "N", "x": "m", "y": "m", "angle": "rad", "tip": "m", "moment": "N m", "stretch": "1"}
     for law in ("green", "engineering"):
-        for turns in (1, 0.25):
-            data = mp.mpf(40000), mp.mpf(100) / 3, 1, turns * 2 * mp.pi * 100 / 3
-            yield case(f"roll-up, {law}, {turns:g} turn", "closed form", "circle of this strain energy: mu = M, F = 0",
-                       {"law": law, "EA": 4e4, "EI": float(data[1]), "length": 1, "moment": float(data[3])}, force,
+        for turns, EA in ((1, 4e4), (0.25, 4e4), (1, 4e6), (0.25, 4e6)):
+            data = mp.mpf(EA), mp.mpf(100) / 3, 1, turns * 2 * mp.pi * 100 / 3
+            name = f"roll-up, {law}, {turns:g} turn" + (", EA = 4e6" if EA > 4e4 else "")
+            yield case(name, "closed form", "circle of this strain energy: mu = M, F = 0",
+                       {"law": law, "EA": EA, "EI": float(data[1]), "length": 1, "moment": float(data[3])}, force,
                        [lambda: circle(law, *data), lambda: circle_by_energy(law, *data)], "stationary W - M theta' by Newton's method")
     for load in (1, 2, 5, 10):
         yield case(f"elastica, P L^2/EI = {load}", "closed form", love, {"load": load, "length": 1}, {"load": "1", "x": "L", "y": "L", "angle": "rad"},

@@ -235,7 +235,9 @@ int claims_command(const ClaimsArguments& arguments) {
   namespace fs = std::filesystem;
   const fs::path sources = studies_folder(arguments.studies, all_studies().front().name);
   std::vector<fs::path> files;
-  if (fs::exists(sources / "claims.json")) files.push_back(sources / "claims.json");
+  for (const char* const name : {"claims.json", "papers.claims.json"}) {  // of documents of several studies
+    if (fs::exists(sources / name)) files.push_back(sources / name);
+  }
   for (const Study& study : all_studies()) {
     if (const fs::path file = sources / study.name / "claims.json"; fs::exists(file)) files.push_back(file);
   }

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "core/element/circular_shaft.hpp"
-#include "core/system/steady_flow.hpp"
 #include "studies/harness/files.hpp"
+#include "studies/moving_string/transverse.hpp"
 
 namespace vlbeam {
 namespace moving_string {
@@ -61,13 +61,7 @@ Modes modes_of(const Span& span) {
   const BeamModel<D> model = model_of(span);
   BeamSystem<D> beam(model, straight_chain(model));
   const Eigen::VectorXd y = steady_state(beam, straight(beam, span), 0, true);
-  LinearFlow transverse = linear_flows(beam, y).axis;
-  // Along and across the straight beam nothing couples: the first transverse plane is every third coordinate, the pins'
-  // positions left out.
-  const Eigen::Index n = transverse.M.rows() / D;
-  const auto plane = Eigen::seqN(Eigen::Index{1}, n, Eigen::Index{D});
-  transverse = {transverse.M(plane, plane), transverse.C(plane, plane), transverse.K(plane, plane)};
-  const auto values = eigenvalues(transverse);
+  const auto values = eigenvalues(transverse(linear_flows(beam, y)));
   const auto found = frequencies(values);
   Modes modes{{}, growth_rate(values)};
   for (std::size_t i = 0; i < modes.frequency.size(); ++i) {

@@ -34,7 +34,7 @@ PAPERS = [
 ]
 # Documents that are pages of the site: file, and what the menu calls it.
 DOCUMENTS = {"docs/own_scene.md": "A scene of one's own", "docs/use.md": "Program, library, Python", "docs/limits.md": "Limits",
-             "docs/what_goes_together.md": "What goes together",
+             "docs/what_goes_together.md": "What goes together", "docs/papers.md": "The papers' numbers",
              "docs/glossary.md": "Glossary", "docs/theory.md": "Theory", "core/README.md": "The core library", "studies/README.md": "Writing a study",
              "CONTRIBUTING.md": "Contributing"}
 LONG = 30  # rows of a table that is folded

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/element/circular_shaft.hpp"
-#include "core/system/steady_flow.hpp"
 #include "studies/harness/files.hpp"
+#include "studies/torsion/angle_flow.hpp"
 
 namespace vlbeam {
 namespace torsion {
@@ -18,24 +18,11 @@ namespace {
 /// with a factor of ten for the matrices: f_1 l/c.
 constexpr double rounding_of_frequency = 1e-11;
 
-constexpr int D = 3;
-using Vector = Vec<double, D>;
-
 /// Torsional frequencies [Hz] of a shaft held at the start, at the end too where `both`, that flows at `speed` [m/s].
 std::vector<double> torsion(const CircularShaft& shaft, double length, int elements, bool both, double speed,
                             Formulation formulation, AngleField field = AngleField::linear) {
-  BeamModel<D> model;
-  model.section = shaft.section();
-  model.spin.emplace().section = shaft.spin();
-  model.spin->field = field;
-  model.formulation = formulation;
-  model.motion = MeshMotion({{0, steadily(0, -speed)}, {elements, steadily(length, -speed)}});
-  model.start = model.end = Support<D>::pin();
-  model.spin->drives = {{0, steadily(0, 0)}};
-  if (both) model.spin->drives.push_back({elements, steadily(0, 0)});
-  BeamSystem<D> beam(model, straight_chain(model));
-  const Eigen::VectorXd y = straight_state<D>(beam, Vector::Zero(), Vector::UnitX(), 1, speed, 0);
-  return frequencies(eigenvalues(linear_flows(beam, y).angles));
+  return frequencies(
+      eigenvalues(angle_flow(shaft.section(), shaft.spin(), length, elements, true, both, speed, formulation, field)));
 }
 
 /// What the paper's text says of Table 3, beside what holds.
