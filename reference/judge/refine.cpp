@@ -1,0 +1,109 @@
+#include "refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <future>
+
+#include "motion.hpp"
+
+namespace judge {
+namespace {
+
+using nlohmann::json;
+using Ordered = nlohmann::ordered_json;
+
+double difference(const Motion& a, const Motion& b, std::size_t row, std::size_t column) {
+  return std::abs(a.values[row][column] - b.values[row][column]);
+}
+
+/// Rounded to the digits that an uncertainty leaves, two of its own.
+double rounded(double value, double uncertainty) {
+  if (uncertainty <= 0) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(uncertainty)) - 1);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*e", std::max(0, static_cast<int>(std::log10(std::abs(value) / unit + 1) + 1)),
+                std::round(value / unit) * unit);
+  return std::stod(text);
+}
+
+double two_digits(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return std::stod(text);
+}
+
+/// What degrees leave: the last step of refinement times what a geometric series adds, twice that for safety; all of it
+/// of the largest differences up to the time, for differences change their sign.
+double by_degree(double before, double last) {
+  if (last <= 0) return 0;
+  const double ratio = before > 0 ? last / before : 1;
+  return ratio < 0.8 ? 2 * last * std::max(1.0, ratio / (1 - ratio)) : 8 * last;
+}
+
+}  // namespace
+
+Ordered refine(const json& item) {
+  const json& scene = item.at("scene");
+  const auto degrees = item.at("degrees").get<std::vector<std::vector<int>>>();
+  const auto times = item.at("times").get<std::vector<double>>();
+  const double tolerance = item.value("tolerance", 1e-11), points = 1.5;
+  const std::size_t k = degrees.size();
+  // The finest beside the rest: two threads.
+  auto finest = std::async(std::launch::async, move, scene, Level{degrees[k - 1], points, tolerance}, times);
+  std::vector<Motion> by_p;
+  for (std::size_t i = 0; i + 1 < k; ++i) by_p.push_back(move(scene, {degrees[i], points, tolerance}, times));
+  const std::vector<int>& coarsest = degrees.front();
+  const Motion loose = move(scene, {coarsest, points, 100 * tolerance}, times);
+  const Motion other = move(scene, {coarsest, points, tolerance, Method::bulirsch_stoer}, times);
+  const Motion rule = move(scene, {coarsest, 2 * points, tolerance}, times);
+  by_p.push_back(finest.get());
+
+  const Motion& answer = by_p[k - 1];
+  double seconds = loose.seconds + other.seconds + rule.seconds;
+  Ordered result = {{"case", item.at("case")}, {"what", item.at("what")}, {"t", times}};
+  Ordered quantities, study;
+  double worst = 0;
+  for (std::size_t q = 0; q < answer.names.size(); ++q) {
+    const std::string& name = answer.names[q];
+    double before = 0, last = 0, in_time = 0, in_rule = 0;
+    std::vector<double> values, uncertainties;
+    for (std::size_t row = 0; row < times.size(); ++row) {
+      before = std::max(before, difference(by_p[k - 3], by_p[k - 2], row, q));
+      last = std::max(last, difference(by_p[k - 2], answer, row, q));
+      in_time = std::max({in_time, difference(loose, by_p[0], row, q), difference(other, by_p[0], row, q)});
+      in_rule = std::max(in_rule, difference(rule, by_p[0], row, q));
+      // Points follow the degree: what they leave is in the differences of the finer degrees already.
+      const double uncertainty =
+          by_degree(before, last) + in_time + 1e-14 * std::max(1.0, std::abs(answer.values[row][q]));
+      const double value = rounded(answer.values[row][q], two_digits(uncertainty));
+      values.push_back(value);
+      uncertainties.push_back(two_digits(uncertainty + std::abs(value - answer.values[row][q])));
+    }
+    if (name.rfind("energy", 0) != 0) worst = std::max(worst, uncertainties.back());
+    quantities[name] = {{"value", values}, {"uncertainty", uncertainties}};
+    study[name] = {{"degrees", {two_digits(before), two_digits(last)}},
+                   {"tolerance_and_method", two_digits(in_time)},
+                   {"points", two_digits(in_rule)}};
+  }
+  Ordered levels;
+  for (std::size_t i = 0; i < k; ++i) {
+    levels.push_back({{"degrees", degrees[i]}, {"unknowns", by_p[i].unknowns}});
+    seconds += by_p[i].seconds;
+  }
+  result["quantities"] = quantities;
+  result["largest_uncertainty_of_a_position"] = worst;
+  result["differences"] = study;
+  if (item.value("conserved", false)) {
+    double drift = 0;
+    for (const Motion& motion : by_p) drift = std::max(drift, motion.energy_drift);
+    result["energy_drift"] = two_digits(drift);
+  }
+  result["tolerance"] = tolerance;
+  result["levels"] = levels;
+  std::fprintf(stderr, "%s: positions to %.1e m, %zu steps, %.0f s of work\n",
+               item.at("case").get<std::string>().c_str(), worst, answer.steps, seconds);
+  return result;
+}
+
+}  // namespace judge
