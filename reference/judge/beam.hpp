@@ -22,12 +22,15 @@ struct Mark {
 
 class Beam {
  public:
-  /// A scene (vlbeam.scene/1; what is not modelled here is refused), and a degree for each stretch.
-  Beam(const nlohmann::json& scene, const std::vector<int>& degrees, double points_per_degree);
+  /// A scene (vlbeam.scene/1; what is not modelled here is refused), and a degree for each stretch. Between
+  /// joints and ends there may be further marks that rest.
+  Beam(const nlohmann::json& scene, const std::vector<int>& degrees, double points_per_degree,
+       const std::vector<double>& between = {});
 
   State initial() const;
   void rates(const State& y, State& out, double t);
   std::size_t unknowns() const { return unknowns_; }
+  double length() const { return length_; }
 
   Energies energies(const State& y, double t);
   /// Names and values of what is reported.

@@ -16,7 +16,7 @@ constexpr double unit = 0.01;  // of time, in which rates are counted [s]
 Motion move(const nlohmann::json& scene, const Level& level, const std::vector<double>& times) {
   namespace odeint = boost::numeric::odeint;
   const auto begun = std::chrono::steady_clock::now();
-  Beam beam(scene, level.degrees, level.points);
+  Beam beam(scene, level.degrees, level.points, level.between);
   const std::size_t n = beam.unknowns();
   State y = beam.initial(), plain(2 * n);
   for (std::size_t i = n; i < 2 * n; ++i) y[i] *= unit;
@@ -36,6 +36,7 @@ Motion move(const nlohmann::json& scene, const Level& level, const std::vector<d
 
   Motion motion;
   motion.unknowns = n;
+  motion.length = beam.length();
   const auto keep = [&](const State& scaled, double t) {
     in_seconds(scaled);
     std::vector<double> row;

@@ -16,6 +16,7 @@ struct Level {
   double points = 1.5;
   double tolerance = 1e-11;
   Method method = Method::fehlberg78;
+  std::vector<double> between = {};  ///< marks that rest
 };
 
 struct Motion {
@@ -23,6 +24,7 @@ struct Motion {
   std::vector<std::vector<double>> values;  ///< a row for each time, in the order of the names
   double energy_drift = 0;                  ///< largest change of the sum of energies; its meaning is the scene's
   std::size_t steps = 0, unknowns = 0;
+  double length = 0;  ///< of the beam [m]
   double seconds = 0;
 };
 

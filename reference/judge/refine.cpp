@@ -47,21 +47,26 @@ Ordered refine(const json& item) {
   const json& scene = item.at("scene");
   const auto degrees = item.at("degrees").get<std::vector<std::vector<int>>>();
   const auto times = item.at("times").get<std::vector<double>>();
-  const double tolerance = item.value("tolerance", 1e-11), points = 1.5;
+  const double tolerance = item.value("tolerance", 1e-11), points = item.value("points_per_degree", 1.5);
+  const auto between = item.value("marks", std::vector<double>());
   const std::size_t k = degrees.size();
+  const auto run = [&](const std::vector<int>& p, double per_degree, double within, Method method) {
+    return move(scene, {p, per_degree, within, method, between}, times);
+  };
   // The finest beside the rest: two threads.
-  auto finest = std::async(std::launch::async, move, scene, Level{degrees[k - 1], points, tolerance}, times);
+  auto finest =
+      std::async(std::launch::async, [&] { return run(degrees[k - 1], points, tolerance, Method::fehlberg78); });
   std::vector<Motion> by_p;
-  for (std::size_t i = 0; i + 1 < k; ++i) by_p.push_back(move(scene, {degrees[i], points, tolerance}, times));
+  for (std::size_t i = 0; i + 1 < k; ++i) by_p.push_back(run(degrees[i], points, tolerance, Method::fehlberg78));
   const std::vector<int>& coarsest = degrees.front();
-  const Motion loose = move(scene, {coarsest, points, 100 * tolerance}, times);
-  const Motion other = move(scene, {coarsest, points, tolerance, Method::bulirsch_stoer}, times);
-  const Motion rule = move(scene, {coarsest, 2 * points, tolerance}, times);
+  const Motion loose = run(coarsest, points, 100 * tolerance, Method::fehlberg78);
+  const Motion other = run(coarsest, points, tolerance, Method::bulirsch_stoer);
+  const Motion rule = run(coarsest, 2 * points, tolerance, Method::fehlberg78);
   by_p.push_back(finest.get());
 
   const Motion& answer = by_p[k - 1];
   double seconds = loose.seconds + other.seconds + rule.seconds;
-  Ordered result = {{"case", item.at("case")}, {"what", item.at("what")}, {"t", times}};
+  Ordered result = {{"case", item.at("case")}, {"what", item.at("what")}, {"length", answer.length}, {"t", times}};
   Ordered quantities, study;
   double worst = 0;
   for (std::size_t q = 0; q < answer.names.size(); ++q) {
@@ -99,6 +104,7 @@ Ordered refine(const json& item) {
     for (const Motion& motion : by_p) drift = std::max(drift, motion.energy_drift);
     result["energy_drift"] = two_digits(drift);
   }
+  if (!between.empty()) result["marks"] = between;
   result["tolerance"] = tolerance;
   result["levels"] = levels;
   std::fprintf(stderr, "%s: positions to %.1e m, %zu steps, %.0f s of work\n",

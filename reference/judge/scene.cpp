@@ -148,7 +148,8 @@ void Beam::joint(Mark& mark, const json& said) {
   }
 }
 
-Beam::Beam(const json& scene, const std::vector<int>& degrees, double points_per_degree) {
+Beam::Beam(const json& scene, const std::vector<int>& degrees, double points_per_degree,
+           const std::vector<double>& between) {
   only(scene,
        {"schema", "title", "dimension", "gravity", "gravity_ramp", "beam", "supports", "sliding_mass", "sliding_joints",
         "point_masses", "duration", "output", "weights", "length_control", "integrator", "accuracy"},
@@ -163,11 +164,20 @@ Beam::Beam(const json& scene, const std::vector<int>& degrees, double points_per
   json joints = scene.value("sliding_joints", json::array());
   if (scene.contains("sliding_mass")) joints.push_back(scene.at("sliding_mass"));
   marks_.push_back(add_mark(0, false));
+  const auto resting = [&](double from, double to) {
+    for (const double x : between) {
+      if (from < x && x < to) marks_.push_back(add_mark(x, false));
+    }
+  };
+  double last = 0;
   for (const json& said : joints) {
+    resting(last, said.at("position"));
+    last = said.at("position");
     joints_.push_back(static_cast<int>(marks_.size()));
     marks_.push_back(add_mark(said.at("position"), true));
     joint(marks_.back(), said);
   }
+  resting(last, length_);
   marks_.push_back(add_mark(length_, false));
   for (const json& said : scene.value("supports", json::array())) {
     support(said.at("at") == "start" ? marks_.front() : marks_.back(), said);
