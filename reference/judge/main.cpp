@@ -4,8 +4,28 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "refine.hpp"
+
+namespace {
+
+/// Objects a key a line, lists of numbers on one line.
+std::string text(const nlohmann::ordered_json& value, const std::string& margin = "\n") {
+  const bool nested = value.is_structured() &&
+                      std::any_of(value.begin(), value.end(), [](const auto& item) { return item.is_structured(); });
+  if (!nested && (value.is_array() || !value.is_object())) return value.dump();
+  std::string out;
+  for (const auto& item : value.items()) {
+    out += (out.empty() ? "" : ",") + margin + " ";
+    if (value.is_object()) out += "\"" + item.key() + "\": ";
+    out += text(item.value(), margin + " ");
+  }
+  return value.is_object() ? "{" + out + margin + "}" : "[" + out + margin + "]";
+}
+
+}  // namespace
 
 int main(int argc, char** argv) try {
   using nlohmann::json, nlohmann::ordered_json;
@@ -34,7 +54,7 @@ int main(int argc, char** argv) try {
        "differentiation of its energies (vlbeam_judge cases.json judge.json)"},
       {"units", {{"t", "s"}, {"positions", "m"}, {"energies", "J"}}},
       {"cases", all}};
-  std::ofstream(argv[2]) << out.dump(1) << '\n';
+  std::ofstream(argv[2]) << text(out) << '\n';
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 2;

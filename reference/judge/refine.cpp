@@ -69,27 +69,38 @@ Ordered refine(const json& item) {
   Ordered result = {{"case", item.at("case")}, {"what", item.at("what")}, {"length", answer.length}, {"t", times}};
   Ordered quantities, study;
   double worst = 0;
-  for (std::size_t q = 0; q < answer.names.size(); ++q) {
-    const std::string& name = answer.names[q];
-    double before = 0, last = 0, in_time = 0, in_rule = 0;
-    std::vector<double> values, uncertainties;
-    for (std::size_t row = 0; row < times.size(); ++row) {
-      before = std::max(before, difference(by_p[k - 3], by_p[k - 2], row, q));
-      last = std::max(last, difference(by_p[k - 2], answer, row, q));
-      in_time = std::max({in_time, difference(loose, by_p[0], row, q), difference(other, by_p[0], row, q)});
-      in_rule = std::max(in_rule, difference(rule, by_p[0], row, q));
-      // Points follow the degree: what they leave is in the differences of the finer degrees already.
-      const double uncertainty =
-          by_degree(before, last) + in_time + 1e-14 * std::max(1.0, std::abs(answer.values[row][q]));
-      const double value = rounded(answer.values[row][q], two_digits(uncertainty));
-      values.push_back(value);
-      uncertainties.push_back(two_digits(uncertainty + std::abs(value - answer.values[row][q])));
+  std::vector<std::vector<double>> values(answer.names.size()), uncertainties(answer.names.size());
+  // Of places together, and of energies together: differences of one of them pass through zero.
+  for (const bool energies : {false, true}) {
+    std::vector<std::size_t> group;
+    for (std::size_t q = 0; q < answer.names.size(); ++q) {
+      if ((answer.names[q].rfind("energy", 0) == 0) == energies) group.push_back(q);
     }
-    if (name.rfind("energy", 0) != 0) worst = std::max(worst, uncertainties.back());
-    quantities[name] = {{"value", values}, {"uncertainty", uncertainties}};
-    study[name] = {{"degrees", {two_digits(before), two_digits(last)}},
-                   {"tolerance_and_method", two_digits(in_time)},
-                   {"points", two_digits(in_rule)}};
+    double before = 0, last = 0, in_time = 0, in_rule = 0;
+    for (std::size_t row = 0; row < times.size(); ++row) {
+      for (const std::size_t q : group) {
+        before = std::max(before, difference(by_p[k - 3], by_p[k - 2], row, q));
+        last = std::max(last, difference(by_p[k - 2], answer, row, q));
+        in_time = std::max({in_time, difference(loose, by_p[0], row, q), difference(other, by_p[0], row, q)});
+        in_rule = std::max(in_rule, difference(rule, by_p[0], row, q));
+      }
+      // Points follow the degree: what they leave is in the differences of the finer degrees already.
+      const double uncertainty = by_degree(before, last) + in_time;
+      for (const std::size_t q : group) {
+        const double exact = answer.values[row][q], rounding = 1e-14 * std::max(1.0, std::abs(exact));
+        const double value = rounded(exact, two_digits(uncertainty + rounding));
+        const double stated = two_digits(uncertainty + rounding + std::abs(value - exact));
+        values[q].push_back(value);
+        uncertainties[q].push_back(stated);
+        if (!energies) worst = std::max(worst, stated);
+      }
+    }
+    study[energies ? "energies" : "places"] = {{"degrees", {two_digits(before), two_digits(last)}},
+                                               {"tolerance_and_method", two_digits(in_time)},
+                                               {"points", two_digits(in_rule)}};
+  }
+  for (std::size_t q = 0; q < answer.names.size(); ++q) {
+    quantities[answer.names[q]] = {{"value", values[q]}, {"uncertainty", uncertainties[q]}};
   }
   Ordered levels;
   for (std::size_t i = 0; i < k; ++i) {

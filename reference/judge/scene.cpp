@@ -128,20 +128,21 @@ void Beam::support(Mark& mark, const json& said) {
 }
 
 void Beam::joint(Mark& mark, const json& said) {
-  only(said, {"position", "support", "mass", "motion"}, "joints");
+  only(said, {"position", "support", "mass", "motion", "slopes"}, "joints");
   mark.mass = said.value("mass", 0.0);
   const std::string kind = said.value("support", "free");
   if (kind == "free") return;
   const json* motion = said.contains("motion") ? &said.at("motion") : nullptr;
   for (int k = 0; k < 2; ++k) hold(mark.r[k], motion, k);
   if (kind != "clamp") return;
-  // A sleeve holds the direction; the stretch may jump in it.
+  // A sleeve holds the direction; the stretch may jump in it, but for slopes that are said to be continuous.
+  const bool one = said.value("slopes", "tangent") == "continuous";
   for (int k = 0; k < 2; ++k) {
     const double tangent = coordinates_[mark.after[k]].base;
     if (std::abs(tangent) <= 1e-14) {
       hold(mark.after[k], nullptr, k);
     } else if (std::abs(tangent) > 1 - 1e-14) {
-      mark.before[k] = add(tangent, true);
+      if (!one) mark.before[k] = add(tangent, true);
     } else {
       throw std::invalid_argument("a sleeve that is not along an axis is not modelled");
     }

@@ -1,7 +1,6 @@
-# Differences between program and judge in time, a panel a case, with the sum of both uncertainties.
+# Differences between program and judge in time, a panel a case, with the sum of both uncertainties. Needs `cases`.
 width = 1400; height = 900
 load folder . "/style.gp"
-cases = "falling_beam falling_beam_ramped falling_beam_smooth suspended_beam semicircle semicircle_from_straight ring sleeve sleeve_smooth winch steel_wire"
 set multiplot layout 3,4 title "Largest difference of positions over the length: program and judge" margins 0.06,0.98,0.07,0.9 spacing 0.05,0.1
 set logscale y
 set format y "10^{%T}"
