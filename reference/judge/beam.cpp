@@ -7,7 +7,7 @@
 namespace judge {
 namespace {
 
-constexpr int most = 32;  // free coordinates of marks
+constexpr int most = 128;  // free coordinates of marks
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
 
