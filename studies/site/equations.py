@@ -39,7 +39,10 @@ def mathml(tex, display):
         message = re.search(r"<message>(.*?)</message>", told.stdout)
         sys.exit(f"blahtexml cannot set  {tex.strip()}\n{html.unescape(message[1]) if message else told.stdout + told.stderr}")
     body = re.sub(r'\n\s*|<mspace width="0"/>', "", markup[1])
-    body = body.replace('mathvariant="bold"', 'mathvariant="normal" class="bold"')
+    body = body.replace('mathvariant="bold-italic"', 'class="bold"').replace('mathvariant="bold"', 'mathvariant="normal" class="bold"')
+    body = re.sub(r"(<mo[^>]*>)-(</mo>)", "\\1\u2212\\2", body)
+    body = body.replace('lspace="0" rspace="0" stretchy="false">|<', 'lspace="0.1em" rspace="0.1em" stretchy="false">|<')
+    body = re.sub(r"<mo([^>]*>\u222b</mo>)", r'<mo class="integral"\1', body)
     body = re.sub(r'(<mo accent="true">)(\u00b7+)</mo>', lambda m: f"{m[1]}{_ACCENTS[m[2]]}</mo>", body)
     return f'<math{" display=" + chr(34) + "block" + chr(34) if display else ""}>{body}</math>'
 
