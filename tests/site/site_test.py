@@ -259,7 +259,7 @@ class Theory(unittest.TestCase):
     def test_equations_that_are_named_exist(self):
         there = theory.places()
         for file, text in self.documents():
-            for number in re.findall(r"\((\d+\.\d+)\)", equations.part(text)[0]):
+            for number in re.findall(r"\(([1-9]\d*\.\d+)\)", equations.part(text)[0]):
                 self.assertIn(number, there, file)
 
     def test_figures_are_numbered_one_after_another(self):
