@@ -5,11 +5,12 @@
 #   scripts/packages.sh python   that, and what `make python` needs
 #   scripts/packages.sh package  that, and what `make package` needs
 #   scripts/packages.sh api      that, and what `make api` needs
+#   scripts/packages.sh theory   that, and what `make theory` needs
 #   scripts/packages.sh ci       that, and what .ci/run needs
 set -euo pipefail
 
 packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libgtest-dev libgmock-dev
-          libbenchmark-dev gnuplot-nox python3)
+          libbenchmark-dev gnuplot-nox python3 blahtexml)
 if [[ ${1:-build} == python || ${1:-build} == ci ]]; then
   packages+=(pybind11-dev python3-dev python3-numpy)
 fi
@@ -18,6 +19,9 @@ if [[ ${1:-build} == package ]]; then
 fi
 if [[ ${1:-build} == api || ${1:-build} == ci ]]; then
   packages+=(doxygen)
+fi
+if [[ ${1:-build} == theory ]]; then
+  packages+=(chromium fonts-stix fonts-dejavu-core)
 fi
 if [[ ${1:-build} == ci ]]; then
   packages+=(ccache dpkg-dev pkg-config help2man python3-pytest python3-matplotlib)

@@ -17,6 +17,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import markdown  # noqa: E402
+import theory  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 KINDS = {
@@ -35,7 +36,7 @@ PAPERS = [
 # Documents that are pages of the site: file, and what the menu calls it.
 DOCUMENTS = {"docs/own_scene.md": "A scene of one's own", "docs/use.md": "Program, library, Python", "docs/limits.md": "Limits",
              "docs/what_goes_together.md": "What goes together", "docs/papers.md": "The papers' numbers",
-             "docs/glossary.md": "Glossary", "docs/theory.md": "Theory", "core/README.md": "The core library", "studies/README.md": "Writing a study",
+             "docs/glossary.md": "Glossary", theory.INDEX: "Theory", "core/README.md": "The core library", "studies/README.md": "Writing a study",
              "CONTRIBUTING.md": "Contributing"}
 LONG = 30  # rows of a table that is folded
 
@@ -80,6 +81,7 @@ class Site:
             report = json.loads(path.read_text(encoding="utf-8"))
             if str(report.get("schema_version", "")).startswith("vlbeam.study/"):
                 self.reports[report["study"]] = report
+        self.chapters = theory.chapters()
         self.readme = (ROOT / "README.md").read_text(encoding="utf-8")
         # One line a study: link, question, ..., finding.
         self.overview = {}
@@ -101,7 +103,7 @@ class Site:
                 return target
             target, _, anchor = target.partition("#")
             path = (document.parent / target).resolve()
-            for file in DOCUMENTS:
+            for file in [*DOCUMENTS, *self.chapters]:
                 if path == (ROOT / file).resolve():
                     return document_page(file) + ("#" + anchor if anchor else "")
             if path.name == "README.md" and path.parent.name in self.reports and path.parent.parent.name == "studies":
@@ -116,6 +118,8 @@ class Site:
         pages = [("index.html", "Overview")] + [(f"{name}.html", words(name)) for name in self.reports]
         here = ' aria-current="page"'
         guides = [(document_page(file), text) for file, text in DOCUMENTS.items()]
+
+        sheet = '<link rel="stylesheet" href="site/equations.css">\n' if "<math" in body else ""
 
         def menu(name, entries):
             items = "".join(f'<li><a href="{href}"{here if href == current else ""}>{esc(text)}</a></li>'
@@ -132,7 +136,7 @@ class Site:
 <meta name="description" content="{esc(description)}">
 <link rel="icon" href="site/icon.svg" type="image/svg+xml">
 <link rel="stylesheet" href="site/style.css">
-<script src="site/enhance.js" defer></script>
+{sheet}<script src="site/enhance.js" defer></script>
 </head>
 <body>
 <a class="skip" href="#content">Skip to the content</a>
@@ -456,13 +460,33 @@ class Site:
                          f'<p class="crumbs"><a href="index.html">Overview</a> › {esc(DOCUMENTS[file])}</p>'
                          f'<h1>{markdown.inline(title)}</h1>{nav}<div class="document">{body}</div>', document_page(file))
 
+    def theory(self, file):
+        """A page of the theory: its index, or a chapter with a way to the next one."""
+        where = lambda number, of: document_page(of) + f"#eq-{number}"  # noqa: E731
+        title, names, body = theory.chapter(file, self.linker(ROOT / file), where)
+        contents = "".join(f'<li><a href="#{esc(markdown.anchor(name))}">{esc(markdown.plain(name))}</a></li>' for name in names)
+        order = [theory.INDEX, *self.chapters]
+        k = order.index(file)
+        ways = [(f"{word}: {self.heading(there)}", document_page(there))
+                for word, there in (("Back", order[k - 1] if k else None), ("Next", order[k + 1] if k + 1 < len(order) else None)) if there]
+        around = "".join(f'<li><a href="{href}">{esc(text)}</a></li>' for text, href in ways)
+        up = f' › <a href="{document_page(theory.INDEX)}">Theory</a> › {esc(title)}' if k else " › Theory"
+        return self.page(f"{markdown.plain(title)} · vlbeam", f"Theory of vlbeam: {markdown.plain(title)}",
+                         f'<p class="crumbs"><a href="index.html">Overview</a>{up}</p><h1>{markdown.inline(title)}</h1>'
+                         f'<nav class="toc" aria-label="On this page"><ul>{contents}</ul></nav><div class="document">{body}</div>'
+                         f'<nav class="toc around" aria-label="Chapters"><ul>{around}</ul></nav>', document_page(theory.INDEX))
+
+    def heading(self, file):
+        return markdown.plain(re.match(r"# (.*)", (ROOT / file).read_text(encoding="utf-8"))[1])
+
     def write(self):
         folder = self.out / "site"
         folder.mkdir(exist_ok=True)
-        for name in ("style.css", "enhance.js", "icon.svg"):
+        for name in ("style.css", "equations.css", "enhance.js", "icon.svg"):
             shutil.copyfile(Path(__file__).parent / name, folder / name)
         pages = {"index.html": self.index()} | {f"{name}.html": self.study(name) for name in self.reports}
-        pages |= {document_page(file): self.document(file) for file in DOCUMENTS}
+        pages |= {document_page(file): self.document(file) for file in DOCUMENTS if file != theory.INDEX}
+        pages |= {document_page(file): self.theory(file) for file in [theory.INDEX, *self.chapters]}
         for name, text in pages.items():
             part = self.out / f"{name}.part"
             part.write_text(text, encoding="utf-8")

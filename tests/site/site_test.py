@@ -4,6 +4,7 @@
     site_test.py SOURCES
 """
 
+import importlib.util
 import json
 import os
 import re
@@ -19,7 +20,9 @@ from urllib.parse import unquote, urldefrag
 sys.dont_write_bytecode = True
 SOURCES = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCES / "studies" / "site"))
+import equations  # noqa: E402
 import markdown  # noqa: E402
+import theory  # noqa: E402
 
 VOID = {"meta", "link", "img", "br", "hr", "input"}
 HEAVIEST = 3_000_000  # bytes of a page with all that it shows
@@ -233,6 +236,73 @@ class Markdown(unittest.TestCase):
 
     def test_a_bar_of_a_norm_parts_no_cell(self):
         self.assertEqual([r"\|r_x\|", "b"], markdown.cells(r"| \|r_x\| | b |"))
+
+
+class Theory(unittest.TestCase):
+    """The chapters of docs/theory. That each equation can be set is seen where the site is written."""
+
+    def documents(self):
+        for file in [theory.INDEX, *theory.chapters()]:
+            yield file, (SOURCES / file).read_text(encoding="utf-8")
+
+    def test_every_chapter_is_listed(self):
+        there = {f"docs/theory/{path.name}" for path in (SOURCES / "docs/theory").glob("*.md")}
+        self.assertEqual(there, {theory.INDEX, *theory.chapters()})
+
+    def test_titles_have_the_numbers_of_the_list(self):
+        for k, file in enumerate(theory.chapters(), 1):
+            self.assertRegex((SOURCES / file).read_text(encoding="utf-8"), rf"\A# {k}\. ")
+
+    def test_equations_are_numbered_one_after_another(self):
+        self.assertGreater(len(theory.places()), 100)
+
+    def test_equations_that_are_named_exist(self):
+        there = theory.places()
+        for file, text in self.documents():
+            for number in re.findall(r"\(([1-9]\d*\.\d+)\)", equations.part(text)[0]):
+                self.assertIn(number, there, file)
+
+    def test_figures_are_numbered_one_after_another(self):
+        found = [int(k) for _, text in self.documents() for k in re.findall(r"^\*Figure (\d+)\. ", text, re.M)]
+        self.assertEqual(list(range(1, len(found) + 1)), found)
+
+    def test_pages_are_short(self):
+        for file, text in self.documents():
+            self.assertLessEqual(len(text.splitlines()), 400, file)
+
+    def test_drawings_are_what_their_program_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, SOURCES / "docs/theory/drawings.py", folder], check=True)
+            for path in sorted(Path(folder).iterdir()):
+                self.assertEqual(path.read_bytes(), (SOURCES / "docs/theory" / path.name).read_bytes(), path.name)
+
+    @unittest.skipUnless(importlib.util.find_spec("mpmath"), "python3-mpmath is not there")
+    def test_equations_hold(self):
+        subprocess.run([sys.executable, SOURCES / "docs/theory/check.py"], check=True, stdout=subprocess.DEVNULL)
+
+
+class Equations(unittest.TestCase):
+    def test_are_parted_from_text_and_put_back(self):
+        text, found = equations.part("a $x_1*y*$ `$b$`\n\n```math\nx=1\n\\tag{2.1}\n```\n")
+        self.assertEqual([("x_1*y*", "", False), ("x=1", "2.1", True)], found)
+        page = equations.put_back(markdown.render(text), found)
+        self.assertIn("<code>$b$</code>", page)
+        self.assertIn('<div class="equation" id="eq-2.1">', page)
+        self.assertEqual(2, page.count("<math"))
+        self.assertNotRegex(page, "[\ue000\ue001]")
+
+    def test_say_what_browsers_know(self):
+        self.assertEqual('<math><mover><mi mathvariant="normal" class="bold">r</mi><mo accent="true">\u00a8</mo></mover></math>',
+                         equations.mathml(r"\ddot{\mathbf r}", False))
+        self.assertIn(">\u2212</mo>", equations.mathml("a-b", False))
+
+    def test_that_cannot_be_set_are_named(self):
+        with self.assertRaisesRegex(SystemExit, "nonsense"):
+            equations.mathml(r"\nonsense", False)
+
+    def test_are_referred_to_in_text_alone(self):
+        page = equations.refer("<p>(2.1) <code>(2.1)</code> (9.9)</p>", lambda number: "#here" if number == "2.1" else "")
+        self.assertEqual('<p>(<a href="#here">2.1</a>) <code>(2.1)</code> (9.9)</p>', page)
 
 
 if __name__ == "__main__":
