@@ -180,19 +180,11 @@ IntegratorSpec automatic_integrator(const Scene& scene, double accuracy) {
   IntegratorSpec implicit;
   implicit.type = IntegratorType::generalized_alpha;
   implicit.step = std::min(implicit.step, scene.duration);
-  const bool implicit_does = allows(scene, implicit), explicit_does = allows(scene, IntegratorSpec{});
-  if (!implicit_does && !explicit_does) {
-    Scene tried = scene;
-    tried.integrator = IntegratorSpec{};
-    validate(tried);
-  }
-  if (!implicit_does) {
-    IntegratorSpec chosen = explicit_method(scene, accuracy);
-    chosen.reason = "generalized-alpha does not know all that the scene has";
-    return chosen;
-  }
+  Scene tried = scene;  // generalized-alpha knows all that a scene can have: what it refuses is wrong with the scene
+  tried.integrator = implicit;
+  validate(tried);
   implicit = implicit_method(scene, accuracy);
-  if (!explicit_does) {
+  if (!allows(scene, IntegratorSpec{})) {
     implicit.reason = "explicit methods do not know all that the scene has";
     return implicit;
   }
