@@ -26,7 +26,7 @@ source = work / "source"
 build = source / "build"
 code_folders = ("cmake", "core", "include", "reference", "scene", "scripts", "studies", "tests")  # what a result depends on
 of_the_tree = r"^(mutants|documents|install|python|program\.claims)"  # tests of documents, not of code, and of this script
-hang = 900  # [s] for one stage: a mutant may never end
+hang = 900  # [s] for one program: a mutant may never end
 
 head = """# Mutants
 
@@ -81,17 +81,17 @@ def copy_code():
 
 def run(command, **options):
     """Exit code and output; None for one that had to be stopped."""
-    options = {"cwd": source} | options
+    options = {"cwd": source, "timeout": hang} | options
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              errors="replace", timeout=hang, **options)
+                              errors="replace", **options)
         return done.returncode, done.stdout
     except subprocess.TimeoutExpired:
         return None, ""
 
 
 def compile_targets(targets, jobs):
-    code, output = run(["cmake", "--build", build, "--parallel", str(jobs), "--target", *targets])
+    code, output = run(["cmake", "--build", build, "--parallel", str(jobs), "--target", *targets], timeout=None)
     if code != 0:
         print(output[-3000:])
     return code == 0
