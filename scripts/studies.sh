@@ -25,7 +25,7 @@ done_before() { [[ -e $finished ]] && completed "$1" && grep -qxF "$(finished_li
 
 # On two cores, to one digit; the studies spread over the cores that there are.
 if [[ $action == run && -z ${5:-} ]]; then
-  if [[ $profile == full ]]; then minutes="about 14 minutes"; else minutes="about 2 minutes"; fi
+  if [[ $profile == full ]]; then minutes="about 18 minutes"; else minutes="about 2 minutes"; fi
   echo "${#studies[@]} studies, profile $profile: $minutes on two cores" >&2
 fi
 
