@@ -16,17 +16,6 @@
 namespace vlbeam {
 namespace {
 
-// Points beyond which the error of the mesh hides that of the rule (studies/falling_beam, convergence in points).
-constexpr int polynomial_points = 5;
-constexpr int rational_points = 10;
-// EA l^2/EI of an element above which it errs less by sampled axial strain: the falling beam and the elastica cross
-// there (studies/slender). By a little more, for elements of exactly that.
-constexpr double slender = 100 * (1 + 1e-6);
-constexpr double separation_share = 1e-3;  // of the beam's length
-constexpr double default_end_merge = 0.5;  // of L_std
-
-bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && scene.beam.curve.type != CurveType::line; }
-
 LengthControl build_length_control(const Scene& scene) {
   const auto& control = scene.length_control;
   return {control.enabled,
@@ -85,22 +74,6 @@ std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
 }
 
 }  // namespace
-
-Scene scene_in(SceneSetting setting) {
-  Scene scene;
-  scene.setting = setting;
-  if (setting == SceneSetting::standard) return scene;
-  scene.beam.element = ElementKind::ale_rancf;
-  scene.beam.rest_shape = RestShape::paper;
-  scene.formulation = Formulation::virtual_work;
-  scene.weights = WeightTransport::frozen;
-  scene.beam.axial_strain = AxialStrain::full;
-  scene.length_control.merge = MergePolicy::point_fit;
-  scene.length_control.cut = CutPolicy::exact;
-  scene.length_control.velocities = VelocityTransfer::nodal;
-  scene.length_control.end_merge = 0;
-  return scene;
-}
 
 BeamSection build_section(const BeamSpec& beam) {
   BeamSection section;
@@ -194,94 +167,6 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
     nodes.x[static_cast<std::size_t>(node)] = x;
   }
   return nodes;
-}
-
-bool has_rest_shape(const Scene& scene) {
-  const auto& weights = scene.beam.weights;
-  const bool unit = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
-  return scene.beam.rest_shape == RestShape::as_built && (scene.beam.curve.type != CurveType::line || !unit);
-}
-
-int quadrature_points(const Scene& scene) {
-  if (scene.beam.quadrature_points > 0) return scene.beam.quadrature_points;
-  return is_polynomial(scene.beam.element) ? polynomial_points : rational_points;
-}
-
-AxialStrain axial_strain(const Scene& scene) {
-  const auto& [EA, EI, law] = build_section(scene.beam).stiffness;
-  const double l = standard_length(scene);
-  const bool locks = EI > 0 && EA * l * l > slender * EI;
-  return scene.beam.axial_strain.value_or(locks ? AxialStrain::lobatto : AxialStrain::full);
-}
-
-double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
-
-double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
-
-AxisForm axis_form(const Scene& scene) {
-  const bool curved = scene.beam.curve.type != CurveType::line;
-  const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && sliding_joint(scene));
-  const bool exact = scene.setting == SceneSetting::ding_ouyang_2022 && curved && can_be_exact;
-  return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
-}
-
-CutPolicy cut_policy(const Scene& scene) {
-  const bool sampled = axial_strain(scene) == AxialStrain::lobatto;
-  return scene.length_control.cut.value_or(sampled ? CutPolicy::relaxed : CutPolicy::exact);
-}
-
-MergePolicy merge_policy(const Scene& scene) {
-  const MergePolicy otherwise = axial_strain(scene) == AxialStrain::lobatto ? MergePolicy::relaxed
-                                : is_curved_at_rest(scene)                  ? MergePolicy::rest_arc
-                                                                            : MergePolicy::point_fit;
-  return scene.length_control.merge.value_or(otherwise);
-}
-
-WeightTransport weight_transport(const Scene& scene) {
-  return scene.weights.value_or(is_curved_at_rest(scene) ? WeightTransport::transported : WeightTransport::frozen);
-}
-
-double separation_distance(const Scene& scene, const SlidingMassSpec& joint) {
-  return joint.separation_distance.value_or(separation_share * beam_length(scene));
-}
-
-double end_merge(const Scene& scene) {
-  if (scene.analysis == Analysis::statics) return 0;  // nothing rides there
-  const bool kinked =
-      sliding_joint(scene) && joint_slopes(scene, sliding_joints(scene).front()) != JointSlopes::continuous;
-  const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
-  const bool held = joint_support(scene) != SupportType::free || guided(scene) || threaded(scene);  // it needs a node
-  const bool several = scene.sliding_joints.size() > 1;
-  const double otherwise =
-      !scene.length_control.enabled || (kinked && stops) || held || several || fed(scene) ? 0 : default_end_merge;
-  return scene.length_control.end_merge.value_or(otherwise);
-}
-
-bool joints_may_rest(const Scene& scene) {
-  switch (scene.integrator.type) {
-    case IntegratorType::rosenbrock4:  // these need more than forces of what rests: derivatives
-    case IntegratorType::ida:
-    case IntegratorType::cvode:
-    case IntegratorType::energy_momentum:
-      return false;
-    default:
-      break;
-  }
-  const auto& joints = scene.sliding_joints;
-  return std::ranges::none_of(joints, [](const SlidingJointSpec& joint) { return joint.friction || joint.pitch; });
-}
-
-double merge_below(const Scene& scene) {
-  const auto& control = scene.length_control;
-  const bool several = scene.sliding_joints.size() > 1 || fed(scene);
-  const double otherwise = control.enabled && several ? 2 - control.upper * (1 + control.hysteresis) : 0;
-  return control.lower.value_or(otherwise);
-}
-
-AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene) {
-  if (!atol.angle) atol.angle = atol.length / standard_length(scene);
-  if (!atol.spin) atol.spin = atol.velocity / standard_length(scene);
-  return atol;
 }
 
 std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<double>& breaks) {

@@ -6,23 +6,18 @@
 #include <type_traits>
 #include <utility>
 
-#include "scene/options.hpp"
+#include "scene/beam_options.hpp"
+#include "scene/option_lines.hpp"
 
 namespace vlbeam {
 
 /// Visits the options of a scene, part by part: see visit_options(), which names what a visitor has to know.
 template <class Visitor, class SceneT>
-struct SceneOptions {
-  Visitor& visitor;
-  SceneT& scene;
-
+struct SceneOptions : OptionLines<Visitor, SceneT> {
   void all() {
     whole();
     beam_parts();
-    axis();
-    cross_section();
-    material();
-    elements();
+    BeamOptions<Visitor, SceneT>{{visitor, scene}}.all();
     supports();
     joints();
     contact();
@@ -40,77 +35,11 @@ struct SceneOptions {
   }
 
  private:
-  static constexpr std::string_view paper = "Ding & Ouyang 2022";
-  static constexpr std::string_view example1 = "Ding & Ouyang 2022, §6.1";
-  static constexpr std::string_view analysis = "/analysis";
-  static constexpr std::string_view initial_shape = "/initial_shape";
-  static constexpr std::string_view section_type = "/beam/section/type";
+  using Lines = OptionLines<Visitor, SceneT>;
+  using Lines::scene, Lines::number, Lines::vector, Lines::choice, Lines::section, Lines::present, Lines::list,
+      Lines::time_function, Lines::in_time, Lines::of_analysis, Lines::in_motion, Lines::paper, Lines::example1,
+      Lines::analysis, Lines::initial_shape, Lines::visitor;
 
-  bool in_time() const { return scene.analysis == Analysis::dynamics; }
-  Condition of_analysis(Analysis which) const { return only_if(analysis, scene.analysis, which); }
-  /// There is no such option in statics, where there is no time.
-  Option in_motion(Option line = {}) const {
-    if (!in_time()) line.when = of_analysis(Analysis::dynamics);
-    return line;
-  }
-
-  // An option by what all have; `line` says the rest.
-
-  static Option named(Option line, std::string_view pointer, std::string_view description) {
-    line.pointer = pointer;
-    line.description = description;
-    return line;
-  }
-  /// One or several numbers with a range.
-  template <class Member>
-  void number(std::string_view pointer, std::string_view unit, const Range& range, std::string_view description,
-              Member& member, Option line = {}) {
-    line.unit = unit;
-    line.range = range;
-    visitor(named(line, pointer, description), member);
-  }
-  /// One or several points or directions, with as many components as the scene has dimensions unless `line` has some.
-  template <class Member>
-  void vector(std::string_view pointer, std::string_view unit, std::string_view description, Member& member,
-              Option line = {}) {
-    line.unit = unit;
-    if (line.components == 0) line.components = scene.dimension;
-    visitor(named(line, pointer, description), member);
-  }
-  /// A name, true or false, or a text.
-  template <class Member>
-  void choice(std::string_view pointer, std::string_view description, Member& member, const Option& line = {}) {
-    visitor(named(line, pointer, description), member);
-  }
-  void section(std::string_view pointer, std::string_view description, const Option& line = {}) {
-    visitor.section(named(line, pointer, description));
-  }
-  template <class Part>
-  bool present(std::string_view pointer, std::string_view description, Part& part) {
-    return visitor.present(named({}, pointer, description), part);
-  }
-  template <class List>
-  void list(std::string_view pointer, std::string_view description, List& entries) {
-    visitor.list(named({}, pointer, description), entries);
-  }
-  /// A function of time: value, rate, ... below the pointer `at`.
-  template <class Function>
-  void time_function(const std::string& at, const std::string& unit, Function& f, const Condition& when = {}) {
-    const auto part = [&](const char* key, const std::string& part_unit, const char* description, const Range& range,
-                          auto& member) {
-      number(at + "/" + key, part_unit, range, description, member, {.when = when});
-    };
-    section(at, "a function of time, S(t/ramp) (value + rate t + acceleration t^2/2 + oscillation)");
-    part("value", unit, "of a function of time: its constant part", {}, f.value);
-    part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
-    part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
-    part("amplitude", unit, "of its part that oscillates", {}, f.amplitude);
-    part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
-    part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
-    part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
-    part("until", "s", "time from which on it goes on evenly, at the rate it has then; if not given it never does",
-         Range::non_negative(), f.until);
-  }
   template <class Support>
   void support(const std::string& entry, Support& at) {
     const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
@@ -203,102 +132,6 @@ struct SceneOptions {
     section("/length_control", "how the mesh follows the sliding mass");
     section("/integrator", "integration in time");
     section("/output", "what is kept of the motion");
-  }
-
-  void axis() {
-    auto& beam = scene.beam;
-    constexpr std::string_view curve_type = "/beam/curve/type";
-    choice(curve_type, "kind of the beam's initial axis", beam.curve.type);
-    const Condition line = only_if(curve_type, beam.curve.type, CurveType::line);
-    const Condition arc = only_if(curve_type, beam.curve.type, CurveType::arc);
-    const Condition nurbs = only_if(curve_type, beam.curve.type, CurveType::nurbs);
-    vector("/beam/curve/start", "m", "where the beam starts", beam.curve.start, {.source = example1, .when = line});
-    vector("/beam/curve/end", "m", "where the beam ends", beam.curve.end, {.source = example1, .when = line});
-    vector("/beam/curve/center", "m", "center of the circle; in 3D it lies in a plane parallel to the first two axes",
-           beam.curve.center, {.source = "Ding & Ouyang 2022, §6.3", .when = arc, .required = true});
-    number("/beam/curve/radius", "m", Range::positive(), "radius of the circle", beam.curve.radius,
-           {.when = arc, .required = true});
-    number("/beam/curve/from_degrees", "degrees", {}, "where the beam starts, from the first axis towards the second",
-           beam.curve.from_degrees, {.when = arc, .required = true});
-    number("/beam/curve/to_degrees", "degrees", {}, "where the beam ends", beam.curve.to_degrees,
-           {.when = arc, .required = true});
-    number("/beam/curve/degree", "-", Range::closed(1, 3), "degree of the NURBS curve", beam.curve.degree,
-           {.when = nurbs, .required = true});
-    number("/beam/curve/knots", "-", {}, "knots, not decreasing: as many as control points, degree and 1 together",
-           beam.curve.knots, {.when = nurbs, .required = true});
-    number("/beam/curve/weights", "-", Range::positive(), "weights of the control points; none are equal weights",
-           beam.curve.weights, {.when = nurbs});
-    vector("/beam/curve/control_points", "m", "control points", beam.curve.control_points,
-           {.when = nurbs, .required = true});
-  }
-
-  void cross_section() {
-    auto& beam = scene.beam;
-    choice(section_type, "how the section is given", beam.section.type);
-    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
-    const Condition stiffness = only_if(section_type, beam.section.type, Section::Type::stiffness);
-    number("/beam/section/radius", "m", Range::positive(), "radius of the full circular section", beam.section.radius,
-           {.source = example1, .when = circle});
-    number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
-           {.when = stiffness, .required = true});
-    number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
-           {.when = stiffness, .required = true});
-    number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
-           {.when = stiffness, .required = true});
-    number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin", beam.section.GIp,
-           {.when = stiffness});
-    number("/beam/section/rhoIp", "kg m", Range::non_negative(),
-           "moment of inertia per length about the axis, needed by spin", beam.section.rhoIp, {.when = stiffness});
-  }
-
-  void material() {
-    auto& beam = scene.beam;
-    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
-    number("/beam/material/density", "kg/m^3", Range::positive(), "density", beam.material.density,
-           {.source = example1, .when = circle});
-    number("/beam/material/youngs_modulus", "Pa", Range::positive(), "Young's modulus", beam.material.youngs_modulus,
-           {.source = example1, .when = circle});
-    number("/beam/material/poisson_ratio", "-", {.low = -1, .high = 0.5, .low_open = true, .high_open = true},
-           "Poisson's ratio, of the torsional stiffness", beam.material.poisson_ratio, {.when = circle});
-    number("/beam/material/damping", "s", Range::non_negative(),
-           "Kelvin-Voigt time c: stresses E (strain + c strain rate)", beam.material.damping,
-           {.source = "Ding & Ouyang 2022, Eq. 19"});
-    number("/beam/material/mass_damping", "1/s", Range::non_negative(),
-           "alpha of damping in proportion to the beam's mass: a force -alpha times the momentum",
-           beam.material.mass_damping);
-    number("/beam/material/curvature_regularization", "1/m", Range::non_negative(),
-           "kappa_reg of bending damping and of a curved rest shape in 3D, which have no direction on a straight beam",
-           beam.material.curvature_regularization);
-  }
-
-  void elements() {
-    auto& beam = scene.beam;
-    number("/beam/elements", "-", Range::closed(2, 1e6), "number of elements N", beam.elements, {.source = example1});
-    choice("/beam/element", "element family; ALE elements let nodes move along the beam", beam.element,
-           {.source = paper});
-    choice("/beam/axis",
-           "how elements follow a curved axis: evenly, material coordinate and arc length the same to a high order, or "
-           "exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights); if not given even, in the "
-           "setting ding-ouyang-2022 exact where the scene allows it",
-           beam.axis, {.source = "Ding & Ouyang 2022, Eq. 43 is exact"});
-    choice("/beam/rest_shape", "where strains are measured from: the initial shape, or a straight beam",
-           beam.rest_shape);
-    choice("/beam/strain_law", "how stretch and curvature are measured", beam.strain_law);
-    choice("/beam/rotary_inertia",
-           "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,
-           {.source = "Katz 2001"});
-    choice("/beam/out_of_plane",
-           "what resists loads across the plane of a beam that is curved at rest, in space: to be written there, for "
-           "nothing does",
-           beam.out_of_plane);
-    choice("/beam/axial_strain",
-           "where an element's axial strain is summed: at all its quadrature points (full), or at both nodes and the "
-           "middle (lobatto), which bends slender beams without locking",
-           beam.axial_strain);
-    number("/beam/quadrature_points", "-", Range::closed(0, 25),
-           "Gauss points an element, 3 to 25; 0 takes the element's default", beam.quadrature_points);
-    number("/beam/weights", "-", Range::positive(), "initial rational weights of every element", beam.weights,
-           {.source = "Ding & Ouyang 2022, Eq. 5"});
   }
 
   void supports() {
@@ -448,7 +281,9 @@ struct SceneOptions {
     if (present("/drag", "of still air: a force per unstretched length against the beam's velocity", scene.drag)) {
       auto& drag = *scene.drag;
       const auto coefficient = [&](std::string_view pointer, std::string_view unit, std::string_view description,
-                                   auto& member) { number(pointer, unit, Range::non_negative(), description, member); };
+                                   auto& member) {
+        this->number(pointer, unit, Range::non_negative(), description, member);
+      };
       section("/drag/linear", "in proportion to the velocity");
       section("/drag/quadratic", "in proportion to the square of the velocity");
       coefficient("/drag/linear/normal", "N s/m^2", "of the velocity across the axis", drag.linear.normal);
@@ -632,7 +467,7 @@ struct SceneOptions {
 template <class Visitor, class SceneT>
 requires std::same_as<std::remove_const_t<SceneT>, Scene>
 void visit_options(Visitor&& visitor, SceneT& scene) {
-  SceneOptions<std::remove_reference_t<Visitor>, SceneT>{visitor, scene}.all();
+  SceneOptions<std::remove_reference_t<Visitor>, SceneT>{{visitor, scene}}.all();
 }
 
 }  // namespace vlbeam

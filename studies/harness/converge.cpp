@@ -15,6 +15,7 @@
 #include "scene/options.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
+#include "studies/harness/converge_setting.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/json.hpp"
 #include "studies/harness/quantity.hpp"
@@ -28,9 +29,6 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // of 
 constexpr double mesh_order = 4;       // of displacements of cubic elements; what converges faster is not trusted to
 constexpr double step_order = 2;       // of generalized-alpha and energy-momentum
 constexpr double tolerance_order = 1;  // the global error follows the tolerance of a step
-// Accuracies of an automatic integrator that refinement starts from, so that time errs less than the mesh: tolerances
-// of 1e-9 for dopri5 and of 1e-7 of the length for generalized-alpha.
-constexpr double explicit_start = 2e-8, implicit_start = 1e-5;
 constexpr double adaptive_order = 2.0 / 3;  // that of steps h of generalized-alpha, h^2, whose own error is h^3
 constexpr int most_points = 20, extra_points = 2;
 constexpr double least_tolerance = 1e-13, most_steps = 1e7;
@@ -39,25 +37,13 @@ constexpr double perturbation = 1e-8;
 constexpr const char* absent = "the quantity is not there at this time";
 constexpr const char* no_time = "stopped: no time was left";
 
-bool has_step(const Scene& scene) { return has_fixed_step(scene.integrator.type) && !scene.integrator.adaptive; }
-
 /// From one level of time to the next finer one.
 double finer(const Scene& scene, double accuracy) { return accuracy / (has_step(scene) ? 2 : 10); }
 double coarser(const Scene& scene, double accuracy) { return accuracy * (has_step(scene) ? 2 : 10); }
 
-std::string accuracy_name(const Scene& scene) { return has_step(scene) ? "step" : "rtol"; }
-
 std::string setting_text(const Scene& scene, const Setting& s) {
   return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
          accuracy_name(scene) + " " + six_digits(s.accuracy);
-}
-
-int renumbered(int node, int from, int to, const std::string& field) {
-  const long scaled = static_cast<long>(node) * to;
-  if (scaled % from != 0) {
-    throw InvalidInput(field, std::to_string(node), "it must be a node of " + std::to_string(to) + " elements, too");
-  }
-  return static_cast<int>(scaled / from);
 }
 
 class Converger {
@@ -457,169 +443,11 @@ class Converger {
   std::vector<double> history_;  ///< of the mesh's uncertainty on each
 };
 
-constexpr std::array<const char*, 3> refined_names{"mesh", "time", "quadrature"};
-
-Json setting_json(const Scene& scene, const Setting& setting) {
-  return {
-      {"elements", setting.elements}, {"quadrature_points", setting.points}, {accuracy_name(scene), setting.accuracy}};
-}
-
-std::string digits(double value, int count) {
-  std::ostringstream text;
-  text.precision(count);
-  text << value;
-  return text.str();
-}
-
 }  // namespace
-
-Scene to_converge(const Scene& scene) {
-  if (!scene.integrator.automatic || scene.analysis != Analysis::dynamics) return scene;
-  Scene start = scene;
-  start.integrator = automatic_integrator(scene, explicit_start);
-  if (start.integrator.type == IntegratorType::generalized_alpha) {
-    start.integrator = automatic_integrator(scene, implicit_start);
-  }
-  start.integrator.automatic = false;
-  return start;
-}
-
-Setting setting_of(const Scene& given) {
-  const Scene scene = to_converge(given);
-  return {scene.beam.elements, quadrature_points(scene),
-          has_step(scene) ? scene.integrator.step : scene.integrator.rtol};
-}
-
-Scene with_setting(const Scene& given, const Setting& setting) {
-  const Scene scene = to_converge(given);
-  Scene changed = scene;
-  const int from = scene.beam.elements, to = setting.elements;
-  changed.beam.elements = to;
-  changed.beam.quadrature_points = setting.points;
-  if (changed.flow) {
-    for (auto& guide : changed.flow->nodes) guide.node = renumbered(guide.node, from, to, "/flow/nodes");
-  }
-  if (changed.spin) {
-    for (auto& drive : changed.spin->drives) drive.node = renumbered(drive.node, from, to, "/spin/drives");
-  }
-  for (LoadSpec& load : changed.loads) {
-    if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, to, "/loads");
-  }
-  for (PointMassSpec& mass : changed.point_masses) mass.node = renumbered(mass.node, from, to, "/point_masses");
-  if (has_step(scene)) {
-    changed.integrator.step = setting.accuracy;
-  } else {
-    const double share = setting.accuracy / scene.integrator.rtol;
-    // where the longest step allowed holds, the tolerance alone would refine nothing
-    if (scene.integrator.adaptive) {
-      changed.integrator.step = std::min(scene.integrator.step * portable::cbrt(share), scene.duration);
-    }
-    changed.integrator.atol *= share;
-    if (auto& atol = changed.integrator.atol_by_kind) {
-      atol->length *= share;
-      atol->velocity *= share;
-      if (atol->angle) *atol->angle *= share;
-      if (atol->spin) *atol->spin *= share;
-    }
-    changed.integrator.rtol = setting.accuracy;
-  }
-  validate(changed);
-  return changed;
-}
 
 Convergence converge(const Scene& scene, const ConvergeOptions& options) {
   const Scene start = to_converge(scene);
   return Converger(start, options)();
-}
-
-Json convergence_to_json(const Scene& given, const Convergence& found) {
-  const Scene scene = to_converge(given);
-  Json json = {{"schema_version", "vlbeam.converge/1"},
-               {"title", scene.title},
-               {"quantity", found.quantity},
-               {"unit", found.unit},
-               {"t", found.t},
-               {"error", found.error},
-               {"answer", number_or_null(found.answer)},
-               {"uncertainty", number_or_null(found.uncertainty)},
-               {"reached", found.reached}};
-  if (!found.reached) json["reason"] = found.reason;
-  json["predictable_until"] = found.predictable_until;
-  if (found.horizon) json["horizon"] = *found.horizon;
-  json["setting"] = found.cheapest ? setting_json(scene, *found.cheapest) : Json();
-  json["finest"] = setting_json(scene, found.finest);
-  Json& parts = json["parts"] = Json::object();
-  for (std::size_t i = 0; i < refined_names.size(); ++i) {
-    if (found.parts[i]) parts[refined_names[i]] = grid_convergence_to_json(*found.parts[i]);
-  }
-  Json& levels = json["levels"] = Json::array();
-  for (const ConvergeLevel& level : found.levels) {
-    Json row = {{"refined", refined_names[static_cast<std::size_t>(level.refined)]}};
-    row.update(setting_json(scene, level.setting));
-    row["value"] = number_or_null(level.value);
-    row["difference"] = number_or_null(std::abs(level.value - found.answer));
-    row["error_bound"] = number_or_null(std::abs(level.value - found.answer) + found.uncertainty);
-    row["work"] = level.work;
-    row["events"] = level.events;
-    if (!level.failure.empty()) row["failure"] = level.failure;
-    levels.push_back(row);
-  }
-  json["cost"] = {{"runs", found.levels.size()}, {"in_runs_of_the_finest", number_or_null(found.cost)}};
-  const bool settled = found.cheapest.has_value();
-  json["scene"] = scene_to_json(settled ? with_setting(scene, *found.cheapest) : scene);
-  return json;
-}
-
-std::string convergence_table(const Scene& given, const Convergence& found) {
-  const Scene scene = to_converge(given);
-  std::string text = "refined,elements,quadrature_points," + accuracy_name(scene) +
-                     (has_step(scene) ? " [s]" : " [-]") + ",value [" + found.unit + "],difference [" + found.unit +
-                     "],error_bound [" + found.unit + "],work [element evaluations],events\n";
-  const auto number = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
-  for (const ConvergeLevel& level : found.levels) {
-    text += std::string(refined_names[static_cast<std::size_t>(level.refined)]) + "," +
-            std::to_string(level.setting.elements) + "," + std::to_string(level.setting.points) + "," +
-            number_text(level.setting.accuracy) + "," + number(level.value) + "," +
-            number(std::abs(level.value - found.answer)) + "," +
-            number(std::abs(level.value - found.answer) + found.uncertainty) + "," + number(level.work) + "," +
-            std::to_string(level.events) + "\n";
-  }
-  return text;
-}
-
-std::string level_line(const Scene& scene, const ConvergeLevel& level) {
-  constexpr std::size_t width = 12;
-  const std::string refined = refined_names[static_cast<std::size_t>(level.refined)];
-  return "  " + refined + std::string(width - refined.size(), ' ') + setting_text(scene, level.setting) + ": " +
-         (level.failure.empty() ? digits(level.value, 10) : level.failure) + ", " + digits(level.seconds, 2) + " s\n";
-}
-
-std::string convergence_summary(const Scene& given, const Convergence& found) {
-  const Scene scene = to_converge(given);
-  std::ostringstream text;
-  text << found.quantity << " at t = " << number_text(found.t) << " s: " << digits(found.answer, 10) << " +- "
-       << digits(found.uncertainty, 2) << " " << found.unit << '\n';
-  for (std::size_t i = 0; i < refined_names.size(); ++i) {
-    if (!found.parts[i]) continue;
-    const GridConvergence& part = *found.parts[i];
-    text << "  " << refined_names[i] << std::string(12 - std::string_view(refined_names[i]).size(), ' ') << "+- "
-         << digits(part.uncertainty, 2)
-         << (part.order ? ", order " + digits(*part.order, 3) : ", no order: " + part.refusal) << '\n';
-  }
-  if (found.reached) {
-    text << "  the error wanted, " << digits(found.error, 3) << ", is reached\n";
-    if (found.cheapest) text << "  cheapest    " << setting_text(scene, *found.cheapest) << '\n';
-  } else {
-    text << "  the error wanted, " << digits(found.error, 3) << ", is NOT reached: " << found.reason
-         << "\n  it is kept until t = " << number_text(found.predictable_until) << " s\n";
-  }
-  if (found.horizon) {
-    text << "  horizon     a density changed in its 8th digit matters less than that until t = "
-         << number_text(*found.horizon) << " s\n";
-  }
-  text << "  finest      " << setting_text(scene, found.finest) << '\n'
-       << "  cost        " << found.levels.size() << " runs, worth " << digits(found.cost, 3) << " of the finest\n";
-  return text.str();
 }
 
 }  // namespace vlbeam

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "scene/option_lines.hpp"
+
+namespace vlbeam {
+
+/// Visits the options of a scene's beam: axis, cross section, material, elements.
+template <class Visitor, class SceneT>
+struct BeamOptions : OptionLines<Visitor, SceneT> {
+  void all() {
+    axis();
+    cross_section();
+    material();
+    elements();
+  }
+
+ private:
+  using Lines = OptionLines<Visitor, SceneT>;
+  using Lines::scene, Lines::number, Lines::vector, Lines::choice, Lines::section, Lines::paper, Lines::example1;
+  static constexpr std::string_view section_type = "/beam/section/type";
+
+  void axis() {
+    auto& beam = scene.beam;
+    constexpr std::string_view curve_type = "/beam/curve/type";
+    choice(curve_type, "kind of the beam's initial axis", beam.curve.type);
+    const Condition line = only_if(curve_type, beam.curve.type, CurveType::line);
+    const Condition arc = only_if(curve_type, beam.curve.type, CurveType::arc);
+    const Condition nurbs = only_if(curve_type, beam.curve.type, CurveType::nurbs);
+    vector("/beam/curve/start", "m", "where the beam starts", beam.curve.start, {.source = example1, .when = line});
+    vector("/beam/curve/end", "m", "where the beam ends", beam.curve.end, {.source = example1, .when = line});
+    vector("/beam/curve/center", "m", "center of the circle; in 3D it lies in a plane parallel to the first two axes",
+           beam.curve.center, {.source = "Ding & Ouyang 2022, §6.3", .when = arc, .required = true});
+    number("/beam/curve/radius", "m", Range::positive(), "radius of the circle", beam.curve.radius,
+           {.when = arc, .required = true});
+    number("/beam/curve/from_degrees", "degrees", {}, "where the beam starts, from the first axis towards the second",
+           beam.curve.from_degrees, {.when = arc, .required = true});
+    number("/beam/curve/to_degrees", "degrees", {}, "where the beam ends", beam.curve.to_degrees,
+           {.when = arc, .required = true});
+    number("/beam/curve/degree", "-", Range::closed(1, 3), "degree of the NURBS curve", beam.curve.degree,
+           {.when = nurbs, .required = true});
+    number("/beam/curve/knots", "-", {}, "knots, not decreasing: as many as control points, degree and 1 together",
+           beam.curve.knots, {.when = nurbs, .required = true});
+    number("/beam/curve/weights", "-", Range::positive(), "weights of the control points; none are equal weights",
+           beam.curve.weights, {.when = nurbs});
+    vector("/beam/curve/control_points", "m", "control points", beam.curve.control_points,
+           {.when = nurbs, .required = true});
+  }
+
+  void cross_section() {
+    auto& beam = scene.beam;
+    choice(section_type, "how the section is given", beam.section.type);
+    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+    const Condition stiffness = only_if(section_type, beam.section.type, Section::Type::stiffness);
+    number("/beam/section/radius", "m", Range::positive(), "radius of the full circular section", beam.section.radius,
+           {.source = example1, .when = circle});
+    number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
+           {.when = stiffness, .required = true});
+    number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
+           {.when = stiffness, .required = true});
+    number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
+           {.when = stiffness, .required = true});
+    number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin", beam.section.GIp,
+           {.when = stiffness});
+    number("/beam/section/rhoIp", "kg m", Range::non_negative(),
+           "moment of inertia per length about the axis, needed by spin", beam.section.rhoIp, {.when = stiffness});
+  }
+
+  void material() {
+    auto& beam = scene.beam;
+    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+    number("/beam/material/density", "kg/m^3", Range::positive(), "density", beam.material.density,
+           {.source = example1, .when = circle});
+    number("/beam/material/youngs_modulus", "Pa", Range::positive(), "Young's modulus", beam.material.youngs_modulus,
+           {.source = example1, .when = circle});
+    number("/beam/material/poisson_ratio", "-", {.low = -1, .high = 0.5, .low_open = true, .high_open = true},
+           "Poisson's ratio, of the torsional stiffness", beam.material.poisson_ratio, {.when = circle});
+    number("/beam/material/damping", "s", Range::non_negative(),
+           "Kelvin-Voigt time c: stresses E (strain + c strain rate)", beam.material.damping,
+           {.source = "Ding & Ouyang 2022, Eq. 19"});
+    number("/beam/material/mass_damping", "1/s", Range::non_negative(),
+           "alpha of damping in proportion to the beam's mass: a force -alpha times the momentum",
+           beam.material.mass_damping);
+    number("/beam/material/curvature_regularization", "1/m", Range::non_negative(),
+           "kappa_reg of bending damping and of a curved rest shape in 3D, which have no direction on a straight beam",
+           beam.material.curvature_regularization);
+  }
+
+  void elements() {
+    auto& beam = scene.beam;
+    number("/beam/elements", "-", Range::closed(2, 1e6), "number of elements N", beam.elements, {.source = example1});
+    choice("/beam/element", "element family; ALE elements let nodes move along the beam", beam.element,
+           {.source = paper});
+    choice("/beam/axis",
+           "how elements follow a curved axis: evenly, material coordinate and arc length the same to a high order, or "
+           "exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights); if not given even, in the "
+           "setting ding-ouyang-2022 exact where the scene allows it",
+           beam.axis, {.source = "Ding & Ouyang 2022, Eq. 43 is exact"});
+    choice("/beam/rest_shape", "where strains are measured from: the initial shape, or a straight beam",
+           beam.rest_shape);
+    choice("/beam/strain_law", "how stretch and curvature are measured", beam.strain_law);
+    choice("/beam/rotary_inertia",
+           "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,
+           {.source = "Katz 2001"});
+    choice("/beam/out_of_plane",
+           "what resists loads across the plane of a beam that is curved at rest, in space: to be written there, for "
+           "nothing does",
+           beam.out_of_plane);
+    choice("/beam/axial_strain",
+           "where an element's axial strain is summed: at all its quadrature points (full), or at both nodes and the "
+           "middle (lobatto), which bends slender beams without locking",
+           beam.axial_strain);
+    number("/beam/quadrature_points", "-", Range::closed(0, 25),
+           "Gauss points an element, 3 to 25; 0 takes the element's default", beam.quadrature_points);
+    number("/beam/weights", "-", Range::positive(), "initial rational weights of every element", beam.weights,
+           {.source = "Ding & Ouyang 2022, Eq. 5"});
+  }
+};
+
+}  // namespace vlbeam

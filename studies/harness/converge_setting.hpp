@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "core/dynamics/integrator_type.hpp"
+#include "scene/scene.hpp"
+
+namespace vlbeam {
+
+/// Whether time is refined by the step, else by the tolerance; and the name of what is refined.
+inline bool has_step(const Scene& scene) { return has_fixed_step(scene.integrator.type) && !scene.integrator.adaptive; }
+inline std::string accuracy_name(const Scene& scene) { return has_step(scene) ? "step" : "rtol"; }
+
+}  // namespace vlbeam
