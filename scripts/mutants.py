@@ -170,7 +170,7 @@ def table(mutants, results):
         lines.append(f'| {mistake} | `{mutant["file"]}` | {result["by"]} | {result.get("profile", "")} |\n')
     caught = sum(results[m["name"]]["caught"] for m in mutants if m["name"] in results)
     (root / "tests" / "mutants" / "README.md").write_text(
-        head + "".join(lines) + f"\n{caught} of {len(lines)} are noticed.\n")
+        head + "".join(lines) + f"\n{caught} of {len(lines)} are noticed; {len(mutants) - len(lines)} have not been run yet.\n")
 
 
 def main():

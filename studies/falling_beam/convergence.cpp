@@ -102,7 +102,7 @@ void add_reference(StudyReport& report, const Runs& runs, const Times& times, co
   }
 }
 
-void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& times) {
+void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& times, const Judged& judged) {
   Table errors{.name = "errors",
                .caption = "Error at 0.5 s against the finest mesh of the same element, over the beam's length",
                .columns = {"elements", "rancf_variational_direction", "rancf_variational_full", "rancf_paper_direction",
@@ -134,6 +134,12 @@ void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& ti
     }
     if (levels.empty()) continue;
     report.measured["finest_error_" + short_name(kind)] = found.back();
+    const Run* run = runs.find("variational", {.elements = meshes.back(), .element = kind, .clamp = direction});
+    const Sample* sample = run != nullptr ? sample_at(*run->result, judged_time) : nullptr;
+    if (sample != nullptr) {
+      report.measured["judged_error_" + short_name(kind)] = judged.error(*sample) / beam_length_m;
+      report.measured["judge_uncertainty"] = judged.uncertainty / beam_length_m;
+    }
     // errors are known to what the reference is
     const auto known_to = report.measured.find("reference_error");
     report.fits.push_back(fit_order("falling_beam_error_" + short_name(kind), levels, found,

@@ -13,6 +13,7 @@
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/histories.hpp"
+#include "studies/harness/judged.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/rigid_wire.hpp"
 #include "studies/harness/scene_json.hpp"
@@ -87,7 +88,10 @@ double initial_force(Scene scene) {
 class Report {
  public:
   Report(const StudyContext& context, const std::vector<SceneCase>& cases)
-      : folder_(context.folder.string()), cases_(cases), outcomes_(context.sweep(cases, run_case, cost)) {
+      : folder_(context.folder.string()),
+        judged_(judged_at(context.folder.parent_path(), "semicircle", compared_at)),
+        cases_(cases),
+        outcomes_(context.sweep(cases, run_case, cost)) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (apart(cases[i]) || !outcomes_[i]) continue;
       const int n = cases[i].scene.beam.elements;
@@ -184,6 +188,12 @@ class Report {
     if (const RunResult* coarser = find("asbuilt_n" + std::to_string(finest_ / 2)); coarser && reference_) {
       report_.measured["finest_difference"] =
           position_error(*coarser, *reference_, compared_at) / beam_length(cases_.front().scene);
+    }
+    const Sample* sample = reference_ != nullptr ? sample_at(*reference_, compared_at) : nullptr;
+    if (sample != nullptr) {
+      const double length = beam_length(cases_.front().scene);
+      report_.measured["judged_error"] = judged_.error(*sample) / length;
+      report_.measured["judge_uncertainty"] = judged_.uncertainty / length;
     }
     std::vector<double> levels, errors;
     for (int n = finest_ / 8; n < finest_; n *= 2) {
@@ -379,6 +389,7 @@ class Report {
   }
 
   std::string folder_;
+  Judged judged_;
   const std::vector<SceneCase>& cases_;
   std::vector<Outcome<RunResult>> outcomes_;
   int finest_ = 0;

@@ -7,6 +7,7 @@
 
 #include "core/geometry/elementary.hpp"
 #include "scene/options.hpp"
+#include "studies/harness/judged.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -19,6 +20,8 @@ struct Case {
   bool reference = false;
   Scene scene;
 };
+
+constexpr double judged_time = 0.45;  // [s], the last one that the judge of the falling beam answers for
 
 constexpr ElementKind kinds[] = {ElementKind::ale_rancf, ElementKind::ale_ancf};
 
@@ -82,6 +85,7 @@ class Report {
  public:
   Report(const StudyContext& context, const std::vector<Case>& cases)
       : folder_(context.folder.string()),
+        judged_(judged_at(context.folder.parent_path(), "falling_beam", judged_time)),
         cases_(cases),
         outcomes_(context.sweep(
             cases,
@@ -164,6 +168,11 @@ class Report {
           if (control.hysteresis == 0.001) {
             const std::string trigger = "_" + number_text(control.upper);
             report_.measured["error_" + key + trigger] = error;
+            const Sample* sample = item.beam == "falling" ? sample_at(run, judged_time) : nullptr;
+            if (sample != nullptr) {
+              report_.measured["judged_error_" + key + trigger] = judged_.error(*sample) / beam_length_m;
+              report_.measured["judge_uncertainty"] = judged_.uncertainty / beam_length_m;
+            }
             report_.measured["events_" + key + trigger] = static_cast<double>(run.events.size());
             report_.measured["shortest_" + key + trigger] = shortest;
           }
@@ -189,6 +198,7 @@ class Report {
   }
 
   std::string folder_;
+  Judged judged_;
   const std::vector<Case>& cases_;
   std::vector<Outcome<RunResult>> outcomes_;
   StudyReport report_;

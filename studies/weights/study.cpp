@@ -8,6 +8,7 @@
 
 #include "scene/derived.hpp"
 #include "studies/harness/json.hpp"
+#include "studies/harness/judged.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -16,6 +17,7 @@ namespace weights {
 namespace {
 
 constexpr double early = 0.5, late = 0.65;  // [s], before and after the whip
+constexpr double judged_time = 0.45;        // [s], the last one that the judge of the falling beam answers for
 
 struct Case {
   std::string group;  ///< mesh | reference | other reference | implicit | policy | initial
@@ -115,6 +117,7 @@ class Report {
  public:
   Report(const StudyContext& context, const std::vector<Case>& cases)
       : folder_(context.folder.string()),
+        judged_(judged_at(context.folder.parent_path(), "falling_beam", judged_time)),
         cases_(cases),
         outcomes_(context.sweep(
             cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost)) {
@@ -221,6 +224,10 @@ class Report {
       report_.measured["moved_" + key] = moved;
       report_.measured["sigma_" + key] = sigma;
       if (std::isfinite(at_early)) report_.measured["error_early_" + key] = at_early;
+      if (const Sample* sample = sample_at(result, judged_time); sample != nullptr) {
+        report_.measured["judged_error_" + key] = judged_.error(*sample) / beam_length_m;
+        report_.measured["judge_uncertainty"] = judged_.uncertainty / beam_length_m;
+      }
       if (std::isfinite(at_late)) report_.measured["error_late_" + key] = at_late;
       if (scene.length_control.velocities != VelocityTransfer::nodal) {
         const std::string nodal = key_of(scene.beam.element) + "_nodal_n" + std::to_string(scene.beam.elements);
@@ -346,6 +353,7 @@ class Report {
   }
 
   std::string folder_;
+  Judged judged_;
   const std::vector<Case>& cases_;
   std::vector<Outcome<RunResult>> outcomes_;
   const RunResult* reference_ = nullptr;
