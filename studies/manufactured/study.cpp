@@ -37,7 +37,7 @@ struct Item {
 };
 
 struct Errors {
-  double r, v;  ///< L2 norms over the length, of the scale of the motion
+  double r, v;  ///< L2 norms along the beam [m sqrt(m), m/s sqrt(m)]
   int steps, events;
 };
 
