@@ -41,11 +41,6 @@ constexpr const char* no_time = "stopped: no time was left";
 double finer(const Scene& scene, double accuracy) { return accuracy / (has_step(scene) ? 2 : 10); }
 double coarser(const Scene& scene, double accuracy) { return accuracy * (has_step(scene) ? 2 : 10); }
 
-std::string setting_text(const Scene& scene, const Setting& s) {
-  return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
-         accuracy_name(scene) + " " + six_digits(s.accuracy);
-}
-
 class Converger {
  public:
   Converger(const Scene& scene, const ConvergeOptions& options)

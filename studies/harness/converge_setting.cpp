@@ -8,6 +8,7 @@
 #include "scene/derived.hpp"
 #include "scene/validate.hpp"
 #include "studies/harness/converge.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
@@ -25,6 +26,11 @@ int renumbered(int node, int from, int to, const std::string& field) {
 }
 
 }  // namespace
+
+std::string setting_text(const Scene& scene, const Setting& s) {
+  return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
+         accuracy_name(scene) + " " + six_digits(s.accuracy);
+}
 
 Scene to_converge(const Scene& scene) {
   if (!scene.integrator.automatic || scene.analysis != Analysis::dynamics) return scene;

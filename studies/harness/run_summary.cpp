@@ -6,6 +6,7 @@
 #include "scene/derived.hpp"
 #include "scene/energy_ledger.hpp"
 #include "scene/names.hpp"
+#include "scene/options.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/run_report.hpp"
 
