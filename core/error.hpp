@@ -8,11 +8,13 @@
 namespace vlbeam {
 
 /// A number in a message.
-inline std::string six_digits(double value) {
+inline std::string in_digits(double value, int digits) {
   std::ostringstream stream;
+  stream.precision(digits);
   stream << value;
   return stream.str();
 }
+inline std::string six_digits(double value) { return in_digits(value, 6); }
 
 /// What the user asked for cannot be understood or cannot be modelled. Programs answer with exit code 2.
 class InvalidInput : public std::runtime_error {

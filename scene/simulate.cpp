@@ -74,10 +74,7 @@ class Run {
   void starts_from(const StaticSample& equilibrium) { start_ = equilibrium; }
 
   RunResult operator()() {
-    const std::vector<double>& x = system_.mesh().x;
-    double shortest = x.back() - x.front();
-    for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
-    const auto options = integration_options(scene_, system_.model().section, shortest);
+    const auto options = integration_options(scene_, system_.model().section, system_.mesh().shortest());
     const auto initial = [this]() -> Eigen::VectorXd {
       const Eigen::VectorXd y = system_.initial_state();
       return scene_.flow && scene_.flow->steady ? steady_state(system_, y) : y;

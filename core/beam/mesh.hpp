@@ -22,6 +22,12 @@ struct Mesh {
 
   int elements() const { return static_cast<int>(weights.size()); }
   int last() const { return elements(); }  ///< index of the last node
+  /// Length of the shortest element [m].
+  double shortest() const {
+    double length = x.back() - x.front();
+    for (std::size_t k = 1; k < x.size(); ++k) length = std::min(length, x[k] - x[k - 1]);
+    return length;
+  }
   double length() const { return x.back() - x.front(); }
   /// Index of the element that holds `at`; of the first or the last one beyond the ends.
   int element_at(double at) const {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/system/brief.hpp"
 #include "core/system/joint_release.hpp"
 #include "core/system/static_modes.hpp"
 #include "core/system/static_search.hpp"
@@ -14,13 +13,10 @@
 namespace vlbeam {
 namespace {
 
-constexpr int most_corrections = 30;
 constexpr int most_halvings = 10;
-constexpr double by_rounding = 1e-7;    // corrections that no longer fall end the iteration from here on
 constexpr double largest_turn = 0.5;    // of a step from the mean of the path's directions at its ends
 constexpr double no_force = 1e-12;      // over EA
 constexpr int most_points = 50;         // on an arc-length path, over the steps asked for
-constexpr double longest_slide = 0.25;  // of a joint that is released, over L_std
 constexpr double small_move = 1e-7;     // of supports, over the beam's length
 constexpr double slender_enough = 1e8;  // EA L^2/EI of a beam that bends without stretching
 
@@ -59,7 +55,7 @@ class Path {
       const double from = static_cast<double>(step - 1) / options_.steps,
                    to = static_cast<double>(step) / options_.steps;
       if (!advance(q, from, to, most_halvings, step == 1)) {
-        throw ComputationFailed("no equilibrium near the last one at load factor " + brief(to) + ": " +
+        throw ComputationFailed("no equilibrium near the last one at load factor " + in_digits(to, 4) + ": " +
                                     free_direction(system_, equations_, q, to) +
                                     "; past a limit point \"arc-length\" goes on" + too_slender(),
                                 from);
@@ -75,8 +71,8 @@ class Path {
     const Stiffness& k = system_.model().section.stiffness;
     const double stiff = k.bends() ? k.EA * search_.length * search_.length / k.EI : 0;
     if (!(stiff > 3 * slender_enough)) return "";
-    return "; EA L^2/EI is " + brief(stiff) +
-           ": with EA = " + brief(slender_enough * k.EI / (search_.length * search_.length)) +
+    return "; EA L^2/EI is " + in_digits(stiff, 4) +
+           ": with EA = " + in_digits(slender_enough * k.EI / (search_.length * search_.length), 4) +
            " N the beam bends as much, to 1e-7 of its length";
   }
 
@@ -87,7 +83,7 @@ class Path {
     if (found) {
       q = tried;
       if (system_.model().guides() && !search_.control_length(q, to)) {
-        throw ComputationFailed("length control leaves no equilibrium at load factor " + brief(to), from);
+        throw ComputationFailed("length control leaves no equilibrium at load factor " + in_digits(to, 4), from);
       }
       return true;
     }
@@ -100,7 +96,7 @@ class Path {
   /// Whether a step stays on the path: it goes as the path does at its ends on average, rather than across a gap.
   bool follows(const Eigen::VectorXd& q, double from, const Eigen::VectorXd& next, double to) {
     const Eigen::VectorXd step = next - q;
-    if (inner(step, step) <= by_rounding * by_rounding) return true;
+    if (inner(step, step) <= StaticSearch<D>::by_rounding * StaticSearch<D>::by_rounding) return true;
     const auto direction = [&](const Eigen::VectorXd& at, double factor) -> Eigen::VectorXd {
       return search_.linearize(at, factor) ? response(at, factor) : search_.zero;
     };
@@ -201,26 +197,26 @@ class Path {
       if (iterations <= 4) step = std::min(1.5 * step, most);
       if (iterations > 7) step /= 1.5;
     }
-    throw ComputationFailed("the load factor is " + brief(factor) + " after " + std::to_string(points) +
+    throw ComputationFailed("the load factor is " + in_digits(factor, 4) + " after " + std::to_string(points) +
                                 " points of the path: it may never be 1",
                             factor);
   }
 
   [[noreturn]] void path_ends(const Eigen::VectorXd& q, const std::string& why, double factor) {
-    if (!search_.releasing) throw ComputationFailed(why + " at load factor " + brief(factor), factor);
+    if (!search_.releasing) throw ComputationFailed(why + " at load factor " + in_digits(factor, 4), factor);
     std::string places;
     for (const std::size_t i : search_.free_joints()) {
-      places += (places.empty() ? "x = " : ", ") + brief(q[equations_.mark(i)]);
+      places += (places.empty() ? "x = " : ", ") + in_digits(q[equations_.mark(i)], 4);
     }
     throw ComputationFailed("the joints that slide are not released together: " + why + " where they are at " + places +
-                                " m and " + brief(1 - factor) + " of the forces that held them are left",
+                                " m and " + in_digits(1 - factor, 4) + " of the forces that held them are left",
                             1);
   }
 
   /// Length of the first step along a path whose direction has this size by the load factor.
   double first_arc(const Tangent& along, double size) const {
     double step = size / options_.steps;
-    const double longest = longest_slide * system_.model().length_control.standard_length;
+    const double longest = StaticSearch<D>::longest_slide * system_.model().length_control.standard_length;
     for (const std::size_t i : search_.free_joints()) {
       const double slides = std::abs(along.q[equations_.mark(i)]);
       if (search_.releasing && slides > 0) step = std::min(step, longest / slides);
@@ -244,7 +240,7 @@ class Path {
     next = q + step * along.q;
     next_factor = factor + step * along.factor;
     double previous = std::numeric_limits<double>::infinity();
-    for (iterations = 1; iterations <= most_corrections; ++iterations) {
+    for (iterations = 1; iterations <= StaticSearch<D>::most_corrections; ++iterations) {
       ++counters_.newton.iterations;
       if (!search_.linearize(next, next_factor)) return false;
       const Eigen::VectorXd by_factor = response(next, next_factor);

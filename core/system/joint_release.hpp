@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/system/brief.hpp"
 #include "core/system/static_search.hpp"
 
 namespace vlbeam {
@@ -20,8 +19,8 @@ class JointRelease {
       : search_(search), system_(search.system), equations_(search.equations), counters_(search.counters) {}
 
   void release(Eigen::VectorXd& q, const std::function<bool(const Equilibrium&)>& on_point) {
-    const double unit = system_.model().length_control.standard_length, longest = longest_slide * unit;
-    const double neutral = slack * system_.model().section.stiffness.EA / search_.length;
+    const double unit = system_.model().length_control.standard_length, longest = StaticSearch<D>::longest_slide * unit;
+    const double neutral = StaticSearch<D>::slack * system_.model().section.stiffness.EA / search_.length;
     double step = longest;
     int way = 0;
     for (int n = 0; n < most_slides; ++n) {
@@ -69,9 +68,7 @@ class JointRelease {
   }
 
  private:
-  static constexpr double slack = 1e-10;          // over the axial stiffness: of a beam that holds nothing
-  static constexpr double longest_slide = 0.25;   // of a joint that is released, over L_std
-  static constexpr double shortest_slide = 1e-6;  // the same
+  static constexpr double shortest_slide = 1e-6;  // of a joint that is released, over L_std
   static constexpr int most_slides = 100000;
 
   /// How the state changes with x of a joint at its equilibria, and what that does to the force that holds it.
@@ -107,7 +104,7 @@ class JointRelease {
     return false;
   }
 
-  /// The same, or until length control is due.
+  /// How far it may slide that way: until it runs into a node or out of the beam, or until length control is due.
   double room(const Eigen::VectorXd& q, int way) const {
     const auto& control = system_.model().length_control;
     if (!control.enabled || search_.next_is_end(search_.slider, way)) return search_.until_node(search_.slider, q, way);
@@ -116,8 +113,8 @@ class JointRelease {
 
   [[noreturn]] void not_released(const Eigen::VectorXd& q, const std::string& why) {
     throw ComputationFailed("the joint that slides is not released: " + why +
-                                " at x = " + brief(q[equations_.mark(search_.slider)]) + " m, where holding it takes " +
-                                brief(search_.holding_force(q, 1)) + " N",
+                                " at x = " + in_digits(q[equations_.mark(search_.slider)], 4) +
+                                " m, where holding it takes " + in_digits(search_.holding_force(q, 1), 4) + " N",
                             1);
   }
 

@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/system/brief.hpp"
 #include "core/system/equilibrium.hpp"
 #include "core/system/steady_flow.hpp"
 
@@ -89,7 +88,7 @@ std::string free_direction(const BeamSystem<D>& system, StaticEquations<D>& equa
   for (int k = 0; k <= last; ++k) spread = std::max(spread, (position<D>(mode.data(), k) - mean).norm());
   const auto vector = [](const Vec<double, D>& v) {
     std::string out;
-    for (int c = 0; c < D; ++c) out += (c > 0 ? ", " : "(") + brief(std::abs(v[c]) < 1e-6 ? 0 : v[c]);
+    for (int c = 0; c < D; ++c) out += (c > 0 ? ", " : "(") + in_digits(std::abs(v[c]) < 1e-6 ? 0 : v[c], 4);
     return out + ")";
   };
   if (spread < 1e-3 * largest) return "nothing holds it along " + vector(mean.normalized());

@@ -10,8 +10,8 @@
 
 namespace vlbeam {
 
-/// Looks for the equilibrium near a guess, at a load factor: Newton's iteration, relaxation, length control. While
-/// joints are released together, the load factor is the share of the forces that held them that is gone.
+/// Looks for the equilibrium near a guess q, at a load factor. While joints are released together, the factor is the
+/// share of the forces that held them that is gone, and the loads stand still.
 template <int D>
 class StaticSearch {
  public:
@@ -24,6 +24,7 @@ class StaticSearch {
   static constexpr double slack = 1e-10;              // over the axial stiffness: of a beam that holds nothing
   static constexpr double force_by_rounding = 2e-15;  // over EA
   static constexpr int most_events = 9;               // of length control at one instant
+  static constexpr double longest_slide = 0.25;       // of a joint that is released, over L_std
   static constexpr double end_distance = 1e-3;  // from an end of the beam at which a joint is too near, over L_std
 
   StaticSearch(BeamSystem<D>& of, const EquilibriumOptions& with, SolverCounters& counted)
@@ -47,7 +48,7 @@ class StaticSearch {
     return free;
   }
 
-  /// While joints are released together, what else is called the load factor is the share of their forces that is gone.
+  /// The load factor itself.
   double load(double factor) const { return releasing ? 1 : factor; }
 
   Equilibrium point(const Eigen::VectorXd& q, double factor) {
@@ -115,6 +116,7 @@ class StaticSearch {
     return correction <= options.tolerance || (correction < by_rounding && correction > previous / 2);
   }
 
+  /// Newton's iteration with the exact tangent; false where it finds nothing near q, which then is no equilibrium.
   bool newton(Eigen::VectorXd& q, double factor) {
     impose(q, factor);
     double previous = std::numeric_limits<double>::infinity();

@@ -135,7 +135,7 @@ void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& ti
     if (levels.empty()) continue;
     report.measured["finest_error_" + short_name(kind)] = found.back();
     const Run* run = runs.find("variational", {.elements = meshes.back(), .element = kind, .clamp = direction});
-    const Sample* sample = run != nullptr ? sample_at(*run->result, judged_time) : nullptr;
+    const Sample* sample = run != nullptr ? sample_at(*run->result, judged.t) : nullptr;
     if (sample != nullptr) {
       report.measured["judged_error_" + short_name(kind)] = judged.error(*sample) / beam_length_m;
       report.measured["judge_uncertainty"] = judged.uncertainty / beam_length_m;

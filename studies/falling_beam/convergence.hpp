@@ -5,11 +5,9 @@
 
 namespace vlbeam::falling_beam {
 
-constexpr double judged_time = 0.45;  ///< [s], the last one that the judge of this beam answers for
-
 /// The converged reference with its own error, the independent codes, and the errors of all meshes against it.
 void add_reference(StudyReport& report, const Runs& runs, const Times& times, const Json& independent);
-/// Of the finest mesh also against the judge, whose answer at `judged_time` is given.
+/// Of the finest mesh also against the judge, whose last answer is given.
 void add_mesh_convergence(StudyReport& report, const Runs& runs, const Times& times, const Judged& judged);
 
 /// Convergence in quadrature points and in the integrator's tolerance, on fixed meshes.

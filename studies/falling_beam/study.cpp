@@ -28,7 +28,7 @@ StudyReport run(const StudyContext& context) {
                    reference("ding_ouyang_2022_table2.json"));
   add_energy_audit(report, runs, times);
   add_reference(report, runs, times, independent);
-  add_mesh_convergence(report, runs, times, judged_at(context.folder.parent_path(), "falling_beam", judged_time));
+  add_mesh_convergence(report, runs, times, judged_at(context.folder.parent_path(), "falling_beam"));
   add_quadrature_convergence(report, runs, times);
   add_temporal_convergence(report, runs, times);
   add_digits(report, runs, independent);

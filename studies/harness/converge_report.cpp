@@ -1,6 +1,7 @@
 #include <array>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/converge.hpp"
@@ -17,13 +18,6 @@ constexpr std::array<const char*, 3> refined_names{"mesh", "time", "quadrature"}
 Json setting_json(const Scene& scene, const Setting& setting) {
   return {
       {"elements", setting.elements}, {"quadrature_points", setting.points}, {accuracy_name(scene), setting.accuracy}};
-}
-
-std::string digits(double value, int count) {
-  std::ostringstream text;
-  text.precision(count);
-  text << value;
-  return text.str();
 }
 
 }  // namespace
@@ -87,26 +81,27 @@ std::string level_line(const Scene& scene, const ConvergeLevel& level) {
   constexpr std::size_t width = 12;
   const std::string refined = refined_names[static_cast<std::size_t>(level.refined)];
   return "  " + refined + std::string(width - refined.size(), ' ') + setting_text(scene, level.setting) + ": " +
-         (level.failure.empty() ? digits(level.value, 10) : level.failure) + ", " + digits(level.seconds, 2) + " s\n";
+         (level.failure.empty() ? in_digits(level.value, 10) : level.failure) + ", " + in_digits(level.seconds, 2) +
+         " s\n";
 }
 
 std::string convergence_summary(const Scene& given, const Convergence& found) {
   const Scene scene = to_converge(given);
   std::ostringstream text;
-  text << found.quantity << " at t = " << number_text(found.t) << " s: " << digits(found.answer, 10) << " +- "
-       << digits(found.uncertainty, 2) << " " << found.unit << '\n';
+  text << found.quantity << " at t = " << number_text(found.t) << " s: " << in_digits(found.answer, 10) << " +- "
+       << in_digits(found.uncertainty, 2) << " " << found.unit << '\n';
   for (std::size_t i = 0; i < refined_names.size(); ++i) {
     if (!found.parts[i]) continue;
     const GridConvergence& part = *found.parts[i];
     text << "  " << refined_names[i] << std::string(12 - std::string_view(refined_names[i]).size(), ' ') << "+- "
-         << digits(part.uncertainty, 2)
-         << (part.order ? ", order " + digits(*part.order, 3) : ", no order: " + part.refusal) << '\n';
+         << in_digits(part.uncertainty, 2)
+         << (part.order ? ", order " + in_digits(*part.order, 3) : ", no order: " + part.refusal) << '\n';
   }
   if (found.reached) {
-    text << "  the error wanted, " << digits(found.error, 3) << ", is reached\n";
+    text << "  the error wanted, " << in_digits(found.error, 3) << ", is reached\n";
     if (found.cheapest) text << "  cheapest    " << setting_text(scene, *found.cheapest) << '\n';
   } else {
-    text << "  the error wanted, " << digits(found.error, 3) << ", is NOT reached: " << found.reason
+    text << "  the error wanted, " << in_digits(found.error, 3) << ", is NOT reached: " << found.reason
          << "\n  it is kept until t = " << number_text(found.predictable_until) << " s\n";
   }
   if (found.horizon) {
@@ -114,7 +109,7 @@ std::string convergence_summary(const Scene& given, const Convergence& found) {
          << number_text(*found.horizon) << " s\n";
   }
   text << "  finest      " << setting_text(scene, found.finest) << '\n'
-       << "  cost        " << found.levels.size() << " runs, worth " << digits(found.cost, 3) << " of the finest\n";
+       << "  cost        " << found.levels.size() << " runs, worth " << in_digits(found.cost, 3) << " of the finest\n";
   return text.str();
 }
 

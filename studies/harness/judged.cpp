@@ -5,37 +5,36 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/geometry/elementary.hpp"
 #include "studies/harness/json.hpp"
+#include "studies/harness/measures.hpp"
 
 namespace vlbeam {
 
 double Judged::error(const Sample& sample) const {
   constexpr double lacks = std::numeric_limits<double>::quiet_NaN();
-  const auto apart = [](const Point& a, const Point& b) {
-    return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-  };
-  double largest = end ? apart(*end, sample.end) : 0;
+  double largest = end ? distance(*end, sample.end) : 0;
   if (joint) {
     if (!sample.joint_position) return lacks;
     largest = std::max(largest, std::abs(*joint - *sample.joint_position));
   }
   if (mass) {
     if (!sample.mass_position) return lacks;
-    largest = std::max(largest, apart(*mass, *sample.mass_position));
+    largest = std::max(largest, distance(*mass, *sample.mass_position));
   }
   return largest;
 }
 
-Judged judged_at(const std::filesystem::path& studies, const std::string& name, double t) {
+Judged judged_at(const std::filesystem::path& studies, const std::string& name, std::optional<double> t) {
   const Json answers = read_json(studies.parent_path() / "reference" / "judge" / "judge.json").at("cases");
   const auto found = std::ranges::find_if(answers, [&](const Json& one) { return one.at("case") == name; });
   if (found == answers.end()) throw InvalidInput("/cases", name, "a case of reference/judge/judge.json");
   const auto times = found->at("t").get<std::vector<double>>();
-  const auto time = std::ranges::find_if(times, [t](double known) { return std::abs(known - t) < 1e-9; });
-  if (time == times.end()) throw InvalidInput("/t", std::to_string(t), "a time of the judge's case " + name);
+  const double at = t.value_or(times.back());
+  const auto time = std::ranges::find_if(times, [at](double known) { return std::abs(known - at) < 1e-9; });
+  if (time == times.end()) throw InvalidInput("/t", std::to_string(at), "a time of the judge's case " + name);
   const auto index = static_cast<std::size_t>(time - times.begin());
   Judged judged;
+  judged.t = *time;
   const auto number = [&](const std::string& quantity) -> std::optional<double> {
     const auto known = found->at("quantities").find(quantity);
     if (known == found->at("quantities").end()) return std::nullopt;

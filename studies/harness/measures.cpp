@@ -12,11 +12,11 @@
 namespace vlbeam {
 namespace {
 
-double distance(const Point& a, const Point& b) { return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
-
 Vec<double, 2> planar(const Point& p) { return {p[0], p[1]}; }
 
 }  // namespace
+
+double distance(const Point& a, const Point& b) { return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 const Sample* sample_at(const RunResult& result, double t) {
   for (const Sample& sample : result.samples) {

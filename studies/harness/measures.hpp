@@ -11,6 +11,9 @@ namespace vlbeam {
 
 inline constexpr double beam_length_m = 1;  ///< L [m]; positions are compared in units of it
 
+/// Between two points [m].
+double distance(const Point& a, const Point& b);
+
 /// The sample at time t [s], or nothing.
 const Sample* sample_at(const RunResult& result, double t);
 

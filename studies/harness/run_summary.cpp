@@ -3,6 +3,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "scene/derived.hpp"
 #include "scene/energy_ledger.hpp"
 #include "scene/names.hpp"
@@ -13,28 +14,21 @@
 namespace vlbeam {
 namespace {
 
-std::string short_number(double value, int digits = 6) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << value;
-  return text.str();
-}
-
 std::string point_text(const Point& point, int dimension) {
   std::string text;
   for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
-    text += (i > 0 ? ", " : "(") + short_number(point[i], 8);
+    text += (i > 0 ? ", " : "(") + in_digits(point[i], 8);
   }
   return text + ") m";
 }
 
 std::string beam_text(const Scene& scene) {
   std::string text = std::to_string(scene.beam.elements) + " elements " + std::string(to_string(scene.beam.element)) +
-                     ", " + std::string(to_string(scene.formulation)) + ", " + short_number(beam_length(scene)) + " m";
+                     ", " + std::string(to_string(scene.formulation)) + ", " + six_digits(beam_length(scene)) + " m";
   for (const SlidingJointSpec& joint : sliding_joints(scene)) {
     text += joint.support == SupportType::pin     ? "; runs through a ring"
             : joint.support == SupportType::clamp ? "; runs through a sleeve"
-                                                  : "; " + short_number(joint.mass) + " kg slides on it";
+                                                  : "; " + six_digits(joint.mass) + " kg slides on it";
   }
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";
@@ -52,17 +46,17 @@ std::string integrator_text(const IntegratorSpec& integrator) {
   const bool fixed = has_fixed_step(integrator.type) && !integrator.adaptive;
   if (fixed) return type + ", steps of " + number_text(integrator.step) + " s";
   const auto& by_kind = integrator.atol_by_kind;
-  const std::string atol = by_kind ? short_number(by_kind->length) + " m, " + short_number(by_kind->velocity) + " m/s"
-                                   : short_number(integrator.atol);
-  const std::string longest = integrator.adaptive ? ", steps up to " + short_number(integrator.step) + " s" : "";
-  return type + ", rtol " + short_number(integrator.rtol) + ", atol " + atol + longest;
+  const std::string atol = by_kind ? six_digits(by_kind->length) + " m, " + six_digits(by_kind->velocity) + " m/s"
+                                   : six_digits(integrator.atol);
+  const std::string longest = integrator.adaptive ? ", steps up to " + six_digits(integrator.step) + " s" : "";
+  return type + ", rtol " + six_digits(integrator.rtol) + ", atol " + atol + longest;
 }
 
 /// What was asked of an automatic run, what error that means, and why this method was taken.
 std::string choice_text(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
-  return "for an accuracy of " + short_number(integrator.accuracy) + ", in time, so " +
-         short_number(integrator.accuracy * beam_length(scene), 2) + " m: " + integrator.reason;
+  return "for an accuracy of " + six_digits(integrator.accuracy) + ", in time, so " +
+         in_digits(integrator.accuracy * beam_length(scene), 2) + " m: " + integrator.reason;
 }
 
 std::string events_text(const std::vector<Event>& events) {
@@ -76,10 +70,10 @@ std::string events_text(const std::vector<Event>& events) {
 
 /// When the run failed, or what slides left the beam.
 std::string when_text(const RunResult& result) {
-  if (result.status == RunStatus::failed) return " at t = " + short_number(result.failure_time) + " s";
+  if (result.status == RunStatus::failed) return " at t = " + six_digits(result.failure_time) + " s";
   std::string text;
   for (const Event& event : result.events) {
-    if (event.type == EventType::separation) text += (text.empty() ? " at t = " : ", ") + short_number(event.t) + " s";
+    if (event.type == EventType::separation) text += (text.empty() ? " at t = " : ", ") + six_digits(event.t) + " s";
   }
   return text;
 }
@@ -88,7 +82,7 @@ std::string when_text(const RunResult& result) {
 std::string steps_text(const Scene& scene, const RunResult& result) {
   const SolverCounters& s = result.solver;
   std::string text = std::to_string(s.steps) + ", " + std::to_string(s.rejected) + " rejected, the shortest " +
-                     short_number(s.smallest_step, 3) + " s; limited by ";
+                     in_digits(s.smallest_step, 3) + " s; limited by ";
   if (!has_fixed_step(scene.integrator.type)) return text + "the error tolerance";
   if (scene.integrator.type == IntegratorType::generalized_alpha && scene.integrator.adaptive) {
     return text + "the error tolerance and the longest step";
@@ -99,7 +93,7 @@ std::string steps_text(const Scene& scene, const RunResult& result) {
 /// Energy [J] beside others, the largest of which is `size`: what is rounding of those is shown as 0.
 std::string energy_text(double energy, double size, int digits) {
   constexpr double shown = 1e-14;
-  return short_number(std::abs(energy) > shown * size ? energy : 0, digits) + " J";
+  return in_digits(std::abs(energy) > shown * size ? energy : 0, digits) + " J";
 }
 
 /// The largest of all energies of a run [J].
@@ -129,8 +123,7 @@ std::string stability_text(const StaticSample& at) {
 
 /// What a motion starts from.
 std::string start_text(const StaticSample& at, bool with_joint) {
-  const std::string held =
-      at.holding_force == 0 ? "" : ", held until then by " + short_number(at.holding_force, 8) + " N";
+  const std::string held = at.holding_force == 0 ? "" : ", held until then by " + in_digits(at.holding_force, 8) + " N";
   return "equilibrium" + stability_text(at) + (with_joint ? "; joint free" + held : "");
 }
 
@@ -140,9 +133,8 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
     text << "  " << name << std::string(16 - std::string_view(name).size(), ' ') << value << '\n';
   };
   text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
-  line("status",
-       std::string(to_string(result.status)) +
-           (result.status == RunStatus::failed ? " at load factor " + short_number(result.failure_time) : ""));
+  line("status", std::string(to_string(result.status)) +
+                     (result.status == RunStatus::failed ? " at load factor " + six_digits(result.failure_time) : ""));
   line("beam", beam_text(scene));
   line("equilibria", std::to_string(result.samples.size()) + ", control by " +
                          std::string(to_string(scene.statics.control)) + ", " +
@@ -150,17 +142,17 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
   if (!result.samples.empty()) {
     const Sample& last = result.samples.back();
     const StaticSample& at = *last.equilibrium;
-    line("last", "load factor " + short_number(at.load_factor, 8) + stability_text(at));
+    line("last", "load factor " + in_digits(at.load_factor, 8) + stability_text(at));
     line("end of beam", point_text(last.end, scene.dimension));
     if (last.joint_position) {
       const double holding = last.equilibrium->holding_force;
-      line("joint", "at " + short_number(*last.joint_position, 10) + " m along the beam" +
-                        (holding == 0 ? ", free" : ", held by " + short_number(holding, 8) + " N"));
+      line("joint", "at " + in_digits(*last.joint_position, 10) + " m along the beam" +
+                        (holding == 0 ? ", free" : ", held by " + in_digits(holding, 8) + " N"));
     }
-    line("energy", short_number(last.energy.total(), 8) + " J");
+    line("energy", in_digits(last.energy.total(), 8) + " J");
   }
-  for (const double frequency : result.frequencies) line("frequency", short_number(frequency, 8) + " Hz");
-  line("wall time", short_number(result.timing.motion, 3) + " s");
+  for (const double frequency : result.frequencies) line("frequency", in_digits(frequency, 8) + " Hz");
+  line("wall time", in_digits(result.timing.motion, 3) + " s");
   return text.str();
 }
 
@@ -181,9 +173,9 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   if (!result.samples.empty()) {
     const Sample &first = result.samples.front(), &last = result.samples.back();
     if (first.equilibrium) line("start", start_text(*first.equilibrium, sliding_joint(scene) != nullptr));
-    line("time reached", short_number(last.t, 8) + " s of " + short_number(scene.duration, 8) + " s");
+    line("time reached", in_digits(last.t, 8) + " s of " + in_digits(scene.duration, 8) + " s");
     line("end of beam", point_text(last.end, scene.dimension));
-    if (last.joint_position) line("joint position", short_number(*last.joint_position, 8) + " m");
+    if (last.joint_position) line("joint position", in_digits(*last.joint_position, 8) + " m");
     if (last.mass_position) line("mass position", point_text(*last.mass_position, scene.dimension));
     const double size = largest_energy(result);
     line("total energy", energy_text(last.energy.total(), size, 8) + ", at the start " +
@@ -193,8 +185,8 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   }
   line("events", events_text(result.events));
   line("steps", steps_text(scene, result));
-  line("wall time", short_number(result.timing.motion, 3) + " s motion, " +
-                        short_number(result.timing.length_control, 3) + " s length control");
+  line("wall time", in_digits(result.timing.motion, 3) + " s motion, " + in_digits(result.timing.length_control, 3) +
+                        " s length control");
   for (const Warning& warning : result.warnings) {
     line("warning", warning.message);
     line("", "try: " + warning.remedy);

@@ -158,13 +158,11 @@ class Report {
     BeamSystem<2> system(model, chain);
     int events = 0;
     system.on_event = [&events](const EventRecord<2>&) { ++events; };
-    const std::vector<double>& x = system.mesh().x;
-    double shortest = x.back();
-    for (std::size_t k = 1; k < x.size(); ++k) shortest = std::min(shortest, x[k] - x[k - 1]);
     Eigen::VectorXd y = system.initial_state();
     double t = 0;
     SolverCounters counters;
-    integrate(system, y, t, scene.duration, {}, integration_options(scene, model.section, shortest), counters);
+    integrate(system, y, t, scene.duration, {}, integration_options(scene, model.section, system.mesh().shortest()),
+              counters);
     Errors errors = errors_of(motion_, system.chain(y, t), model.transport, t);
     errors.steps = static_cast<int>(counters.steps);
     errors.events = events;

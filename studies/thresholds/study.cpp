@@ -21,8 +21,6 @@ struct Case {
   Scene scene;
 };
 
-constexpr double judged_time = 0.45;  // [s], the last one that the judge of the falling beam answers for
-
 constexpr ElementKind kinds[] = {ElementKind::ale_rancf, ElementKind::ale_ancf};
 
 std::string kind_key(ElementKind element) { return element == ElementKind::ale_ancf ? "ancf" : "rancf"; }
@@ -85,7 +83,7 @@ class Report {
  public:
   Report(const StudyContext& context, const std::vector<Case>& cases)
       : folder_(context.folder.string()),
-        judged_(judged_at(context.folder.parent_path(), "falling_beam", judged_time)),
+        judged_(judged_at(context.folder.parent_path(), "falling_beam")),
         cases_(cases),
         outcomes_(context.sweep(
             cases,
@@ -168,7 +166,7 @@ class Report {
           if (control.hysteresis == 0.001) {
             const std::string trigger = "_" + number_text(control.upper);
             report_.measured["error_" + key + trigger] = error;
-            const Sample* sample = item.beam == "falling" ? sample_at(run, judged_time) : nullptr;
+            const Sample* sample = item.beam == "falling" ? sample_at(run, judged_.t) : nullptr;
             if (sample != nullptr) {
               report_.measured["judged_error_" + key + trigger] = judged_.error(*sample) / beam_length_m;
               report_.measured["judge_uncertainty"] = judged_.uncertainty / beam_length_m;

@@ -17,8 +17,6 @@ namespace weights {
 namespace {
 
 constexpr double early = 0.5, late = 0.65;  // [s], before and after the whip
-constexpr double judged_time = 0.45;        // [s], the last one that the judge of the falling beam answers for
-
 struct Case {
   std::string group;  ///< mesh | reference | other reference | implicit | policy | initial
   Scene scene;
@@ -117,7 +115,7 @@ class Report {
  public:
   Report(const StudyContext& context, const std::vector<Case>& cases)
       : folder_(context.folder.string()),
-        judged_(judged_at(context.folder.parent_path(), "falling_beam", judged_time)),
+        judged_(judged_at(context.folder.parent_path(), "falling_beam")),
         cases_(cases),
         outcomes_(context.sweep(
             cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); }, cost)) {
@@ -224,7 +222,7 @@ class Report {
       report_.measured["moved_" + key] = moved;
       report_.measured["sigma_" + key] = sigma;
       if (std::isfinite(at_early)) report_.measured["error_early_" + key] = at_early;
-      if (const Sample* sample = sample_at(result, judged_time); sample != nullptr) {
+      if (const Sample* sample = sample_at(result, judged_.t); sample != nullptr) {
         report_.measured["judged_error_" + key] = judged_.error(*sample) / beam_length_m;
         report_.measured["judge_uncertainty"] = judged_.uncertainty / beam_length_m;
       }
