@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/element/quadrature.hpp"
 #include "core/length_control/chain_motion.hpp"
@@ -157,12 +158,13 @@ class Report {
     follow(motion_, chain);
     BeamSystem<2> system(model, chain);
     int events = 0;
+    system.on_step = StudyContext::until_interrupted();
     system.on_event = [&events](const EventRecord<2>&) { ++events; };
     Eigen::VectorXd y = system.initial_state();
     double t = 0;
     SolverCounters counters;
-    integrate(system, y, t, scene.duration, {}, integration_options(scene, model.section, system.mesh().shortest()),
-              counters);
+    const auto options = integration_options(scene, model.section, system.mesh().shortest());
+    if (!integrate(system, y, t, scene.duration, {}, options, counters)) throw std::runtime_error("interrupted");
     Errors errors = errors_of(motion_, system.chain(y, t), model.transport, t);
     errors.steps = static_cast<int>(counters.steps);
     errors.events = events;
