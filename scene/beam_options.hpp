@@ -26,6 +26,7 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     const Condition line = only_if(curve_type, beam.curve.type, CurveType::line);
     const Condition arc = only_if(curve_type, beam.curve.type, CurveType::arc);
     const Condition nurbs = only_if(curve_type, beam.curve.type, CurveType::nurbs);
+    const Condition polyline = only_if(curve_type, beam.curve.type, CurveType::polyline);
     vector("/beam/curve/start", "m", "where the beam starts", beam.curve.start, {.source = example1, .when = line});
     vector("/beam/curve/end", "m", "where the beam ends", beam.curve.end, {.source = example1, .when = line});
     vector("/beam/curve/center", "m", "center of the circle; in 3D it lies in a plane parallel to the first two axes",
@@ -44,6 +45,10 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
            beam.curve.weights, {.when = nurbs});
     vector("/beam/curve/control_points", "m", "control points", beam.curve.control_points,
            {.when = nurbs, .required = true});
+    vector("/beam/curve/points", "m",
+           "where the axis starts, its corners, where it ends; a corner is for a joint whose slopes are free or "
+           "equal-stretch, and any other of a rope (EI = 0) becomes round",
+           beam.curve.points, {.when = polyline, .required = true});
   }
 
   void cross_section() {

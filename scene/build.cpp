@@ -10,6 +10,7 @@
 #include "core/length_control/rest_arc.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_loads.hpp"
+#include "scene/corners.hpp"
 #include "scene/options.hpp"
 #include "scene/time_function.hpp"
 
@@ -120,22 +121,10 @@ Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent)
 
 template <int D>
 Axis<D> build_axis(const Scene& scene) {
-  const CurveSpec& curve = scene.beam.curve;
-  constexpr double degree = std::numbers::pi / 180;
-  switch (curve.type) {
-    case CurveType::arc:
-      return Axis<D>::arc(vector_of<D>(curve.center), curve.radius, curve.from_degrees * degree,
-                          curve.to_degrees * degree);
-    case CurveType::nurbs: {
-      Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, {}};
-      for (const Point& point : curve.control_points) nurbs.points.push_back(vector_of<D>(point));
-      if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
-      return Axis<D>::nurbs(nurbs);
-    }
-    case CurveType::line:
-      break;
-  }
-  return Axis<D>::line(vector_of<D>(curve.start), vector_of<D>(curve.end));
+  const Axis<D> drawn = drawn_axis<D>(scene.beam.curve);
+  if (drawn.kinks().empty()) return drawn;
+  const auto round = rounded_corners(scene, drawn_axis<3>(scene.beam.curve));
+  return drawn.rounded(round, drawn.length() / scene.beam.elements);
 }
 
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) {
@@ -143,9 +132,16 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
   InitialNodes nodes{uniform_nodes(breaks, n)};
   const auto joints = sliding_joints(scene);
   for (std::size_t which = 0; which < joints.size(); ++which) {
-    const double x = joints[which].position;
-    // the nearest interior node moves to the joint, unless the curve or another joint needs it where it is
+    const double x = position_on_axis(scene.beam.curve, breaks, joints[which].position);
     const int first = nodes.joints.empty() ? 1 : nodes.joints.back() + 1;
+    if (std::binary_search(breaks.begin(), breaks.end(), x)) {
+      const int there = static_cast<int>(std::ranges::lower_bound(nodes.x, x) - nodes.x.begin());
+      if (first <= there && there < n) {
+        nodes.joints.push_back(there);
+        continue;
+      }
+    }
+    // the nearest interior node moves to the joint, unless the curve or another joint needs it where it is
     auto may_move = [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       return !std::binary_search(breaks.begin(), breaks.end(), nodes.x[i]) && nodes.x[i - 1] < x && x < nodes.x[i + 1];
@@ -254,17 +250,19 @@ BeamModel<D> build_model(const Scene& scene) {
   model.end_motion = motion_of(scene.end.motion);
   model.start_releases = scene.start.type == SupportType::free;
   model.end_releases = scene.end.type == SupportType::free;
+  const InitialNodes placed = place_nodes(scene, axis.breaks());
   for (const SlidingJointSpec& spec : sliding_joints(scene)) {
+    const double x = placed.x[static_cast<std::size_t>(placed.joints[model.joints.size()])];
     ModelJoint<D>& joint = model.joints.emplace_back();
     joint.law = SlidingJoint{spec.mass, joint_slopes(scene, spec), spec.friction};
     if (spec.support == SupportType::pin) joint.support = Support<D>::pin();
     if (spec.support == SupportType::clamp) {
-      joint.support = Support<D>::direction_clamp(axis.tangent(spec.position));
+      joint.support = Support<D>::direction_clamp(axis.tangent(x));
     }
     joint.motion = motion_of(spec.motion);
     joint.separation_distance = separation_distance(scene, spec);
     joint.at_support = {spec.at_support, spec.restitution};
-    if (spec.x) joint.x = travelling(spec.position, acting(*spec.x, scene.analysis));
+    if (spec.x) joint.x = travelling(x, acting(*spec.x, scene.analysis));
     joint.pitch = spec.pitch.value_or(0);
   }
   const ContactSpec contact = scene.contact.value_or(ContactSpec{});
@@ -278,6 +276,11 @@ BeamModel<D> build_model(const Scene& scene) {
     });
   }
   if (scene.end.feed) model.joints.emplace_back().x = travelling(axis.length(), time_function(*scene.end.feed));
+  for (const Knot& knot : knots(scene)) {
+    ModelJoint<D>& joint = model.joints.emplace_back();
+    joint.law.slopes = knot.slopes;
+    joint.x = [x = placed.x[static_cast<std::size_t>(knot.node)]](double) -> Prescribed { return {x, 0, 0}; };
+  }
   model.masses.points = build_point_masses(scene, axis.breaks());
   const double of_mass = scene.beam.material.mass_damping * model.section.rhoA;
   const DragSpec drag = scene.drag.value_or(DragSpec{});
@@ -287,9 +290,9 @@ BeamModel<D> build_model(const Scene& scene) {
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);
-  if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis);
+  if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis.straightened());
   auto [loads, torques] = build_loads<D>(scene);
-  const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;
+  const std::vector<double>& nodes = placed.x;
   const auto stay = [&](auto& points) {  // at what the node marks now, wherever it moves to
     if (flows(scene)) return;
     for (auto& load : points) {
@@ -333,15 +336,28 @@ ChainState<D> build_shape(const Scene& scene) {
     slope<D>(chain.q.data(), k) = shape.r_x[i];
     if (k < scene.beam.elements) chain.mesh.weights.push_back({shape.weights[i], x[i], x[i + 1]});
   }
-  if (has_rest_shape(scene)) chain.rest = chain.q;
-  const auto joints = sliding_joints(scene);
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const int j = nodes.joints[i];
-    auto& joint = chain.joints.emplace_back();
-    joint = {.node = j, .index = static_cast<int>(i)};
-    if (joint_slopes(scene, joints[i]) == JointSlopes::continuous) continue;
-    joint.kink = {slope<D>(chain.q.data(), j), Vec<double, D>::Zero()};
+  if (has_rest_shape(scene)) {
+    chain.rest = chain.q;
+    const Axis<D> rest = axis.straightened();
+    for (int k = 0; !axis.kinks().empty() && k <= scene.beam.elements; ++k) {
+      const auto at = rest.derivatives(x[static_cast<std::size_t>(k)]);
+      position<D>(chain.rest.data(), k) = at[0];
+      slope<D>(chain.rest.data(), k) = at[1];
+    }
   }
+  const auto joints = sliding_joints(scene);
+  const auto add_joint = [&](int node, std::size_t index, JointSlopes slopes) {
+    auto& joint = chain.joints.emplace_back();
+    joint = {.node = node, .index = static_cast<int>(index)};
+    if (slopes == JointSlopes::continuous) return;
+    const double at = x[static_cast<std::size_t>(node)];
+    const bool kinked = std::ranges::find(axis.kinks(), at) != axis.kinks().end();
+    joint.kink = {kinked ? axis.tangent(at) : Vec<double, D>(slope<D>(chain.q.data(), node)), Vec<double, D>::Zero()};
+  };
+  for (std::size_t i = 0; i < joints.size(); ++i) add_joint(nodes.joints[i], i, joint_slopes(scene, joints[i]));
+  std::size_t index = joints.size() + (scene.start.feed ? 1 : 0) + (scene.end.feed ? 1 : 0);
+  for (const Knot& knot : knots(scene)) add_joint(knot.node, index++, knot.slopes);
+  std::ranges::sort(chain.joints, {}, [](const auto& joint) { return joint.node; });
   const LengthControl control = build_length_control(scene);
   const bool even = has_rest_shape(scene) && axis_form(scene) == AxisForm::even;
   if (even && control.enabled && takes_rest_arc(chain, control) &&
@@ -374,8 +390,9 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
   add_rigid_motion(scene, axis, chain);
   // the beam is at rest or moves as a rigid body, so each moving node travels along it
   const auto joints = sliding_joints(scene);
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    auto& joint = chain.joints[i];
+  for (auto& joint : chain.joints) {
+    const auto i = static_cast<std::size_t>(joint.index);
+    if (i >= joints.size()) continue;  // a knot, which rests in the beam
     const int j = joint.node;
     const double x = chain.mesh.x[static_cast<std::size_t>(j)];
     const auto r_x = slope<D>(chain.q.data(), j);
@@ -401,7 +418,7 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     slope<D>(chain.rate.data(), j) = joint.kink ? before : Vec<double, D>((before + behind) / 2);
     if (held) position<D>(chain.rate.data(), j).setZero();
     if (joints[i].support != SupportType::clamp) continue;
-    const auto sleeve = Support<D>::direction_clamp(axis.tangent(joints[i].position));
+    const auto sleeve = Support<D>::direction_clamp(axis.tangent(x));
     slope<D>(chain.rate.data(), j) =
         sleeve.out_of_frame((sleeve.into_frame(slope<D>(chain.rate.data(), j)).array() * sleeve.free_slope).matrix());
   }

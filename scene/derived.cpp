@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/build.hpp"
+#include "scene/corners.hpp"
 #include "scene/options.hpp"
 
 namespace vlbeam {
@@ -17,7 +18,7 @@ constexpr double slender = 100 * (1 + 1e-6);
 constexpr double separation_share = 1e-3;  // of the beam's length
 constexpr double default_end_merge = 0.5;  // of L_std
 
-bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && scene.beam.curve.type != CurveType::line; }
+bool is_curved_at_rest(const Scene& scene) { return has_rest_shape(scene) && is_curved(scene); }
 
 }  // namespace
 
@@ -37,10 +38,16 @@ Scene scene_in(SceneSetting setting) {
   return scene;
 }
 
+bool is_curved(const Scene& scene) {
+  const CurveSpec& curve = scene.beam.curve;
+  if (curve.type == CurveType::line) return false;
+  return !may_have_corners(curve) || !build_axis<3>(scene).straightened().straight();
+}
+
 bool has_rest_shape(const Scene& scene) {
   const auto& weights = scene.beam.weights;
   const bool unit = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
-  return scene.beam.rest_shape == RestShape::as_built && (scene.beam.curve.type != CurveType::line || !unit);
+  return scene.beam.rest_shape == RestShape::as_built && (!unit || is_curved(scene));
 }
 
 int quadrature_points(const Scene& scene) {
@@ -60,7 +67,7 @@ double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
 
 AxisForm axis_form(const Scene& scene) {
-  const bool curved = scene.beam.curve.type != CurveType::line;
+  const bool curved = is_curved(scene);
   const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && sliding_joint(scene));
   const bool exact = scene.setting == SceneSetting::ding_ouyang_2022 && curved && can_be_exact;
   return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
@@ -92,9 +99,9 @@ double end_merge(const Scene& scene) {
       sliding_joint(scene) && joint_slopes(scene, sliding_joints(scene).front()) != JointSlopes::continuous;
   const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
   const bool held = joint_support(scene) != SupportType::free || guided(scene) || threaded(scene);  // it needs a node
-  const bool several = scene.sliding_joints.size() > 1;
+  const bool several = has_several_joints(scene);
   const double otherwise =
-      !scene.length_control.enabled || (kinked && stops) || held || several || fed(scene) ? 0 : default_end_merge;
+      !scene.length_control.enabled || (kinked && stops) || held || several ? 0 : default_end_merge;
   return scene.length_control.end_merge.value_or(otherwise);
 }
 
@@ -112,10 +119,14 @@ bool joints_may_rest(const Scene& scene) {
   return std::ranges::none_of(joints, [](const SlidingJointSpec& joint) { return joint.friction || joint.pitch; });
 }
 
+bool has_several_joints(const Scene& scene) {
+  return scene.sliding_joints.size() > 1 || fed(scene) || !knots(scene).empty();
+}
+
 double merge_below(const Scene& scene) {
   const auto& control = scene.length_control;
-  const bool several = scene.sliding_joints.size() > 1 || fed(scene);
-  const double otherwise = control.enabled && several ? 2 - control.upper * (1 + control.hysteresis) : 0;
+  const double otherwise =
+      control.enabled && has_several_joints(scene) ? 2 - control.upper * (1 + control.hysteresis) : 0;
   return control.lower.value_or(otherwise);
 }
 

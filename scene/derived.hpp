@@ -23,6 +23,9 @@ AxialStrain axial_strain(const Scene& scene);
 double beam_length(const Scene& scene);
 double standard_length(const Scene& scene);
 
+/// Whether the beam's axis is curved: corners do not count, where joints and knots stand.
+bool is_curved(const Scene& scene);
+
 /// Whether strains are measured from a shape other than a straight, unstrained one.
 bool has_rest_shape(const Scene& scene);
 
@@ -66,6 +69,8 @@ inline bool threaded(const Scene& scene) {
 }
 /// Whether beam comes in or leaves through its ends.
 inline bool fed(const Scene& scene) { return scene.start.feed || scene.end.feed; }
+/// Whether there are more nodes that can move along the beam than that of one sliding joint.
+bool has_several_joints(const Scene& scene);
 inline std::string joint_key(const Scene& scene, std::size_t which = 0) {
   return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/" + std::to_string(which);
 }

@@ -28,7 +28,7 @@ constexpr auto names(ElementKind) {
 }
 constexpr auto names(CurveType) {
   using enum CurveType;
-  return std::to_array<Named<CurveType>>({{line, "line"}, {arc, "arc"}, {nurbs, "nurbs"}});
+  return std::to_array<Named<CurveType>>({{line, "line"}, {arc, "arc"}, {nurbs, "nurbs"}, {polyline, "polyline"}});
 }
 constexpr auto names(RestShape) {
   return std::to_array<Named<RestShape>>({{RestShape::as_built, "as-built"}, {RestShape::paper, "paper"}});

@@ -20,6 +20,13 @@ Reaction reaction_of(const Eigen::Matrix<double, 2 * D, 1>& force) {
   return {point_of<D>(force.template head<D>()), point_of<D>(force.template tail<D>())};
 }
 
+/// The direction in the middle between two unit tangents at a kink; the first of opposite ones.
+template <class Vector>
+Vector between(const Vector& before, const Vector& behind) {
+  const Vector sum = before + behind;
+  return sum.norm() > 1e-9 ? Vector(sum.normalized()) : before;
+}
+
 inline StrainSample strain_sample(const StrainExtremes& extremes) {
   return {{extremes.strain.least, extremes.strain.largest},
           {extremes.force.least, extremes.force.largest},

@@ -50,7 +50,7 @@ enum class ClampType {
 };
 
 /// Kinds of initial axes.
-enum class CurveType { line, arc, nurbs };
+enum class CurveType { line, arc, nurbs, polyline };
 
 /// The initial axis of the beam; its length is the beam's length.
 struct CurveSpec {
@@ -63,6 +63,7 @@ struct CurveSpec {
   int degree = 3;                                ///< nurbs
   std::vector<double> knots = {}, weights = {};  ///< nurbs; no weights are equal weights
   std::vector<Point> control_points = {};        ///< nurbs [m]
+  std::vector<Point> points = {};                ///< polyline [m]
 };
 
 /// The cross-section: a solid circle of the beam's material, or stiffnesses and masses per length.

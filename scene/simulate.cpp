@@ -197,7 +197,7 @@ class Run {
       tangent = system_.rider_motion(y.data(), y.data() + system_.coordinates()).r_x.normalized();
     } else {
       tangent = slope<D>(chain.q.data(), joint->node).normalized();
-      if (joint->kink) tangent = (tangent + joint->kink->slope.normalized()).normalized();
+      if (joint->kink) tangent = between<Vec<double, D>>(tangent, joint->kink->slope.normalized());
     }
     const double along = force.dot(tangent);
     return {chain.rider ? chain.rider->rate : joint->rate, point_of<D>(force), along, (force - along * tangent).norm(),

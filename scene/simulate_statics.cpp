@@ -10,7 +10,7 @@ namespace vlbeam {
 namespace {
 
 template <int D>
-Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number) {
+Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number, std::size_t joints) {
   const auto seen = system.observe(at.y, at.factor, ledger_points, true);
   const ChainState<D> chain = system.chain(at.y, number);
   Sample sample;
@@ -25,18 +25,20 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const auto& joint = chain.joints[i];
-    const Vec<double, D> place = position<D>(chain.q.data(), joint.node), &force = forces.on_masses[i];
+    const auto index = static_cast<std::size_t>(joint.index);
+    if (index >= joints) continue;  // a knot
+    const Vec<double, D> place = position<D>(chain.q.data(), joint.node), &force = forces.on_masses[index];
     Vec<double, D> tangent = slope<D>(chain.q.data(), joint.node).normalized();
-    if (joint.kink) tangent = (tangent + joint.kink->slope.normalized()).normalized();
-    const double along = force.dot(tangent), held = chain.joints.size() > 1 ? at.holding[i] : 0;
+    if (joint.kink) tangent = between<Vec<double, D>>(tangent, joint.kink->slope.normalized());
+    const double along = force.dot(tangent), held = joints > 1 ? at.holding[i] : 0;
     const SlidingSample seen_there{chain.mesh.x[static_cast<std::size_t>(joint.node)], point_of<D>(place),
                                    JointSample{0, point_of<D>(force), along, (force - along * tangent).norm(), held}};
-    if (i == 0) {
+    if (index == 0) {
       sample.joint_position = seen_there.position;
       sample.mass_position = seen_there.mass_position;
       sample.joint = seen_there.on_beam;
     }
-    if (chain.joints.size() > 1) sample.joints.push_back(seen_there);
+    if (joints > 1) sample.joints.push_back(seen_there);
   }
   if (!system.model().loads.present()) return sample;
   FlowSample flow;
@@ -54,12 +56,13 @@ template <int D>
 RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress) {
   BeamSystem<D> system(build_model<D>(scene), build_chain<D>(scene));
   const StaticsSpec& statics = scene.statics;
+  const std::size_t joints = sliding_joints(scene).size();
   RunResult result;
   std::optional<Equilibrium> last;
   const auto started = std::chrono::steady_clock::now();
   const auto on_point = [&](const Equilibrium& at) {
     const auto number = static_cast<double>(result.samples.size());
-    result.samples.push_back(static_sample(system, at, number));
+    result.samples.push_back(static_sample(system, at, number, joints));
     result.configurations.push_back(configuration_of(system.chain(at.y, number), number, weight_transport(scene)));
     last = at;
     const bool goes_on = !progress || progress(at.factor);

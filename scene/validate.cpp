@@ -8,6 +8,7 @@
 #include "core/geometry/nurbs.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
+#include "scene/corners.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
 #include "scene/scene_options.hpp"
@@ -274,11 +275,22 @@ void check_point_masses(const Scene& scene) {
   }
   if (scene.point_masses.empty()) return;
   if (flows(scene)) refuse("/point_masses", "this key", "it goes together with neither /flow nor rotary inertia");
+  // joints with kinks cannot pass them, where they are knots
   const auto joints = sliding_joints(scene);
+  const auto its_knots = knots(scene);
+  const auto stops = [&](const PointMassSpec& mass) {
+    const bool at_end = mass.node == 0 || mass.node == scene.beam.elements;
+    return at_end || std::ranges::find(its_knots, mass.node, &Knot::node) != its_knots.end();
+  };
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (joints[i].slopes == JointSlopes::continuous) continue;
+    const auto passed = std::ranges::find_if_not(scene.point_masses, stops);
+    if (passed == scene.point_masses.end()) continue;
     refuse(joint_key(scene, i) + "/slopes", quoted(joints[i].slopes),
-           "with /point_masses they must be \"continuous\": a kink that passes over a mass is an impact");
+           "a kink that passes over a mass, here that of /point_masses/" +
+               std::to_string(passed - scene.point_masses.begin()) +
+               ", is an impact: take \"continuous\", or give the mass a node where no joint is, all joints a kink, and "
+               "the scene an explicit integrator or \"generalized-alpha\"");
   }
 }
 

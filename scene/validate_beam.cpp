@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/geometry/nurbs.hpp"
 #include "scene/build.hpp"
+#include "scene/corners.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
 
@@ -58,6 +60,76 @@ void check_sizes(const Scene& scene) {
   if (circle || section.stiffness.EI > 0) check("EI", section.stiffness.EI);
 }
 
+/// Each piece of a drawn axis with corners needs an element.
+void check_pieces(const Scene& scene, std::size_t pieces, const std::string& what) {
+  if (pieces <= static_cast<std::size_t>(scene.beam.elements)) return;
+  refuse("/beam/elements", std::to_string(scene.beam.elements),
+         "the curve has " + std::to_string(pieces) + " " + what + ", each of which needs an element");
+}
+
+void check_points(const Scene& scene) {
+  const auto& points = scene.beam.curve.points;
+  if (points.size() < 2) {
+    refuse("/beam/curve/points", std::to_string(points.size()) + " entries", "there must be at least two points");
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i] != points[i - 1]) continue;
+    refuse("/beam/curve/points/" + std::to_string(i), "the same point as the one before",
+           "the beam needs a length > 0 [m] between them");
+  }
+  check_pieces(scene, points.size() - 1, "pieces between its points");
+}
+
+/// Where a scene writes the corner of a drawn axis, and how.
+std::string corner_key(const CurveSpec& curve, double at) {
+  std::size_t piece = 0;
+  const auto breaks = drawn_axis<3>(curve).breaks();
+  while (breaks[piece] < at) ++piece;
+  if (curve.type == CurveType::polyline) return "/beam/curve/points/" + std::to_string(piece);
+  Nurbs<3> nurbs{curve.degree, curve.knots, curve.weights, {}};
+  for (const Point& point : curve.control_points) nurbs.points.push_back(vector_of<3>(point));
+  if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
+  return "/beam/curve/knots/" + std::to_string(rational_spans(nurbs)[piece].knot);
+}
+
+/// A corner is for a joint, or on a rope.
+void check_corners(const Scene& scene) {
+  if (!may_have_corners(scene.beam.curve)) return;
+  const auto drawn = drawn_axis<3>(scene.beam.curve);
+  constexpr double degrees = 180 / std::numbers::pi, sharpest = 150;
+  const auto joints = sliding_joints(scene);
+  const auto round = rounded_corners(scene, drawn);
+  for (const double at : drawn.kinks()) {
+    const double turn = drawn.turn_at(at) * degrees;
+    const std::string corner = "a corner of " + number_text(turn) + " degrees at " + number_text(at) + " m";
+    const auto there = std::ranges::find_if(joints, [&](const SlidingJointSpec& joint) {
+      return std::abs(joint.position - at) <= at_corner * drawn.length();
+    });
+    const bool is_round = std::ranges::find(round, at) != round.end();
+    if (there != joints.end()) {
+      const std::string key = joint_key(scene, static_cast<std::size_t>(there - joints.begin()));
+      if (there->slopes == JointSlopes::continuous || there->slopes == JointSlopes::tangent) {
+        refuse(key + "/slopes", quoted(there->slopes),
+               "the beam's axis has " + corner + ", where this joint is: take \"free\" or \"equal-stretch\"");
+      }
+      if (there->velocity != 0) {
+        refuse(key + "/velocity", number_text(there->velocity), "at " + corner + " it must be 0: the beam is at rest");
+      }
+    } else if (!is_rope(scene.beam)) {
+      refuse(corner_key(scene.beam.curve, at), corner,
+             "a beam that bends may have one only where a joint of /sliding_joints is whose slopes are \"free\" or "
+             "\"equal-stretch\"; a rope (\"EI\": 0) anywhere");
+    } else if (is_round && turn > sharpest) {
+      refuse(corner_key(scene.beam.curve, at), corner,
+             "where no joint and no mass is it is rounded off, and must turn by at most " + number_text(sharpest) +
+                 " degrees");
+    }
+  }
+  if (!drawn.kinks().empty() && axis_form(scene) == AxisForm::exact) {
+    refuse("/beam/axis", "\"exact\"", "with corners it must be \"even\"");
+  }
+}
+
 void check_curve(const Scene& scene) {
   const CurveSpec& curve = scene.beam.curve;
   double length = 0;
@@ -84,23 +156,24 @@ void check_curve(const Scene& scene) {
     case CurveType::nurbs:
       check_knots(scene);
       try {
-        length = beam_length(scene);
+        length = drawn_axis<3>(curve).length();
       } catch (const NurbsError& error) {
         const auto& numbers = error.field == "knots" ? curve.knots : curve.weights;
         const bool entry = error.field != "control_points" && error.index < numbers.size();
         refuse("/beam/curve/" + error.field + (entry ? "/" + std::to_string(error.index) : ""),
                entry ? number_text(numbers[error.index]) : std::to_string(error.index) + " entries", error.what());
       }
-      if (const auto spans = build_axis<3>(scene).breaks().size() - 1;
-          spans > static_cast<std::size_t>(scene.beam.elements)) {
-        refuse("/beam/elements", std::to_string(scene.beam.elements),
-               "the curve has " + std::to_string(spans) + " spans between its knots, each of which needs an element");
-      }
+      check_pieces(scene, drawn_axis<3>(curve).breaks().size() - 1, "spans between its knots");
+      break;
+    case CurveType::polyline:
+      check_points(scene);
+      length = drawn_axis<3>(curve).length();
       break;
   }
   if (!of_usual_size(length)) {
     refuse("/beam/curve", "a length of " + number_text(length) + " m", "it must be between 1e-100 and 1e100 m");
   }
+  check_corners(scene);
 }
 
 void check_beam(const Scene& scene) {
@@ -124,8 +197,7 @@ void check_beam(const Scene& scene) {
   }
 
   const bool bends = beam.section.type == Section::Type::circle || beam.section.EI > 0;
-  const bool curved_in_space =
-      scene.dimension == 3 && bends && has_rest_shape(scene) && beam.curve.type != CurveType::line;
+  const bool curved_in_space = scene.dimension == 3 && bends && has_rest_shape(scene) && is_curved(scene);
   if (curved_in_space && !beam.out_of_plane) {
     refuse("/beam/out_of_plane", InvalidInput::missing,
            "a beam that is curved at rest does not resist loads across its plane here, for its strain energy has the "

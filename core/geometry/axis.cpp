@@ -70,27 +70,127 @@ Axis<D> Axis<D>::arc(const Vector& center, double radius, double from, double to
 }
 
 template <int D>
+void Axis<D>::Spans::add(const RationalCubic<double, D>& span) {
+  std::vector<double> from_start{0};
+  for (int k = 0; k < length_pieces; ++k) {
+    from_start.push_back(from_start.back() + arc_length(span, k / static_cast<double>(length_pieces),
+                                                        (k + 1) / static_cast<double>(length_pieces)));
+  }
+  bounds.push_back(bounds.back() + from_start.back());
+  spans.push_back(span);
+  lengths.push_back(std::move(from_start));
+}
+
+template <int D>
 Axis<D> Axis<D>::nurbs(const Nurbs<D>& curve) {
   Spans chain;
-  std::vector<double> breaks{0};
+  std::vector<double> kinks;
   for (const auto& span : rational_spans(curve)) {
-    std::vector<double> lengths{0};
-    for (int k = 0; k < length_pieces; ++k) {
-      lengths.push_back(lengths.back() + arc_length(span.curve, k / static_cast<double>(length_pieces),
-                                                    (k + 1) / static_cast<double>(length_pieces)));
-    }
-    breaks.push_back(breaks.back() + lengths.back());
-    chain.spans.push_back(span.curve);
-    chain.lengths.push_back(std::move(lengths));
+    if (span.kinked) kinks.push_back(chain.bounds.back());
+    chain.add(span.curve);
   }
-  return {chain, breaks};
+  return {chain, chain.bounds, kinks};
+}
+
+template <int D>
+Axis<D> Axis<D>::polyline(const std::vector<Vector>& points) {
+  Nurbs<D> curve{1, {0}, std::vector<double>(points.size(), 1), points};
+  for (std::size_t i = 0; i < points.size(); ++i) curve.knots.push_back(static_cast<double>(i));
+  curve.knots.push_back(curve.knots.back());
+  return nurbs(curve);
+}
+
+template <int D>
+double Axis<D>::turn_at(double x) const {
+  const Vector before = tangent_before(x), behind = tangent(x);
+  return 2 * portable::atan2((before - behind).norm(), (before + behind).norm());
+}
+
+template <int D>
+Axis<D> Axis<D>::straightened() const {
+  if (kinks_.empty()) return *this;
+  const auto& chain = std::get<Spans>(shape_);
+  const auto straight_piece = [](const RationalCubic<double, D>& span) {
+    const Vector along = (span.points[3] - span.points[0]).normalized();
+    return std::ranges::all_of(span.points, [&](const Vector& point) {
+      const Vector way = point - span.points[0];
+      return (way - along * along.dot(way)).norm() <= 1e-12 * (span.points[3] - span.points[0]).norm();
+    });
+  };
+  const Vector start = chain.spans.front().points[0], first = tangent(0);
+  if (std::ranges::all_of(chain.spans, straight_piece)) return line(start, start + length() * first);
+  Spans turned;
+  Vector at = start, tangent_there = first;
+  for (const RationalCubic<double, D>& span : chain.spans) {
+    const Vector own = (span.points[1] - span.points[0]).normalized();
+    const double cosine = own.dot(tangent_there);
+    const auto turn = [&](const Vector& v) -> Vector {  // own to tangent_there; of opposite ones the mirror image of v
+      if (cosine < -1 + 1e-12) return -v;
+      const Vector sum = own + tangent_there;
+      return v - sum * (sum.dot(v) / (1 + cosine)) + tangent_there * (2 * own.dot(v));
+    };
+    RationalCubic<double, D> now = span;
+    for (Vector& point : now.points) point = at + turn(point - span.points[0]);
+    at = now.points[3];
+    tangent_there = (now.points[3] - now.points[2]).normalized();
+    turned.add(now);
+  }
+  return {turned, breaks_};
+}
+
+template <int D>
+Axis<D> Axis<D>::rounded(const std::vector<double>& kinks, double reach) const {
+  if (kinks.empty()) return *this;
+  const auto& chain = std::get<Spans>(shape_);
+  const auto is_rounded = [&](double at) { return std::ranges::find(kinks, at) != kinks.end(); };
+  const std::size_t n = chain.spans.size();
+  const auto cut_at =
+      [&](std::size_t i) {  // how much of span i, and of the one before, the rounding at its start takes
+        return std::min({reach, chain.length_of(i - 1) / 2, chain.length_of(i) / 2});
+      };
+  Spans round;
+  std::vector<double> breaks{0}, left;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double from = chain.bounds[i], to = chain.bounds[i + 1];
+    const double start = i > 0 && is_rounded(from) ? cut_at(i) : 0;
+    const double end = i + 1 < n && is_rounded(to) ? cut_at(i + 1) : 0;
+    if (i > 0) {
+      if (start == 0) {
+        breaks.push_back(round.bounds.back());
+        if (std::ranges::find(kinks_, from) != kinks_.end()) left.push_back(breaks.back());
+      } else {
+        // a circle's arc, as far as both pieces are straight: its control points stand on their tangents
+        const auto before = derivatives(from - start), behind = derivatives(from + start);
+        const double turn = 2 * portable::atan2((behind[1] - before[1]).norm(), (behind[1] + before[1]).norm());
+        const double w = (1 + 2 * portable::cos(turn / 2)) / 3;
+        const double arm = (behind[0] - before[0]).norm() / (3 * w);
+        const RationalCubic<double, D> arc{
+            {before[0], before[0] + arm * before[1], behind[0] - arm * behind[1], behind[0]}, {1, w, w, 1}};
+        round.add(arc.restrict(0, 0.5));
+        breaks.push_back(round.bounds.back());
+        round.add(arc.restrict(0.5, 1));
+      }
+    }
+    round.add(between(from + start, to - end));
+  }
+  breaks.push_back(round.bounds.back());
+  return {round, breaks, left};
 }
 
 template <int D>
 std::pair<std::size_t, double> Axis<D>::locate(const Spans& chain, double x) const {
-  const auto after = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, x);
-  const auto i = static_cast<std::size_t>(after - breaks_.begin()) - 1;
-  return {i, parameter_at(chain.spans[i], chain.lengths[i], x - breaks_[i])};
+  const auto& bounds = chain.bounds;
+  const auto after = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, x);
+  const auto i = static_cast<std::size_t>(after - bounds.begin()) - 1;
+  return {i, parameter_at(chain.spans[i], chain.lengths[i], x - bounds[i])};
+}
+
+template <int D>
+Vec<double, D> Axis<D>::tangent_before(double x) const {
+  if (std::ranges::find(kinks_, x) == kinks_.end()) return tangent(x);
+  const auto& chain = std::get<Spans>(shape_);
+  const auto i = static_cast<std::size_t>(std::ranges::find(chain.bounds, x) - chain.bounds.begin());
+  return by_arc_length(chain.spans[i - 1], 1)[1];
 }
 
 template <int D>
@@ -98,7 +198,8 @@ bool Axis<D>::in_one_piece(double x_a, double x_b) const {
   if (const auto* shape = std::get_if<Arc>(&shape_)) {
     return std::abs((x_b - x_a) * shape->turn_per_length) < std::numbers::pi;
   }
-  return std::none_of(breaks_.begin(), breaks_.end(), [&](double at) { return x_a < at && at < x_b; });
+  const auto* chain = std::get_if<Spans>(&shape_);
+  return !chain || std::ranges::none_of(chain->bounds, [&](double at) { return x_a < at && at < x_b; });
 }
 
 template <int D>
@@ -174,13 +275,14 @@ CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x) {
 template <int D>
 CubicChain<D> even_chain(const Axis<D>& axis, const std::vector<double>& x, bool rational) {
   CubicChain<D> chain;
+  Vec<double, D> behind = axis.tangent(x.front());
   for (const double at : x) {
     const auto derivatives = axis.derivatives(at);
+    const Vec<double, D> before = axis.tangent_before(at);
     chain.r.push_back(derivatives[0]);
-    chain.r_x.push_back(derivatives[1]);
-  }
-  for (std::size_t k = 0; k + 1 < x.size(); ++k) {
-    chain.weights.push_back(rational ? even_arc_weights<D>(chain.r_x[k], chain.r_x[k + 1]) : unit_weights);
+    chain.r_x.push_back(before);
+    if (chain.r.size() > 1) chain.weights.push_back(rational ? even_arc_weights<D>(behind, before) : unit_weights);
+    behind = derivatives[1];
   }
   return chain;
 }

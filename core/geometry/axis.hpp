@@ -19,13 +19,25 @@ class Axis {
   static Axis line(const Vector& start, const Vector& end);
   /// From the angle `from` to the angle `to` [rad], in the plane of the first two axes.
   static Axis arc(const Vector& center, double radius, double from, double to);
-  /// Throws NurbsError.
+  /// May have kinks. Throws NurbsError.
   static Axis nurbs(const Nurbs<D>& curve);
+  /// Straight from point to point, of which no two neighbours are one.
+  static Axis polyline(const std::vector<Vector>& points);
 
   double length() const { return breaks_.back(); }
   /// 0, length() and what lies between: an element must not reach over any of these points.
   const std::vector<double>& breaks() const { return breaks_; }
+  /// Those of the breaks where the tangent jumps.
+  const std::vector<double>& kinks() const { return kinks_; }
   bool straight() const { return std::holds_alternative<Line>(shape_); }
+  /// Angle between the tangents before and behind x [rad].
+  double turn_at(double x) const;
+  /// The same axis with what follows each kink turned about it, by the smallest rotation, so that the tangent does not
+  /// jump: all pieces keep their curvature. A line where all are straight.
+  Axis straightened() const;
+  /// The same axis with some of its kinks rounded off, over at most `reach` [m] to either side and half of the pieces
+  /// there: by arcs of circles between straight pieces. It gets shorter. The middle of a rounding stays a break.
+  Axis rounded(const std::vector<double>& kinks, double reach) const;
 
   /// Whether one rational cubic can be the axis from x_a to x_b: no break between them, and no arc of pi or more.
   bool in_one_piece(double x_a, double x_b) const;
@@ -33,6 +45,8 @@ class Axis {
   Vector position(double x) const { return derivatives(x)[0]; }
   /// Unit tangent.
   Vector tangent(double x) const { return derivatives(x)[1]; }
+  /// Before x, where the tangent jumps.
+  Vector tangent_before(double x) const;
   /// Position and its first three derivatives by arc length; those of the piece behind where the axis has a break.
   std::array<Vector, 4> derivatives(double x) const;
   /// The axis from x_a to x_b, no break between them, as one rational cubic: exactly that curve, in some
@@ -50,16 +64,21 @@ class Axis {
   struct Spans {
     std::vector<RationalCubic<double, D>> spans;
     std::vector<std::vector<double>> lengths;  ///< of each span from its start to k/n of its parameter, k = 0 .. n
+    std::vector<double> bounds = {0};          ///< arc length at the start of each span, and of all
+    /// Appends a span.
+    void add(const RationalCubic<double, D>& span);
+    double length_of(std::size_t i) const { return lengths[i].back(); }
   };
   using Shape = std::variant<Line, Arc, Spans>;
 
-  Axis(Shape shape, std::vector<double> breaks) : shape_(std::move(shape)), breaks_(std::move(breaks)) {}
+  Axis(Shape shape, std::vector<double> breaks, std::vector<double> kinks = {})
+      : shape_(std::move(shape)), breaks_(std::move(breaks)), kinks_(std::move(kinks)) {}
 
   /// Index of the span that holds x, and its parameter there.
   std::pair<std::size_t, double> locate(const Spans& chain, double x) const;
 
   Shape shape_;
-  std::vector<double> breaks_;
+  std::vector<double> breaks_, kinks_;
 };
 
 /// A chain of rational cubics that share position and slope at their nodes: end slopes are with respect to x.
@@ -76,7 +95,8 @@ template <int D>
 CubicChain<D> exact_chain(const Axis<D>& axis, const std::vector<double>& x);
 
 /// The axis by cubics that run along it evenly: they share its positions and unit tangents at `x`, and are as long as
-/// the arc length between, with the weights of even_arc_weights() or, not `rational`, unit ones.
+/// the arc length between, with the weights of even_arc_weights() or, not `rational`, unit ones. At a kink the chain
+/// has the tangent before it, and the weights of the element behind are those of the tangent there.
 template <int D>
 CubicChain<D> even_chain(const Axis<D>& axis, const std::vector<double>& x, bool rational);
 

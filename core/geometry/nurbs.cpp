@@ -106,11 +106,9 @@ std::vector<NurbsSpan<D>> rational_spans(const Nurbs<D>& curve) {
     if (!(std::min(out.norm(), in.norm()) > 1e-12 * size)) {
       throw NurbsError("knots", k, "the curve from this knot to the next starts or ends without a direction");
     }
-    if (!spans.empty() && !((out.normalized() - tangent).norm() < kink)) {
-      throw NurbsError("knots", k, "the curve has a kink here");
-    }
+    const bool kinked = !spans.empty() && !((out.normalized() - tangent).norm() < kink);
     tangent = in.normalized();
-    spans.push_back({k, span});
+    spans.push_back({k, span, kinked});
   }
   return spans;
 }

@@ -30,12 +30,12 @@ template <int D>
 struct NurbsSpan {
   std::size_t knot;  ///< index of the last of the knots where it starts
   RationalCubic<double, D> curve;
+  bool kinked = false;  ///< whether its tangent at the start is another than that of the span before at its end
 };
 
 /// The curve as rational cubics, one between any two neighbouring distinct knots of its domain, raised to degree 3.
 /// Throws NurbsError for counts that do not fit, weights that are not positive, knots that decrease or of which more
-/// than `degree` coincide inside (the curve is torn), a span of no length, an end of a span without direction, and a
-/// kink.
+/// than `degree` coincide inside (the curve is torn), a span of no length and an end of a span without direction.
 template <int D>
 std::vector<NurbsSpan<D>> rational_spans(const Nurbs<D>& curve);
 

@@ -1,0 +1,131 @@
+#include "scene/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/build.hpp"
+
+namespace vlbeam {
+namespace {
+
+/// Whether joints that keep their place go with the rest of the scene.
+bool may_have_knots(const Scene& scene) {
+  if (flows(scene) || scene.spin || scene.setting != SceneSetting::standard) return false;
+  if (scene.beam.element != ElementKind::ale_rancf && scene.beam.element != ElementKind::ale_ancf) return false;
+  switch (scene.integrator.type) {
+    case IntegratorType::rosenbrock4:
+    case IntegratorType::energy_momentum:
+    case IntegratorType::ida:
+    case IntegratorType::cvode:
+      if (scene.analysis == Analysis::dynamics) return false;
+      break;
+    default:
+      break;
+  }
+  return scene.length_control.velocities != VelocityTransfer::conservative;
+}
+
+/// The break of an axis that stands at x, or x.
+double snapped(const std::vector<double>& breaks, double x) {
+  for (const double at : breaks) {
+    if (std::abs(at - x) <= at_corner * breaks.back()) return at;
+  }
+  return x;
+}
+
+}  // namespace
+
+bool is_rope(const BeamSpec& beam) { return beam.section.type == Section::Type::stiffness && beam.section.EI == 0; }
+
+template <int D>
+Axis<D> drawn_axis(const CurveSpec& curve) {
+  constexpr double degree = std::numbers::pi / 180;
+  std::vector<Vec<double, D>> points;
+  const auto add_all = [&points](const std::vector<Point>& from) {
+    for (const Point& point : from) points.push_back(vector_of<D>(point));
+  };
+  switch (curve.type) {
+    case CurveType::arc:
+      return Axis<D>::arc(vector_of<D>(curve.center), curve.radius, curve.from_degrees * degree,
+                          curve.to_degrees * degree);
+    case CurveType::nurbs: {
+      add_all(curve.control_points);
+      Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, points};
+      if (nurbs.weights.empty()) nurbs.weights.assign(points.size(), 1);
+      return Axis<D>::nurbs(nurbs);
+    }
+    case CurveType::polyline:
+      add_all(curve.points);
+      return Axis<D>::polyline(points);
+    case CurveType::line:
+      break;
+  }
+  return Axis<D>::line(vector_of<D>(curve.start), vector_of<D>(curve.end));
+}
+
+bool may_have_corners(const CurveSpec& curve) {
+  if (curve.type == CurveType::polyline) return true;
+  if (curve.type != CurveType::nurbs || curve.degree < 1) return false;
+  const auto degree = static_cast<std::size_t>(curve.degree);
+  for (std::size_t i = degree + 1; i + degree < curve.knots.size(); ++i) {
+    if (curve.knots[i] == curve.knots[i + 1 - degree]) return true;  // as many equal ones as the degree
+  }
+  return false;
+}
+
+std::vector<Knot> knots(const Scene& scene) {
+  std::vector<Knot> result;
+  if ((scene.point_masses.empty() && scene.loads.empty()) || !may_have_knots(scene)) return result;
+  const bool rope = is_rope(scene.beam);
+  const auto joints = sliding_joints(scene);
+  const auto kinked = [](const SlidingJointSpec& joint) { return joint.slopes != JointSlopes::continuous; };
+  if (rope ? !std::ranges::all_of(joints, kinked) : std::ranges::none_of(joints, kinked)) return result;
+  const auto breaks = drawn_axis<3>(scene.beam.curve).breaks();
+  const auto taken = place_nodes(scene, breaks).joints;
+  const auto add = [&](int node) {
+    if (node <= 0 || node >= scene.beam.elements || std::ranges::find(taken, node) != taken.end()) return;
+    const auto same = [node](const Knot& knot) { return knot.node == node; };
+    if (std::ranges::none_of(result, same)) {
+      result.push_back({node, rope ? JointSlopes::free : JointSlopes::continuous});
+    }
+  };
+  for (const PointMassSpec& mass : scene.point_masses) add(mass.node);
+  for (const LoadSpec& load : scene.loads) {
+    if (rope && load.type == LoadType::force && load.at == LoadPlace::node) add(load.node);
+  }
+  std::ranges::sort(result, {}, &Knot::node);
+  return result;
+}
+
+std::vector<double> rounded_corners(const Scene& scene, const Axis<3>& drawn) {
+  std::vector<double> round;
+  if (drawn.kinks().empty() || !is_rope(scene.beam)) return round;
+  const auto joints = sliding_joints(scene);
+  const std::vector<double> nodes = place_nodes(scene, drawn.breaks()).x;
+  const auto its_knots = knots(scene);
+  for (const double at : drawn.kinks()) {
+    const bool joint = std::ranges::any_of(joints, [&](const SlidingJointSpec& spec) {
+      return snapped(drawn.breaks(), spec.position) == at && spec.slopes != JointSlopes::continuous;
+    });
+    const bool knot = std::ranges::any_of(
+        its_knots, [&](const Knot& other) { return nodes[static_cast<std::size_t>(other.node)] == at; });
+    if (!joint && !knot) round.push_back(at);
+  }
+  return round;
+}
+
+double position_on_axis(const CurveSpec& curve, const std::vector<double>& breaks, double position) {
+  if (!may_have_corners(curve)) return position;
+  const std::vector<double> drawn = drawn_axis<3>(curve).breaks();
+  const double x = snapped(drawn, position);
+  if (breaks == drawn) return x;
+  const auto i = static_cast<std::size_t>(std::upper_bound(drawn.begin() + 1, drawn.end() - 1, x) - drawn.begin());
+  if (x == drawn[i - 1]) return breaks[i - 1];
+  return breaks[i - 1] + (x - drawn[i - 1]) * (breaks[i] - breaks[i - 1]) / (drawn[i] - drawn[i - 1]);
+}
+
+template Axis<2> drawn_axis(const CurveSpec&);
+template Axis<3> drawn_axis(const CurveSpec&);
+
+}  // namespace vlbeam
