@@ -12,6 +12,7 @@
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
 #include "scene/stiffness.hpp"
+#include "scene/time_function.hpp"
 #include "scene/validate.hpp"
 
 namespace vlbeam {
@@ -69,7 +70,10 @@ bool allows(const Scene& scene, const IntegratorSpec& integrator) {
 double whole_length(const Scene& scene) {
   double length = beam_length(scene);
   for (const SupportSpec* support : {&scene.start, &scene.end}) {
-    if (support->feed && support->feed->until) length += std::max(0.0, support->feed->rate * *support->feed->until);
+    if (!support->feed) continue;
+    const TimeSpec& feed = *support->feed;
+    if (feed.until) length += std::max(0.0, feed.rate * *feed.until);
+    if (!feed.table.empty()) length += std::max(0.0, feed.table.back()[1] - feed.table.front()[1]);
   }
   return length;
 }
@@ -138,11 +142,12 @@ double longest_implicit_step(const Scene& scene) {
   const double L = whole_length(scene), element = standard_length(scene);
   const auto driven = [&](const TimeSpec& f) {
     at_most(1 / std::abs(f.frequency) / steps_a_period);
-    at_most(f.ramp / steps_a_ramp);
+    at_most(std::max(f.ramp, f.rate_ramp) / steps_a_ramp);
+    at_most(shortest_interval(f) / steps_a_ramp);
   };
   const auto passing = [&](const TimeSpec& x) {
     driven(x);
-    at_most(element / (std::abs(x.rate) + turn * std::abs(x.frequency * x.amplitude)) / steps_an_element);
+    at_most(element / (std::abs(x.rate) + steepest(x) + turn * std::abs(x.frequency * x.amplitude)) / steps_an_element);
   };
   const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
   at_most(turn * std::sqrt(L / g) / steps_a_swing);

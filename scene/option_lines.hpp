@@ -71,16 +71,26 @@ struct OptionLines {
                           auto& member) {
       number(at + "/" + key, part_unit, range, description, member, {.when = when});
     };
-    section(at, "a function of time, S(t/ramp) (value + rate t + acceleration t^2/2 + oscillation)");
+    section(at, "a function of time, S(t/ramp) (value + rate t + acceleration t^2/2 + oscillation), or a table");
     part("value", unit, "of a function of time: its constant part", {}, f.value);
     part("rate", unit + "/s", "its part that grows evenly", {}, f.rate);
     part("acceleration", unit + "/s^2", "its part that grows with t^2/2", {}, f.acceleration);
     part("amplitude", unit, "of its part that oscillates", {}, f.amplitude);
     part("frequency", "Hz", "of its part that oscillates", {}, f.frequency);
     part("phase_degrees", "degrees", "of its part that oscillates, a sine", {}, f.phase_degrees);
-    part("ramp", "s", "time over which it grows smoothly from 0; 0 is at once", Range::non_negative(), f.ramp);
+    part("ramp", "s",
+         "time over which all of it grows smoothly from 0; 0 is at once. A rate runs up to 1.9 times as fast meanwhile",
+         Range::non_negative(), f.ramp);
+    part("rate_ramp", "s", "time over which its rate alone grows smoothly from 0 and never beyond; 0 is at once",
+         Range::non_negative(), f.rate_ramp);
     part("until", "s", "time from which on it goes on evenly, at the rate it has then; if not given it never does",
          Range::non_negative(), f.until);
+    vector(
+        at + "/table", "s, " + unit,
+        "pairs of a time and a value, in order of time, in place of all the others: a smooth curve through them that "
+        "rises and falls where they do, and rests before the first and after the last",
+        f.table, {.components = 2, .when = when});
+    if constexpr (requires { visitor.time_function(at, f); }) visitor.time_function(at, f);
   }
 };
 

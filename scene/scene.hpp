@@ -89,14 +89,17 @@ struct Material {
 
 /// A quantity as a function of time:
 /// S(t/ramp) (value + rate t + acceleration t^2/2 + amplitude sin(2 pi frequency t + phase)), S of gravity_ramp; from
-/// `until` on it goes on evenly, at the rate it has then.
+/// `until` on it goes on evenly, at the rate it has then. With a `rate_ramp` the rate itself grows as S(t/rate_ramp).
+/// Or a table of its values, of which the others say nothing.
 struct TimeSpec {
   double value = 0, rate = 0, acceleration = 0;
   double amplitude = 0;
   double frequency = 0;              ///< [Hz]
   double phase_degrees = 0;          ///< [degrees]
   double ramp = 0;                   ///< [s]
+  double rate_ramp = 0;              ///< [s], in place of `ramp`
   std::optional<double> until = {};  ///< [s]; if not given it never does
+  std::vector<Point> table = {};     ///< times [s], in order, and values: two components each
 };
 
 /// Rotary inertia of bending.

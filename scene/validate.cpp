@@ -45,6 +45,7 @@ class RangeCheck {
 
   template <class T>
   void list(const Option&, const std::vector<T>&) const {}
+  void time_function(const std::string& at, const TimeSpec& f) const { check_time_function(at, f); }
   void section(const Option&) const {}
 
  private:
@@ -78,6 +79,9 @@ void check_plane(const Scene& scene) {
   const CurveSpec& curve = scene.beam.curve;
   in_plane("/beam/curve/start", curve.start);
   in_plane("/beam/curve/end", curve.end);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    in_plane("/beam/curve/points/" + std::to_string(i), curve.points[i]);
+  }
   in_plane("/beam/curve/center", curve.center);
   for (std::size_t i = 0; i < curve.control_points.size(); ++i) {
     in_plane("/beam/curve/control_points/" + std::to_string(i), curve.control_points[i]);
@@ -245,7 +249,7 @@ void check_loads(const Scene& scene) {
              at + " is a torque, which turns the section about the axis: it needs this object");
     }
     const TimeSpec& size = load.magnitude;
-    if (size.value == 0 && size.rate == 0 && size.acceleration == 0 && size.amplitude == 0) {
+    if (is_zero(size)) {
       refuse(at + "/magnitude", "zero at all times", "give its value, rate, acceleration or amplitude");
     }
   }
@@ -426,6 +430,7 @@ void check_statics(const Scene& scene) {
     zero("rate", f.rate);
     zero("acceleration", f.acceleration);
     zero("amplitude", f.amplitude);
+    if (!f.table.empty()) refuse(at + "/table", "this key", "in statics there is a value only, with or without a ramp");
   };
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const std::string at = "/loads/" + std::to_string(i);

@@ -72,12 +72,13 @@ void check_end(const Scene& scene, const std::string& support, const SupportSpec
   const double rate = feed_rate(end),
                largest = std::abs(end.feed->rate) + std::abs(end.feed->amplitude * end.feed->frequency);
   if (!scene.initial_velocity && std::abs(rate) > 1e-12 * largest) {
-    refuse(at, "a velocity of " + number_text(rate) + " m/s at t = 0",
-           "the beam starts from rest: give it a ramp > 0 [s], or /initial_velocity, the beam's along its axis");
+    refuse(
+        at, "a velocity of " + number_text(rate) + " m/s at t = 0",
+        "the beam starts from rest: give it a \"rate_ramp\" > 0 [s], or /initial_velocity, the beam's along its axis");
   }
   if (starts_in_equilibrium(scene) && std::abs(rate) > 1e-12 * largest) {
     refuse(at, "a velocity of " + number_text(rate) + " m/s at t = 0",
-           "what starts from an equilibrium is at rest: give it a ramp > 0 [s]");
+           "what starts from an equilibrium is at rest: give it a \"rate_ramp\" > 0 [s]");
   }
 }
 

@@ -161,9 +161,9 @@ void check_guided_joint(const Scene& scene, std::size_t which) {
   if (joint.support != SupportType::free) {
     const double rate = time_function(*joint.x)(0).rate;
     if (std::abs(rate) > 1e-12 * largest_rate(*joint.x)) {
-      refuse(
-          at, "a velocity of " + number_text(rate) + " m/s at t = 0",
-          "the beam starts from rest in what is held: give it a ramp > 0 [s], or an oscillation a phase of 90 degrees");
+      refuse(at, "a velocity of " + number_text(rate) + " m/s at t = 0",
+             "the beam starts from rest in what is held: give it a \"rate_ramp\" > 0 [s], or an oscillation a phase of "
+             "90 degrees");
     }
     if (scene.initial_velocity)
       refuse(at, "this key", "of a joint that is held it does not go together with /initial_velocity");
