@@ -255,6 +255,7 @@ BeamModel<D> build_model(const Scene& scene) {
     const double x = placed.x[static_cast<std::size_t>(placed.joints[model.joints.size()])];
     ModelJoint<D>& joint = model.joints.emplace_back();
     joint.law = SlidingJoint{spec.mass, joint_slopes(scene, spec), spec.friction};
+    if (spec.pulley) joint.law.turning = spec.pulley->inertia / (spec.pulley->radius * spec.pulley->radius);
     if (spec.support == SupportType::pin) joint.support = Support<D>::pin();
     if (spec.support == SupportType::clamp) {
       joint.support = Support<D>::direction_clamp(axis.tangent(x));

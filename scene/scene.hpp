@@ -158,6 +158,12 @@ struct SlidingMassSpec {
   double restitution = 1;                     ///< of a rebound
 };
 
+/// A wheel over which the beam runs without slip, about a ring: its path round the wheel is not modelled.
+struct PulleySpec {
+  double radius = 0;   ///< [m]
+  double inertia = 0;  ///< about its axis [kg m^2]
+};
+
 /// What slides along the beam: a lumped mass, or, held in space, a ring (`pin`) or a sleeve (`clamp`), which holds the
 /// direction of the beam, too. What is held needs no mass.
 struct SlidingJointSpec : SlidingMassSpec {
@@ -167,6 +173,7 @@ struct SlidingJointSpec : SlidingMassSpec {
   std::optional<SupportMotionSpec> motion;  ///< of what holds it, without an angle
   std::optional<TimeSpec> x;    ///< way of the joint along the beam as a function of time, counted from `position` [m]
   std::optional<double> pitch;  ///< of a nut on a beam that spins [m a turn], right-handed where > 0
+  std::optional<PulleySpec> pulley = {};  ///< of a ring that is a wheel
 };
 
 /// How several joints touch: each other, and the supports that they strike.

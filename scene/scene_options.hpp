@@ -171,6 +171,14 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
              "of a nut on a beam that spins: its way along the beam at one turn of the section, backwards at a "
              "positive angle where the thread is right-handed, > 0; it does not turn itself",
              joint.pitch);
+      const std::string pulley = at + "/pulley";
+      if (present(pulley, "of a ring that is a wheel, which the beam turns without slip", joint.pulley)) {
+        number(pulley + "/radius", "m", Range::positive(),
+               "of the wheel; the beam's path round it is not modelled: it bends at the ring", joint.pulley->radius,
+               {.required = true});
+        number(pulley + "/inertia", "kg m^2", Range::non_negative(), "moment of inertia of the wheel about its axis",
+               joint.pulley->inertia, {.required = true});
+      }
       joint_options(at, guided || joint.support != SupportType::free, joint);
     }
   }

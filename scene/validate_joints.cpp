@@ -132,6 +132,24 @@ void check_held_joint(const Scene& scene, std::size_t which) {
   }
 }
 
+/// A ring that is a wheel.
+void check_pulley(const Scene& scene, std::size_t which) {
+  const SlidingJointSpec& joint = scene.sliding_joints[which];
+  if (!joint.pulley) return;
+  const std::string key = joint_key(scene, which);
+  if (joint.support != SupportType::pin) {
+    refuse(key + "/support", quoted(joint.support), "what has a /pulley must be a ring, \"pin\"");
+  }
+  if (joint.friction) {
+    refuse(key + "/friction", "this key", "over a /pulley the beam does not slip: leave one of the two out");
+  }
+  if (joint.slopes == JointSlopes::equal_stretch) {
+    refuse(key + "/slopes", quoted(joint.slopes),
+           "a /pulley makes the tensions differ on its two sides: take \"free\"");
+  }
+  if (joint.pitch) refuse(key + "/pitch", "this key", "a nut has no /pulley: leave one of the two out");
+}
+
 /// A guide may lead off a free end, but not into a support.
 void check_way(const Scene& scene, const SlidingJointSpec& joint, const std::string& at) {
   const TimeFunction way = acting(*joint.x, scene.analysis);
@@ -236,6 +254,7 @@ void validate_joints(const Scene& scene) {
   for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
     check_held_joint(scene, i);
     check_guided_joint(scene, i);
+    check_pulley(scene, i);
   }
   check_sliding_mass(scene);
 }

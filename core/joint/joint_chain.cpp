@@ -102,7 +102,7 @@ void JointChain<D>::assemble(const std::vector<MovingEquations<double, D>>& equa
     }
     station.rhs[station.mark] = force[joint.place.mark];
     for (int c = 0; c < D; ++c) station.mass(c, c) = joint.law->mass;
-    station.mass(station.mark, station.mark) = motion[j].x_inertia;
+    station.mass(station.mark, station.mark) = motion[j].x_inertia + joint.law->turning;
   }
   const auto add_side = [&](const Span<D>& span, std::size_t part, std::size_t joint_end, std::optional<Side>& open) {
     open.emplace(span, equations[part], joint_end);

@@ -90,6 +90,7 @@ std::optional<double> solve(const Span<D>& left, const Span<D>& right, const Mov
   if constexpr (Kinked) rhs.template segment<D>(behind) = Eigen::Map<const Vec<double, D>>(joint_force + 1);
   rhs[x] = *joint_force;
   mass.diagonal().template head<D>().array() += joint.mass;
+  mass(x, x) += joint.turning;
   JointSide<D, unknowns, D> left_side(left, left_element, 2);
   JointSide<D, unknowns, behind> right_side(right, right_element, 0);
   left_side.eliminate(force, mass, rhs);

@@ -16,6 +16,7 @@ struct SlidingJoint {
   double mass;  ///< [kg]
   JointSlopes slopes = JointSlopes::continuous;
   std::optional<AxialFriction> friction = std::nullopt;
+  double turning = 0;  ///< inertia against x'' of a wheel that the beam turns without slip, I/radius^2 [kg]
 
   /// The beam has two slopes at the joint.
   bool kinked() const { return slopes != JointSlopes::continuous; }

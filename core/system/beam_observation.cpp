@@ -50,6 +50,10 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     const auto mass = mass_motion(y, static_cast<int>(i));
     if (mass) seen.add_mass(model_.joints[i].law.mass, mass->r, mass->v, gravity(t));
   }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double x_rate = y[coordinates() + places_[i].mark];
+    seen.energy.kinetic += 0.5 * joint(i).law.turning * x_rate * x_rate;
+  }
   if (spin_) {
     const Spin::Seen turning = spin_->observe(y.data() + angles(), y.data() + coordinates() + angles(), points);
     seen.energy.kinetic += turning.kinetic;

@@ -81,6 +81,7 @@ void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& 
     const Vec<double, D> inertia = joint.mass * (position<D>(now.a, places[i].node) - now.gravity);
     const Vec<double, D> pull = system_.held(i) == nullptr ? inertia : Vec<double, D>(-lacking);
     lacking += inertia;
+    r[places[i].mark] += joint.turning * now.a[places[i].mark];
     if (!joint.friction) continue;
     const auto friction = friction_at<D>(joint, places[i], pull, beam.q, beam.rate);
     r[places[i].mark] -= friction.force;
@@ -150,7 +151,9 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
                         marks);
   });
   for (std::size_t i = 0; i < system_.places().size(); ++i) {
-    tangent.add_mass(system_.places()[i].node, by.a * system_.joint(i).law.mass);
+    const SlidingJoint& joint = system_.joint(i).law;
+    tangent.add_mass(system_.places()[i].node, by.a * joint.mass);
+    tangent.entry(system_.places()[i].mark, system_.places()[i].mark) += by.a * joint.turning;
   }
   if (const auto& rider = system_.rider()) {
     tangent.add_border(rider->element);

@@ -75,6 +75,7 @@ void BeamSystem<D>::multiply_mass(const JointElements& elements, const double* q
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
     position<D>(out, places_[i].node) += joint(i).law.mass * position<D>(rate, places_[i].node);
+    out[places_[i].mark] += joint(i).law.turning * rate[places_[i].mark];
   }
 }
 

@@ -355,6 +355,7 @@ Scene scene_with_every_part() {
   scene.sliding_joints.back().x.emplace();
   scene.sliding_joints.back().pitch.emplace();
   scene.sliding_joints.back().motion.emplace();
+  scene.sliding_joints.back().pulley.emplace();
   for (SupportSpec* support : {&scene.start, &scene.end}) {
     support->motion.emplace().angle.emplace();
     support->feed.emplace();

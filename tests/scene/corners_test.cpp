@@ -111,6 +111,82 @@ TEST(Corners, AtwoodsMachineFallsByAThirdOfGravity) {
   }
 }
 
+// The wheel turns with the string: (m1 - m2) g/(m1 + m2 + I/r^2).
+TEST(Corners, AWheelSlowsAtwoodsMachineDown) {
+  const auto machine = [](double inertia, double radius) {
+    Scene scene = string_along({{0, -1, 0}, {0, 0, 0}, {0, -1.5, 0}}, 10, 1e6);
+    scene.sliding_joints = {ring_at(1)};
+    scene.sliding_joints.front().pulley = PulleySpec{.radius = radius, .inertia = inertia};
+    scene.point_masses = {{0, 2}, {10, 1}};
+    scene.duration = 0.4;
+    scene.output.interval = 0.1;
+    return adaptive(scene);
+  };
+  const RunResult run = test::completed(machine(0.02, 0.1));
+  EXPECT_GE(run.events.size(), 1U);
+  for (const Sample& sample : run.samples) {
+    EXPECT_NEAR(*sample.joint_position - 1, g / (2 * (3 + 2)) * sample.t * sample.t, 6e-5) << sample.t;
+  }
+  EXPECT_LE(run.max_energy_drift, 3e-5 * run.max_kinetic) << "with what the wheel has";
+  EXPECT_NEAR(*test::completed(machine(0.18, 0.3)).samples.back().joint_position, *run.samples.back().joint_position,
+              1e-12)
+      << "its inertia over the radius squared counts";
+}
+
+// Several ways to the same motion: one joint solved by itself, the chain, residuals with tangents.
+TEST(Corners, AWheelTurnsTheSameByEveryMethod) {
+  Scene scene;
+  scene.beam.elements = 6;
+  scene.beam.section.radius = 0.02;
+  scene.start.type = SupportType::clamp;
+  SlidingJointSpec ring;
+  ring.support = SupportType::pin;
+  ring.position = 0.55;
+  ring.pulley = PulleySpec{.radius = 0.1, .inertia = 0.5};
+  scene.sliding_joints = {ring};
+  scene.duration = 0.3;
+  test::set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
+  const RunResult one = test::completed(scene);
+  EXPECT_LE(one.max_energy_drift, 1e-8 * one.max_kinetic);
+  const double x = *one.samples.back().joint_position;
+  Scene without = scene;
+  without.sliding_joints.front().pulley.reset();
+  EXPECT_GT(std::abs(*test::completed(without).samples.back().joint_position - x), 1e-4) << "it matters";
+  Scene implicit = scene;
+  implicit.integrator.type = IntegratorType::generalized_alpha;
+  implicit.integrator.step = 2e-4;
+  EXPECT_NEAR(*test::completed(implicit).samples.back().joint_position, x, 2e-6);
+  Scene linearized = scene;
+  test::set_tolerance(linearized, IntegratorType::rosenbrock4, 1e-8);
+  EXPECT_NEAR(*test::completed(linearized).samples.back().joint_position, x, 1e-6);
+  Scene chain = scene;
+  SlidingJointSpec light;
+  light.position = 0.8;
+  light.mass = 1e-9;
+  light.x = TimeSpec{};
+  chain.sliding_joints.push_back(light);
+  EXPECT_NEAR(*test::completed(chain).samples.back().joints[0].position, x, 5e-6) << "on another mesh";
+}
+
+TEST(Corners, AWheelGoesWithARingThatDoesNotRub) {
+  Scene scene = string_along({{0, -1, 0}, {0, 0, 0}, {0, -1.5, 0}}, 10, 1e6);
+  scene.sliding_joints = {ring_at(1)};
+  scene.sliding_joints.front().pulley = PulleySpec{.radius = 0.1, .inertia = 1};
+  Scene broken = scene;
+  broken.sliding_joints.front().friction.emplace();
+  EXPECT_EQ(test::refused(broken), "/sliding_joints/0/friction");
+  broken = scene;
+  broken.sliding_joints.front().slopes = JointSlopes::equal_stretch;
+  EXPECT_EQ(test::refused(broken), "/sliding_joints/0/slopes");
+  broken = scene;
+  broken.sliding_joints.front().support = SupportType::free;
+  broken.sliding_joints.front().mass = 1;
+  EXPECT_EQ(test::refused(broken), "/sliding_joints/0/support");
+  broken = scene;
+  broken.sliding_joints.front().pulley->radius = 0;
+  EXPECT_EQ(test::refused(broken), "/sliding_joints/0/pulley/radius");
+}
+
 // s'' = g (l2 - l1 + 2 s)/L
 TEST(Corners, ARopeSlipsOffAPegAsAHyperbolicCosine) {
   Scene scene = string_along({{0, -0.9, 0}, {0, 0, 0}, {0, -1.1, 0}}, 20, 1e5);
