@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
+#include "core/parts/ground.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_loads.hpp"
 #include "scene/corners.hpp"
@@ -223,6 +224,20 @@ Vec<double, D> initial_velocity(const Scene& scene, const Vec<double, D>& r) {
   return vector_of<D>(motion.translation) + motion.rotation * turned;
 }
 
+/// The floor of a scene under the beam of a model.
+template <int D>
+std::shared_ptr<const Part<D>> build_ground(const Scene& scene, const BeamModel<D>& model) {
+  const GroundSpec& ground = *scene.ground;
+  const double weight = model.section.rhoA * model.gravity.norm();
+  return std::make_shared<Ground<D>>(FloorLaw<D>{.up = -model.gravity.normalized(),
+                                                 .level = ground.height,
+                                                 .stiffness = ground.stiffness,
+                                                 .depth = ground.depth.value_or(weight / ground.stiffness),
+                                                 .damping = ground.damping,
+                                                 .friction = ground.friction},
+                                     model.quadrature_points);
+}
+
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
@@ -288,6 +303,8 @@ BeamModel<D> build_model(const Scene& scene) {
   model.drag = {{drag.linear.normal + of_mass, drag.linear.tangential + of_mass},
                 {drag.quadratic.normal, drag.quadratic.tangential},
                 model.quadrature_points};
+  if (scene.fluid) model.drag.stream = vector_of<D>(scene.fluid->velocity);
+  if (scene.ground) model.parts.push_back(build_ground<D>(scene, model));
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);

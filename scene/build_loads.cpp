@@ -1,6 +1,7 @@
 #include "scene/build_loads.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/geometry/elementary.hpp"
 #include "scene/build.hpp"
@@ -62,6 +63,13 @@ void add_to(std::function<Value(double t)>& sum, const std::function<Value(doubl
 template <int D>
 BeamLoads<D> build_loads(const Scene& scene) {
   BeamLoads<D> result;
+  if (scene.fluid && scene.fluid->density > 0) {
+    const Section& section = scene.beam.section;
+    const double area = scene.fluid->area.value_or(std::numbers::pi * section.radius * section.radius);
+    const Vec<double, D> lift = -scene.fluid->density * area * vector_of<D>(scene.gravity);
+    const TimeFunction share = acting({.value = 1, .ramp = scene.gravity_ramp}, scene.analysis);
+    result.loads.line_force = [share, lift](double t) -> Vec<double, D> { return share(t).value * lift; };
+  }
   if (scene.loads.empty()) return result;
   const Axis<D> axis = build_axis<D>(scene);
   const std::vector<double> nodes = place_nodes(scene, axis.breaks()).x;

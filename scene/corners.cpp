@@ -76,14 +76,15 @@ bool may_have_corners(const CurveSpec& curve) {
 
 std::vector<Knot> knots(const Scene& scene) {
   std::vector<Knot> result;
-  if ((scene.point_masses.empty() && scene.loads.empty()) || !may_have_knots(scene)) return result;
+  const bool corners = may_have_corners(scene.beam.curve);
+  if ((scene.point_masses.empty() && scene.loads.empty() && !corners) || !may_have_knots(scene)) return result;
   const bool rope = is_rope(scene.beam);
   const auto joints = sliding_joints(scene);
   const auto kinked = [](const SlidingJointSpec& joint) { return joint.slopes != JointSlopes::continuous; };
   if (rope ? !std::ranges::all_of(joints, kinked) : std::ranges::none_of(joints, kinked)) return result;
-  const auto breaks = drawn_axis<3>(scene.beam.curve).breaks();
-  const auto taken = place_nodes(scene, breaks).joints;
-  const auto add = [&](int node) {
+  const auto drawn = drawn_axis<3>(scene.beam.curve);
+  const auto [x, taken] = place_nodes(scene, drawn.breaks());
+  const auto add = [&, &taken = taken](int node) {
     if (node <= 0 || node >= scene.beam.elements || std::ranges::find(taken, node) != taken.end()) return;
     const auto same = [node](const Knot& knot) { return knot.node == node; };
     if (std::ranges::none_of(result, same)) {
@@ -93,6 +94,9 @@ std::vector<Knot> knots(const Scene& scene) {
   for (const PointMassSpec& mass : scene.point_masses) add(mass.node);
   for (const LoadSpec& load : scene.loads) {
     if (rope && load.type == LoadType::force && load.at == LoadPlace::node) add(load.node);
+  }
+  if (rope && joints.empty()) {
+    for (const double at : drawn.kinks()) add(static_cast<int>(std::ranges::lower_bound(x, at) - x.begin()));
   }
   std::ranges::sort(result, {}, &Knot::node);
   return result;

@@ -260,6 +260,22 @@ struct DragSpec {
   Coefficients quadratic = {};  ///< over its square [N s^2/m^3]
 };
 
+/// The fluid around the beam.
+struct FluidSpec {
+  double density = 0;               ///< [kg/m^3], of what the beam displaces
+  Point velocity{};                 ///< [m/s], against which drag counts
+  std::optional<double> area = {};  ///< displaced per length [m^2]; if not given, a circle's own
+};
+
+/// A floor that bears the beam from below, against gravity.
+struct GroundSpec {
+  double height = 0;                           ///< of the floor, against gravity from the origin [m]
+  double stiffness = 0;                        ///< push per length over the depth [N/m^2]
+  std::optional<double> depth = {};            ///< over which it sets in [m]; if not given, the beam's weight over it
+  double damping = 0;                          ///< per length, of the velocity into it [N s/m^2]
+  std::optional<AxialFriction> friction = {};  ///< against the velocity along it
+};
+
 /// How the lengths of the elements beside the sliding mass are controlled.
 struct LengthControlSpec {
   bool enabled = true;
@@ -361,6 +377,8 @@ struct Scene {
   std::vector<PointMassSpec> point_masses = {};
   std::optional<InitialVelocitySpec> initial_velocity;
   std::optional<DragSpec> drag = {};
+  std::optional<FluidSpec> fluid = {};
+  std::optional<GroundSpec> ground = {};
   Analysis analysis = Analysis::dynamics;
   InitialShape initial_shape = InitialShape::built;
   StaticsSpec statics;

@@ -27,6 +27,8 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     point_masses();
     initial_velocity();
     drag();
+    fluid();
+    ground();
     equations();
     length_control();
     statics();
@@ -302,6 +304,40 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
                   drag.quadratic.normal);
       coefficient("/drag/quadratic/tangential", "N s^2/m^3", "of the velocity along the axis",
                   drag.quadratic.tangential);
+    }
+  }
+
+  void fluid() {
+    if (present("/fluid", "what surrounds the beam and flows evenly; without it, air that is light and still",
+                scene.fluid)) {
+      auto& fluid = *scene.fluid;
+      number(
+          "/fluid/density", "kg/m^3", Range::non_negative(),
+          "of the fluid, whose weight the beam displaces: buoyancy, but neither added mass nor that of lumped masses",
+          fluid.density);
+      vector("/fluid/velocity", "m/s", "of the fluid, against which /drag counts", fluid.velocity);
+      number("/fluid/area", "m^2", Range::positive(),
+             "what the beam displaces per length; if not given, a circle's own", fluid.area);
+    }
+  }
+
+  void ground() {
+    if (present("/ground", "a floor that bears the beam from below, against gravity", scene.ground)) {
+      auto& ground = *scene.ground;
+      number("/ground/height", "m", {}, "of the floor, against gravity from the origin", ground.height);
+      number("/ground/stiffness", "N/m^2", Range::positive(),
+             "push per unstretched length over the depth under the floor", ground.stiffness, {.required = true});
+      number("/ground/depth", "m", Range::positive(),
+             "over which the push sets in, with its square; if not given, that at which it bears the beam's weight",
+             ground.depth);
+      number("/ground/damping", "N s/m^2", Range::non_negative(), "of the velocity into the floor, per length",
+             ground.damping);
+      if (present("/ground/friction", "Coulomb friction against the velocity along the floor", ground.friction)) {
+        number("/ground/friction/coefficient", "-", Range::non_negative(), "mu, friction over the push",
+               ground.friction->coefficient, {.required = true});
+        number("/ground/friction/velocity", "m/s", Range::positive(), "velocity below which friction fades",
+               ground.friction->velocity);
+      }
     }
   }
 

@@ -271,6 +271,40 @@ void check_resting_parts(const Scene& scene) {
   }
 }
 
+void check_fluid(const Scene& scene) {
+  if (!scene.fluid) return;
+  const FluidSpec& fluid = *scene.fluid;
+  if (fluid.velocity != Point{} && !scene.drag) {
+    refuse("/fluid/velocity", "this key", "without /drag it does nothing: give the coefficients, or leave it out");
+  }
+  if (fluid.velocity != Point{} && flows(scene)) {
+    refuse("/fluid/velocity", "this key", "it goes together with neither /flow nor rotary inertia");
+  }
+  if (fluid.velocity != Point{} && scene.analysis == Analysis::statics) {
+    refuse("/fluid/velocity", "this key", "statics knows no drag: leave it out");
+  }
+  const bool circle = scene.beam.section.type == Section::Type::circle;
+  if (circle && fluid.area) refuse("/fluid/area", "this key", "a circle has its own: leave it out");
+  if (!circle && fluid.density > 0 && !fluid.area) {
+    refuse("/fluid/area", InvalidInput::missing,
+           "with a density and a section of stiffnesses it must be given, > 0 [m^2]");
+  }
+  if (scene.dimension == 2 && fluid.velocity[2] != 0) {
+    refuse("/fluid/velocity/2", number_text(fluid.velocity[2]), "a planar scene has two components");
+  }
+}
+
+void check_ground(const Scene& scene) {
+  if (!scene.ground) return;
+  if (scene.gravity == Point{}) {
+    refuse("/ground", "this key", "gravity says which way is up: /gravity must not be zero");
+  }
+  if (flows(scene)) refuse("/ground", "this key", "it goes together with neither /flow nor rotary inertia");
+  if (scene.integrator.type == IntegratorType::energy_momentum) {
+    refuse("/integrator/type", quoted(scene.integrator.type), "it knows no /ground: take any other");
+  }
+}
+
 void check_point_masses(const Scene& scene) {
   for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
     if (scene.point_masses[i].node <= scene.beam.elements) continue;
@@ -486,6 +520,8 @@ void check_all(const Scene& scene) {
   validate_joint_choices(scene);
   check_energy_momentum(scene);
   check_support_motion(scene);
+  check_fluid(scene);
+  check_ground(scene);
   check_point_masses(scene);
   validate_feeds(scene);
   check_output(scene);

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "core/element/moving_points.hpp"
-#include "core/parts/material_point.hpp"
+#include "core/parts/line_force.hpp"
 #include "core/parts/part.hpp"
 
 namespace vlbeam {
@@ -15,25 +14,30 @@ struct DragCoefficients {
   bool present() const { return normal != 0 || tangential != 0; }
 };
 
-/// What still air around a beam does to it, per unstretched length, at the velocity v of the material point and the
-/// tangent t = r_x/|r_x|, v_t = v.t, v_n = v - v_t t:
+/// What a fluid around a beam does to it, per unstretched length, at the velocity v of the material point against that
+/// of the fluid and the tangent t = r_x/|r_x|, v_t = v.t, v_n = v - v_t t:
 ///   f = -(c_n v_n + c_t v_t t) - (q_n |v_n| v_n + q_t |v_t| v_t t).
 /// Damping in proportion to the beam's mass is c_n = c_t = alpha rhoA. Summed up at the model's points as its inertia
-/// is, N^T f: what it takes is exactly the work of the generalized forces. Lumped masses and what slides have none.
+/// is, N^T f: what it takes is exactly the work of the generalized forces, and what a stream gives is a load's. Lumped
+/// masses and what slides have none.
 template <int D>
 struct Drag {
   DragCoefficients linear;     ///< [N s/m^2]
   DragCoefficients quadratic;  ///< [N s^2/m^3]
   int quadrature_points = 5;
+  Vec<double, D> stream = Vec<double, D>::Zero();  ///< velocity of the fluid [m/s]
 
   bool present() const { return linear.present() || quadratic.present(); }
+  bool streams() const { return present() && stream.squaredNorm() > 0; }
 
+  static bool acts(const Vec<double, D>& /*place*/) { return true; }
   /// Per unstretched length [N/m].
   template <class Real>
-  Vec<Real, D> force(const Vec<Real, D>& v, const Vec<Real, D>& r_x) const {
+  Vec<Real, D> force(const LinePoint<Real, D>& at) const {
+    const Vec<Real, D> v = at.v - stream.template cast<Real>();
     Vec<Real, D> f = v * Real(-linear.normal);
     if (linear.normal == linear.tangential && !quadratic.present()) return f;
-    const Vec<Real, D> t = r_x * Real(Real(1) / sqrt(Real(r_x.squaredNorm())));
+    const Vec<Real, D> t = at.r_x * Real(Real(1) / sqrt(Real(at.r_x.squaredNorm())));
     const Real along = v.dot(t);
     const Vec<Real, D> across = v - t * along;
     const Real speed2 = across.squaredNorm(), speed_along = along < Real(0) ? Real(-along) : along;
@@ -42,22 +46,14 @@ struct Drag {
     return f;
   }
 
-  /// Adds it to an array like q; returns the power that it takes [W]. Where nodes are prescribed, what it does along
-  /// the beam [N] is added to `on_marks`, one entry a node, unless that is null.
-  double add_forces(const ChainView<D>& beam, double* force, double* on_marks = nullptr) const;
+  /// Adds it to an array like q; returns the power that it takes and gives. Where nodes are prescribed, what it does
+  /// along the beam [N] is added to `on_marks`, one entry a node, unless that is null.
+  Tally add_forces(const ChainView<D>& beam, double* force, double* on_marks = nullptr) const;
   /// Calls `add(element, matrix)` with the tangent of minus it by the element's coordinates.
   template <class Add>
   void add_tangent(const ChainView<D>& beam, const TangentWeights& by, const Add& add) const {
-    if (!present()) return;
-    for (int k = 0; k < beam.mesh.elements(); ++k) {
-      const bool moves = beam.at_joint(k) || beam.marks != nullptr;
-      add(k, moves ? moving_tangent(beam, k, by) : fixed_tangent(beam, k, by));
-    }
+    if (present()) add_line_tangent<D>(beam, quadrature_points, *this, by, add);
   }
-
- private:
-  PointMatrix<D> fixed_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
-  PointMatrix<D> moving_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
 };
 
 /// Drag as a part of the equations; `drag` must outlive it.
@@ -66,7 +62,7 @@ class ActingDrag final : public Part<D> {
  public:
   explicit ActingDrag(const Drag<D>& drag) : drag_(drag) {}
   Tally add_force(const Motion<D>& motion, double* force) const override {
-    return {.dissipated = drag_.add_forces(motion.beam, force)};
+    return drag_.add_forces(motion.beam, force);
   }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
     drag_.add_tangent(motion.beam, by,

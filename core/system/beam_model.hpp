@@ -105,7 +105,7 @@ struct BeamModel {
   /// The energies that the state counts.
   Tallies tallies() const {
     if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
-    return {dissipates(), loads.present() || !parts.empty() || (spin && spin->torques.present()),
+    return {dissipates(), loads.present() || !parts.empty() || drag.streams() || (spin && spin->torques.present()),
             spin && !spin->drives.empty(), driven()};
   }
 };

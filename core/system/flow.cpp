@@ -90,7 +90,8 @@ Tally BeamSystem<D>::flow_power(const double* q, const double* rate, const doubl
   if (spin_) {
     loads += spin_->add_torques(q + turns, rate + turns, t, flow_forces_.data() + turns, on_marks_.data());
   }
-  const double taken = model_.drag.present() ? model_.drag.add_forces(beam, flow_forces_.data(), on_marks_.data()) : 0;
+  double taken = 0;
+  if (model_.drag.present()) taken = model_.drag.add_forces(beam, flow_forces_.data(), on_marks_.data()).dissipated;
   for (int k = 1; k < mesh_.last(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     mesh -= on_marks_[i] * marks[i].rate;

@@ -35,11 +35,11 @@ std::string beam_text(const Scene& scene) {
   if (scene.flow) text += "; flows";
   if (may_have_corners(scene.beam.curve)) {
     const auto round = rounded_corners(scene, drawn_axis<3>(scene.beam.curve)).size();
-    if (round > 0) text += "; " + std::to_string(round) + (round == 1 ? " corner" : " corners") + " rounded off";
+    if (round > 0) text += "; " + std::to_string(round) + (round == 1 ? " corner" : " corners") + " rounded off, which shorten it";
   }
   if (const auto count = knots(scene).size(); count > 0) {
     text +=
-        "; " + std::to_string(count) + (count == 1 ? " node" : " nodes") + " with two slopes, under masses and loads";
+        "; " + std::to_string(count) + (count == 1 ? " node" : " nodes") + " with two slopes, at masses, loads and corners";
   }
   if (const auto count = scene.point_masses.size(); count > 0) {
     text += "; " + std::to_string(count) + (count == 1 ? " point mass" : " point masses");

@@ -367,6 +367,8 @@ Scene scene_with_every_part() {
   scene.point_masses.emplace_back();
   scene.initial_velocity.emplace();
   scene.drag.emplace();
+  scene.fluid.emplace();
+  scene.ground.emplace().friction.emplace();
   scene.integrator.atol_by_kind.emplace();
   return scene;
 }

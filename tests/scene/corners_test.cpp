@@ -296,6 +296,7 @@ TEST(Corners, AreRefusedWithTheirPlaceWhereTheyCannotBe) {
   bends.sliding_joints = {ring_at(1 + 1e-6)};
   EXPECT_EQ(test::refused(bends), "/beam/curve/points/1") << "the joint is not at the corner";
   Scene back = string_along({{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}}, 8);
+  back.sliding_joints = {ring_at(1.5)};
   EXPECT_EQ(test::refused(back), "/beam/curve/points/1") << "too sharp to become round";
   Scene twice = string_along({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, 8);
   EXPECT_EQ(test::refused(twice), "/beam/curve/points/2");

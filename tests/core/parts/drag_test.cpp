@@ -28,15 +28,15 @@ TYPED_TEST(DragTest, IsOfTheVelocityAlongAndAcross) {
   Random random(2);
   const Drag<D> drag{{0.7, 0.3}, {0.5, 0.9}, 5};
   const Vec<double, D> v = random.vector<D>(3), r_x = random.vector<D>(), t = r_x.normalized();
-  const Vec<double, D> f = drag.template force<double>(v, r_x);
+  const Vec<double, D> f = drag.force(LinePoint<double, D>{r_x, r_x, v});
   const double along = v.dot(t), across = (v - along * t).norm();
   EXPECT_NEAR(f.dot(t), -along * (0.3 + 0.9 * std::abs(along)), 1e-14);
   EXPECT_NEAR((f - f.dot(t) * t).norm(), across * (0.7 + 0.5 * across), 1e-14);
   EXPECT_LT(f.dot(v), 0);
-  const Vec<double, D> still = drag.template force<double>(Vec<double, D>::Zero(), r_x);
+  const Vec<double, D> still = drag.force(LinePoint<double, D>{r_x, r_x, Vec<double, D>::Zero()});
   EXPECT_EQ(still.norm(), 0);
   const Drag<D> even{{0.7, 0.7}, {}, 5};
-  EXPECT_LE((even.template force<double>(v, r_x) + 0.7 * v).norm(), 1e-15);
+  EXPECT_LE((even.force(LinePoint<double, D>{r_x, r_x, v}) + 0.7 * v).norm(), 1e-15);
 }
 
 /// The total counts what is dissipated as still there.
