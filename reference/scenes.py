@@ -108,6 +108,122 @@ def moving_force():
     return -2 * force / rhoA * total
 
 
+def line_masses(given):
+    """Of a rope's section [kg/m], and its length by the points of its axis [m]."""
+    points = given["beam"]["curve"]["points"]
+    lengths = [mp.hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:])]
+    return mp.mpf(str(given["beam"]["section"]["rhoA"])), lengths
+
+
+G = mp.mpf("9.81")
+
+
+def over_a_ring(given, heavy, light, turning=0):
+    """How far an inextensible rope runs towards its start: (M + I/r^2) s'' = g (m1 - m2 + rhoA (l1 - l2 + 2 s))."""
+    rhoA, (first, second) = line_masses(given)
+    whole = heavy + light + rhoA * (first + second) + turning
+    drive, growth = G * (heavy - light + rhoA * (first - second)) / whole, 2 * G * rhoA / whole
+    return first + drive / growth * (mp.cosh(mp.sqrt(growth) * given["duration"]) - 1)
+
+
+def atwood():
+    given = scene("atwood")
+    pulley = given["sliding_joints"][0]["pulley"]
+    return over_a_ring(given, 2, 1, mp.mpf(str(pulley["inertia"])) / mp.mpf(str(pulley["radius"])) ** 2)
+
+
+def movable_pulley():
+    """Lagrange's equation of the weight on the bight: between supports 0.4 m apart it hangs y deep, and the end of the
+    rope rises by 2 sqrt(0.04 + y^2)."""
+    given = scene("movable_pulley")
+    half = lambda y: mp.sqrt(mp.mpf("0.04") + y**2)
+
+    def rates(_, at):
+        y, speed = at
+        u, u_y = 2 * y / half(y), mp.mpf("0.08") / half(y) ** 3
+        return [speed, (3 * G - u * G - u * u_y * speed**2) / (3 + u**2)]
+    return mp.odefun(rates, 0, [mp.mpf(1), mp.mpf(0)])(mp.mpf(str(given["duration"])))[0]
+
+
+def zipline():
+    """A bead on the ellipse that a cable without mass and of constant length draws between its ends."""
+    given = scene("zipline")
+    _, lengths = line_masses(given)
+    points = [mp.matrix(point) for point in given["beam"]["curve"]["points"]]
+    whole, start, end = mp.fsum(lengths), points[0], points[2]
+    centre, half = (start + end) / 2, whole / 2
+    focal = mp.norm(end - start) / 2
+    along = (end - start) / (2 * focal)
+    across = mp.matrix([-along[1], along[0]])
+    small = mp.sqrt(half**2 - focal**2)
+    place = lambda u: centre + along * (half * mp.cos(u)) + across * (small * mp.sin(u))
+    from_centre = points[1] - centre
+    dot = lambda a, b: a[0] * b[0] + a[1] * b[1]
+    first = mp.atan2(dot(from_centre, across) / small, dot(from_centre, along) / half)
+
+    def rates(_, at):
+        u, speed = at
+        r_u = along * (-half * mp.sin(u)) + across * (small * mp.cos(u))
+        r_uu = along * (-half * mp.cos(u)) - across * (small * mp.sin(u))
+        return [speed, (-G * r_u[1] - dot(r_u, r_uu) * speed**2) / dot(r_u, r_u)]
+    u = mp.odefun(rates, 0, [first, mp.mpf(0)])(mp.mpf(given["duration"]))[0]
+    return place(u)
+
+
+def container_crane():
+    """A pendulum whose length and pivot are given: l a'' + 2 l' a' + g sin a + X'' cos a = 0; the rope's mass is left out."""
+    given = scene("container_crane")
+    support = given["supports"][0]
+    way, feed = support["motion"], support["feed"]
+    slope = lambda s: 140 * (s * (1 - s)) ** 3 if 0 < s < 1 else mp.mpf(0)
+    integral = lambda s: s**5 * (7 - 14 * s + 10 * s**2 - mp.mpf("2.5") * s**3) if s < 1 else s - mp.mpf("0.5")
+    rest = -mp.mpf(given["beam"]["curve"]["end"][1])
+    mass = given["point_masses"][0]["mass"]
+    stretch = 1 + mass * G / mp.mpf(str(given["beam"]["section"]["EA"]))
+
+    def of(part, t):
+        ramp, rate = mp.mpf(part["rate_ramp"]), mp.mpf(str(part["rate"]))
+        return rate * ramp * integral(t / ramp), rate * smooth_step(t / ramp), rate * slope(t / ramp) / ramp
+
+    def rates(t, at):
+        a, speed = at
+        fed, fed_rate, _ = of(feed, t)
+        length, length_rate = (rest + fed) * stretch, fed_rate * stretch
+        return [speed, (-2 * length_rate * speed - G * mp.sin(a) - of(way, t)[2] * mp.cos(a)) / length]
+    ramp, until = mp.mpf(way["rate_ramp"]), mp.mpf(given["duration"])
+    middle = mp.odefun(rates, 0, [mp.mpf(0), mp.mpf(0)])(ramp)
+    a, _ = mp.odefun(rates, ramp, middle)(until)
+    length = (rest + of(feed, until)[0]) * stretch
+    return of(way, until)[0] + length * mp.sin(a), -length * mp.cos(a)
+
+
+def mooring_line():
+    """Weight in water of the part of an inextensible chain that hangs: it leaves the ground along it (Irvine 1981)."""
+    given = scene("mooring_line")
+    _, lengths = line_masses(given)
+    section, fluid = given["beam"]["section"], given["fluid"]
+    weight = G * (mp.mpf(str(section["rhoA"])) - mp.mpf(str(fluid["density"])) * mp.mpf(str(fluid["area"])))
+    reach, height = [mp.mpf(c) for c in given["beam"]["curve"]["points"][2]]
+    hanging = lambda pull: pull / weight * mp.sinh(mp.acosh(1 + height * weight / pull))
+    span = lambda pull: pull / weight * mp.acosh(1 + height * weight / pull)
+    pull = mp.findroot(lambda h: mp.fsum(lengths) - hanging(h) + span(h) - reach, 1000)
+    return weight * hanging(pull)
+
+
+def three_guides():
+    """Tensions around guides in the ratio e^(mu phi) of all the angles, of a cable without mass."""
+    given = scene("three_guides")
+    points = [mp.matrix(point) for point in given["beam"]["curve"]["points"]]
+    motion = given["supports"][0]["motion"]
+    way = motion["rate"] * (given["duration"] - mp.mpf(str(motion["rate_ramp"])) / 2)
+    direction = mp.matrix(motion["direction"])
+    points[-1] += direction / mp.norm(direction) * way
+    pieces = [(b - a) / mp.norm(b - a) for a, b in zip(points, points[1:])]
+    angles = [mp.acos(a[0] * b[0] + a[1] * b[1]) for a, b in zip(pieces, pieces[1:])]
+    mu = mp.mpf(str(given["sliding_joints"][0]["friction"]["coefficient"]))
+    return 10 * mp.exp(mu * mp.fsum(angles)) * pieces[-1][1]
+
+
 def moving_string():
     """Steady deflection of a tensioned beam that runs through its supports, under a force in the middle: with the stretch
     lambda, EI/lambda^4 w'''' - (EA e - rhoA c^2) w'' = F delta, c the rate of the material coordinate."""
@@ -194,6 +310,27 @@ answer("winch", "end.x", path[-1]["x"], 2e-4, "exact",
 answer("lead_screw", "joint_position", lead_screw(), 3e-4, "exact",
        "a rigid screw; this one is stretched by 1.2e-4 under the weights, by which the load asks for 6e-4 more of what is "
        "left to lift it, and twisted by 5e-3 rad, which is 1.6e-4 m of the thread")
+
+answer("atwood", "joint_position", atwood(), 1e-4, "exact",
+       "two weights, a wheel and a rope of given length; the scene's swings by its elongation, some 2e-5 m")
+answer("movable_pulley", "mass_position.y", -movable_pulley(), 1e-4, "independent",
+       "Lagrange's equation of an inextensible rope without mass, by Taylor series to 30 digits (reference/scenes.py)")
+answer("three_weights", "joint_position", mp.mpf("1.25"), 2e-4, "exact",
+       "2 T sin(alpha) = 1.2 g, T = g: a triangle of sides 3, 4 and 5; the scene's rope is 1e-4 longer", 1)
+answer("rope_off_peg", "joint_position", mp.mpf("0.9") - mp.mpf("0.1") * (mp.cosh(mp.sqrt(G) / 2) - 1), 1e-4, "exact",
+       "s'' = g (l2 - l1 + 2 s)/L of an inextensible rope")
+answer("mooring_line", "reaction_end_y", mooring_line(), 1, "exact",
+       "inextensible catenary that leaves the ground along it; the scene's is 3e-5 longer, and lies 2e-4 m deep", 1)
+answer("elevator", "end.y", -48 * (1 + 500 * G / mp.mpf(1e8)), 2e-4, "exact",
+       "rope paid out and its stretch under the car; its own weight adds 1e-4 m")
+answer("three_guides", "reaction_end_y", three_guides(), 1e-4, "exact",
+       "tensions in the ratio e^(mu phi) of a cable without mass")
+answer("zipline", "mass_position.x", zipline()[0], 2e-3, "independent",
+       "bead on an ellipse, by Taylor series (reference/scenes.py): a cable without mass and of constant length; the scene's "
+       "is up to 1e-3 longer")
+answer("container_crane", "end.x", container_crane()[0], 2e-3, "independent",
+       "pendulum of given length and pivot, by Taylor series (reference/scenes.py); the scene's rope has 1e-3 of the load's "
+       "mass")
 
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (

@@ -125,8 +125,11 @@ bool has_several_joints(const Scene& scene) {
 
 double merge_below(const Scene& scene) {
   const auto& control = scene.length_control;
-  const double otherwise =
-      control.enabled && has_several_joints(scene) ? 2 - control.upper * (1 + control.hysteresis) : 0;
+  // with one joint cuts and merges come together, which elements of unequal lengths would set off again and again
+  const bool uneven = scene.analysis == Analysis::dynamics && may_have_corners(scene.beam.curve) &&
+                      drawn_axis<3>(scene.beam.curve).breaks().size() > 2;
+  const bool apart = control.enabled && (uneven || has_several_joints(scene));
+  const double otherwise = apart ? 2 - control.upper * (1 + control.hysteresis) : 0;
   return control.lower.value_or(otherwise);
 }
 
