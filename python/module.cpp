@@ -37,41 +37,54 @@ py::array_t<double> array_of(std::vector<double> numbers, const Shape& shape) {
   return py::array_t<double>(shape, kept->data(), owner);
 }
 
-/// Does the work on another thread, without Python's lock; Ctrl-C asks it to stop and is raised once it has.
+/// Does the work on another thread, without Python's lock. `tell` is called with it, 20 times a second, to say how far
+/// the work is. Ctrl-C, or an exception of `tell`, asks the work to stop and is raised once it has stopped.
 template <class Work>
-auto without_lock(const Work& work, const std::function<void(int)>& stop) {
+auto without_lock(const Work& work, const std::function<void(int)>& stop, const std::function<void()>& tell) {
   std::future<decltype(work())> result;
-  bool interrupted_by_user = false;
+  std::exception_ptr raised;
   {
     const py::gil_scoped_release unlocked;
     result = std::async(std::launch::async, work);
-    while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+    while (!raised && result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
       const py::gil_scoped_acquire locked;
-      if (PyErr_CheckSignals() == 0) continue;
-      interrupted_by_user = true;
-      break;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        tell();
+      } catch (const py::error_already_set&) {
+        raised = std::current_exception();
+      }
     }
-    if (interrupted_by_user) {
+    if (raised) {
       stop(SIGINT);
       result.wait();
       stop(0);
     }
   }
-  if (interrupted_by_user) throw py::error_already_set();
+  if (raised) std::rethrow_exception(raised);
   return result.get();
 }
 
 /// A run and its arrays.
 class Run {
  public:
-  explicit Run(const std::string& text) : scene_(parse_scene(text)) {
+  Run(const std::string& text, const py::object& progress) : scene_(parse_scene(text)) {
     std::atomic<bool> go_on{true};
-    result_ = without_lock([&] { return simulate(scene_, [&](double) { return go_on.load(); }); },
-                           [&](int signal) { go_on = signal == 0; });
+    std::atomic<double> reached{0};
+    const auto at_step = [&](double t) {
+      reached = t;
+      return go_on.load();
+    };
+    const auto tell = [&] {
+      if (!progress.is_none() && scene_.analysis == Analysis::dynamics) progress(reached / scene_.duration, "");
+    };
+    result_ = without_lock([&] { return simulate(scene_, at_step); }, [&](int signal) { go_on = signal == 0; }, tell);
     quantities_ = sample_quantities(scene_);
   }
 
   std::string status() const { return std::string(to_string(result_.status)); }
+  std::string title() const { return scene_.title; }
+  int dimension() const { return scene_.dimension; }
   std::string failure() const { return result_.failure; }
   double failure_time() const { return result_.failure_time; }
   std::string summary() const { return run_summary(scene_, result_); }
@@ -126,6 +139,13 @@ class Run {
     return array_of(std::move(numbers), {static_cast<py::ssize_t>(result_.samples.size())});
   }
 
+  /// (name, unit) of every single number that was sampled, the time left out.
+  std::vector<std::pair<std::string, std::string>> columns() const {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const Quantity& quantity : quantities(scene_)) list.emplace_back(quantity.name, quantity.unit);
+    return list;
+  }
+
   std::vector<double> shape_times() const {
     std::vector<double> times;
     for (const Configuration& shape : result_.configurations) times.push_back(shape.t);
@@ -172,27 +192,42 @@ int jobs_or_processors(int jobs) {
 }
 
 std::string converge_text(const std::string& text, const std::string& quantity, double error, bool relative,
-                          std::optional<double> at, bool horizon, int jobs) {
+                          std::optional<double> at, bool horizon, int jobs, std::optional<double> limit,
+                          const py::object& progress) {
   const Scene scene = parse_scene(text);
+  std::atomic<int> runs{0};
   const ConvergeOptions options{.quantity = quantity,
                                 .error = error,
                                 .relative = relative,
                                 .at = at,
                                 .horizon = horizon,
-                                .jobs = jobs_or_processors(jobs)};
-  return without_lock([&] { return pretty(convergence_to_json(scene, converge(scene, options))); }, ask_to_stop);
+                                .jobs = jobs_or_processors(jobs),
+                                .seconds = limit.value_or(std::numeric_limits<double>::infinity()),
+                                .on_level = [&](const ConvergeLevel&) { ++runs; }};
+  const auto tell = [&] {
+    if (!progress.is_none()) progress(-1.0, std::to_string(runs) + " runs done");
+  };
+  return without_lock([&] { return pretty(convergence_to_json(scene, converge(scene, options))); }, ask_to_stop, tell);
 }
 
-std::string sweep_text(const std::string& text, int jobs) {
+std::string sweep_text(const std::string& text, int jobs, const py::object& progress) {
   const SweepPlan plan = sweep_from_json(parse_json(text), ".");
+  std::atomic<std::size_t> done{0};
+  const auto tell = [&] {
+    const double whole = static_cast<double>(plan.cases.size());
+    if (progress.is_none()) return;
+    progress(static_cast<double>(done) / whole, std::to_string(done) + " of " + std::to_string(plan.cases.size()));
+  };
   return without_lock(
       [&] {
         std::vector<Json> cases(plan.cases.size());
-        run_tasks("sweep", std::vector<double>(cases.size(), 1.0), jobs_or_processors(jobs),
-                  [&](std::size_t i) { cases[i] = run_sweep_case(plan, i); });
+        run_tasks("sweep", std::vector<double>(cases.size(), 1.0), jobs_or_processors(jobs), [&](std::size_t i) {
+          cases[i] = run_sweep_case(plan, i);
+          ++done;
+        });
         return pretty({{"quantities", plan.quantities}, {"cases", cases}});
       },
-      ask_to_stop);
+      ask_to_stop, tell);
 }
 
 std::string schema_text(const std::string& of) {
@@ -226,7 +261,9 @@ PYBIND11_MODULE(_vlbeam, module) {
   });
 
   py::class_<Run>(module, "Run")
-      .def(py::init<const std::string&>())
+      .def(py::init<const std::string&, const py::object&>())
+      .def_property_readonly("title", &Run::title)
+      .def_property_readonly("dimension", &Run::dimension)
       .def_property_readonly("status", &Run::status)
       .def_property_readonly("failure", &Run::failure)
       .def_property_readonly("failure_time", &Run::failure_time)
@@ -236,6 +273,7 @@ PYBIND11_MODULE(_vlbeam, module) {
       .def("paths", &Run::paths)
       .def("samples", &Run::samples)
       .def("column", &Run::column)
+      .def("columns", &Run::columns)
       .def("shape_times", &Run::shape_times)
       .def("shape", &Run::shape);
   module.def("converge", &converge_text);

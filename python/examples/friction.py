@@ -1,6 +1,6 @@
 """How far does a mass slide along a falling beam, depending on its friction? A sweep, and what it means.
 
-    PYTHONPATH=build/python python3 python/examples/friction.py [FIGURE.svg]
+    python3 python/examples/friction.py [FIGURE.svg]
 """
 
 import sys

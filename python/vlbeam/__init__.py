@@ -3,10 +3,11 @@
     import vlbeam
     scene = vlbeam.scene("falling_beam")
     r = vlbeam.run(scene)
-    r.t, r.joint_position, r.end, r.energy.total      # numpy arrays
-    vlbeam.converge(scene, "joint_position", 1e-3)     # how far can it be trusted?
+    r.t, r.joint_position, r.end, r.energy.total      # numpy arrays, SI units: r.units
+    r.plot(); r.to_pandas()                           # matplotlib, pandas
+    vlbeam.converge(scene, "joint_position", 1e-3)    # how far can it be trusted?
 
-Scenes are dictionaries, as `vlbeam schema scene` (here: `vlbeam.schema("scene")`) describes them.
+A scene is a dictionary, as `vlbeam schema scene` (here: `vlbeam.schema("scene")`) describes it; its keys are attributes, too.
 """
 
 import json as _json
@@ -24,182 +25,83 @@ except ImportError as _error:
     raise ImportError(
         f"vlbeam was not built for this interpreter: {_sys.executable}, Python {_sys.version.split()[0]}; modules here: {_built}. "
         f"Use the Python it was built for, or build with OPTIONS=-DPython_EXECUTABLE={_sys.executable} ({_error})") from None
+from . import _scene
+from ._notebook import bar as _bar
+from ._result import ComputationFailed, Convergence, Record, Result
 from ._vlbeam import InvalidInput
 
 __version__ = _vlbeam.version
-__all__ = ["ComputationFailed", "InvalidInput", "Result", "converge", "run", "scene", "scenes", "schema", "sweep"]
+__all__ = ["ComputationFailed", "Convergence", "InvalidInput", "Result", "Scene", "converge", "run", "scene", "scenes", "schema", "sweep"]
 
 _SCENES = _Path(__file__).parent / "scenes"
 
 
-class ComputationFailed(RuntimeError):
-    """The computation broke down. `result` holds what was computed until then, up to the last good state."""
-
-    def __init__(self, message, result):
-        super().__init__(message)
-        self.result = result
-
-
-class Record(dict):
-    """A dictionary whose keys are attributes, too."""
-
-    __getattr__ = dict.__getitem__
-
-    def __getattribute__(self, name):
-        try:
-            return super().__getattribute__(name)
-        except KeyError:
-            raise AttributeError(name) from None
+def __getattr__(name):
+    if name == "Scene":  # its class is made from the option table, which takes a moment
+        globals()["Scene"] = _scene.scene_class()
+        return globals()["Scene"]
+    raise AttributeError(f"module 'vlbeam' has no attribute {name!r}")
 
 
-class _OfSamples(dict):
-    """What is known of samples by name; what is known of "end" holds for "end.y", too."""
-
-    def __missing__(self, name):
-        whole = name.rpartition(".")[0] if isinstance(name, str) else ""
-        if not whole:
-            raise KeyError(name)
-        return self[whole]
-
-
-class _Part:
-    """Samples below a path: `r.energy` with `r.energy.total`."""
-
-    def __init__(self, run, tree, path):
-        self._run, self._tree, self._path = run, tree, path
-
-    def __getattr__(self, name):
-        if name.startswith("_") or name not in self._tree:
-            raise AttributeError(f"{name!r} is not sampled here; there are: {', '.join(self._tree)}")
-        path = f"{self._path}{name}"
-        below = self._tree[name]
-        value = _Part(self._run, below, path + "/") if below else self._run.samples(path)
-        self.__dict__[name] = value
-        return value
-
-    def __dir__(self):
-        return list(self._tree)
-
-    def __repr__(self):
-        return f"<{self._path.rstrip('/') or 'samples'}: {', '.join(self._tree)}>"
-
-
-class Result(_Part):
-    """What a run gave. Samples are numpy arrays: shape (samples,) for numbers, (samples, dimension) for vectors; NaN
-    where a quantity is not there, like `joint_position` once the mass has left the beam."""
-
-    def __init__(self, run):
-        tree, self.units, self.descriptions = {}, _OfSamples(), _OfSamples()
-        for path, unit, description in run.paths():
-            branch = tree
-            for segment in path.split("/"):
-                branch = branch.setdefault(segment, {})
-            name = path.replace("/", ".")
-            self.units[name], self.descriptions[name] = unit, description
-        super().__init__(run, tree, "")
-
-    def __getitem__(self, name):
-        """Samples of one number by its name: r["end.y"]."""
-        return self._run.column(name)
-
-    def __dir__(self):
-        return [*self._tree, "units", "descriptions", "status", "warnings", "events", "shape", "shape_times", "report", "csv", "save"]
-
-    def __repr__(self):
-        return self._run.summary()
-
-    @property
-    def status(self):
-        """completed, or separated where the mass has left the beam."""
-        return self._run.status
-
-    @property
-    def shape_times(self):
-        """Times [s] at which the whole shape was kept: those of /output/configurations."""
-        return self._run.shape_times()
-
-    def shape(self, index, points=8):
-        """Points along the axis of a shape that was kept, `points` intervals an element: arrays t, x, r, r_x, v, strain,
-        tension, curvature."""
-        times = self._run.shape_times()
-        if not -len(times) <= index < len(times):
-            raise IndexError(f"{len(times)} shapes were kept, numbered from 0: list their times in /output/configurations")
-        return Record(self._run.shape(index % len(times), points))
-
-    def report(self):
-        """The report as `vlbeam run --report` writes it (`vlbeam.schema("run")`), as a dictionary."""
-        return _json.loads(self._run.report())
-
-    @property
-    def warnings(self):
-        """What the run warns of: records with `kind`, `message` and `remedy`."""
-        return _json.loads(self._run.report(), object_hook=Record)["warnings"]
-
-    @property
-    def events(self):
-        """Length-control events and what else happened, as the report has them."""
-        return _json.loads(self._run.report(), object_hook=Record)["events"]
-
-    def csv(self):
-        """The samples as CSV text, units in the first line."""
-        return self._run.csv()
-
-    def save(self, path):
-        """Writes the report to a file, for `vlbeam plot` and `vlbeam compare`."""
-        _Path(path).write_text(self._run.report(), encoding="utf-8")
-
-
-def _plain(value):
-    """A numpy array or number as what JSON can say."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    raise TypeError(f"a scene cannot hold a {type(value).__name__}: {value!r:.60}")
+def __dir__():
+    return __all__
 
 
 def _text(scene):
     if not isinstance(scene, str):
-        return _json.dumps(scene, default=_plain)
+        return _json.dumps(scene, default=_scene.plain)
     if "{" not in scene:
         raise ValueError(f"{scene!r:.60} is no JSON text; a scene in a file is json.load(open(path))")
     return scene
 
 
-def run(scene):
-    """Runs a scene, a dictionary or its JSON text.
+def run(scene, *, progress=True):
+    """Runs a scene: a dictionary, a `Scene`, or JSON text. Returns a `Result`.
 
-    Raises InvalidInput where it is not understood, with the text that the program prints (attributes `field`, a JSON
-    pointer, `value` and `allowed`), and ComputationFailed, whose `result` holds what there is, where it breaks down.
-    Ctrl-C ends it with KeyboardInterrupt; other threads of Python go on meanwhile.
+    progress: show a bar, in notebooks.
+
+    Raises InvalidInput where the scene is not understood, with the text that the program prints, and the attributes
+    `field` (a JSON pointer), `value` and `allowed`. Raises ComputationFailed where the motion breaks down; its `result`
+    holds what there is until then. Ctrl-C ends a run with KeyboardInterrupt. Other threads of Python go on meanwhile.
     """
-    done = _vlbeam.Run(_text(scene))
+    with _bar("run", progress) as told:
+        done = _vlbeam.Run(_text(scene), told)
     result = Result(done)
     if done.status == "failed":
         raise ComputationFailed(f"the computation failed at t = {done.failure_time:g} s: {done.failure}", result)
     return result
 
 
-def converge(scene, quantity, error, *, relative=False, at=None, horizon=False, jobs=0):
-    """Refines mesh, time and quadrature of a scene until a quantity is known to the error wanted: what `vlbeam converge`
-    reports (`vlbeam.schema("converge")`), with `answer`, `uncertainty` and `reached` among its keys and attributes."""
-    text = _vlbeam.converge(_text(scene), quantity, float(error), relative, at, horizon, jobs)
-    return _json.loads(text, object_hook=Record)
+def converge(scene, quantity, error, *, relative=False, at=None, horizon=False, jobs=0, limit=None, progress=True):
+    """Refines mesh, time and quadrature until a quantity is known to the error wanted. Returns a `Convergence`.
+
+    quantity: a name as in r["end.y"]. error: in its unit; with `relative` in parts of its magnitude.
+    at: the time [s] at which the quantity is wanted; the end of the scene if not given.
+    horizon: also until when the motion can be predicted at all. jobs: runs at a time; 0: one a processor.
+    limit: wall time [s], after which the answer known then is returned. progress: show a bar, in notebooks.
+    """
+    with _bar("converge", progress) as told:
+        text = _vlbeam.converge(_text(scene), quantity, float(error), relative, at, horizon, jobs, limit, told)
+    return Convergence(_json.loads(text, object_hook=Record))
 
 
-def sweep(scene, over, *, quantities=None, combine="product", jobs=0):
+def sweep(scene, over, *, quantities=None, combine="product", jobs=0, progress=True):
     """Runs a scene for many values of its options, on several threads.
 
         vlbeam.sweep(scene, {"/beam/elements": [10, 20, 40]}, quantities=["end.y"])
 
-    `over` maps JSON pointers to lists of values, or to {"from", "to", "count", "spacing"}. Returns a dictionary of numpy
-    arrays, one entry a case: an array for each option, each quantity (at the end of the run; NaN where a case failed),
-    `t`, `status` and `failure`.
+    over: lists of values by JSON pointer, or {"from", "to", "count", "spacing"} in place of a list.
+    combine: "product" for every combination of values, "zip" for the first of each, the second of each, and so on.
+    Returns a record of numpy arrays of shape (cases,): one for each option, one for each quantity at the end of the run
+    (in its unit; NaN where a case failed), `t` [s], `status` and `failure`.
     """
     import numpy
 
     plan = {"schema": "vlbeam.sweep/1", "scene": _json.loads(_text(scene)), "combine": combine, "over": over}
     if quantities is not None:
         plan["quantities"] = list(quantities)
-    found = _json.loads(_vlbeam.sweep(_json.dumps(plan, default=_plain), jobs))
+    with _bar("sweep", progress) as told:
+        found = _json.loads(_vlbeam.sweep(_json.dumps(plan, default=_scene.plain), jobs, told))
     cases = found["cases"]
 
     def numbers(values):
@@ -215,8 +117,8 @@ def sweep(scene, over, *, quantities=None, combine="product", jobs=0):
 
 
 def scene(name):
-    """An example scene as a dictionary, to run or to change; `scenes()` lists them."""
-    return _json.loads(_vlbeam.scene(str(_SCENES), name))
+    """An example scene, to run or to change: a `Scene`, which is a dictionary. `scenes()` lists them."""
+    return _scene.scene_class()(_json.loads(_vlbeam.scene(str(_SCENES), name)))
 
 
 def scenes():

@@ -5,9 +5,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._scene import Scene as Scene
+
 __version__: str
 
-Scene = Mapping[str, Any]
 Array = NDArray[np.float64]
 
 class InvalidInput(ValueError):
@@ -59,22 +60,50 @@ class Result:
     reactions: Any
     flow: Any
     units: dict[str, str]
-    warnings: list[Record]
-    events: list[Record]
     descriptions: dict[str, str]
+    def __getattr__(self, name: str) -> Any: ...
     def __getitem__(self, name: str) -> Array: ...
     @property
+    def title(self) -> str: ...
+    @property
     def status(self) -> str: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def warnings(self) -> list[Record]: ...
+    @property
+    def events(self) -> list[Record]: ...
     @property
     def shape_times(self) -> list[float]: ...
     def shape(self, index: int, points: int = 8) -> Record: ...
     def report(self) -> dict[str, Any]: ...
     def csv(self) -> str: ...
     def save(self, path: str | PathLike[str]) -> None: ...
+    def to_pandas(self) -> Any: ...
+    def plot(self, *names: str, ax: Any = None) -> Any: ...
 
-def run(scene: Scene | str) -> Result: ...
+class Convergence(Record):
+    title: str
+    quantity: str
+    unit: str
+    t: float
+    error: float
+    answer: float
+    uncertainty: float
+    reached: bool
+    reason: str
+    predictable_until: float
+    horizon: float
+    setting: Record
+    finest: Record
+    parts: Record
+    levels: list[Record]
+    def to_pandas(self) -> Any: ...
+    def plot(self, ax: Any = None) -> Any: ...
+
+def run(scene: Mapping[str, Any] | str, *, progress: bool = True) -> Result: ...
 def converge(
-    scene: Scene | str,
+    scene: Mapping[str, Any] | str,
     quantity: str,
     error: float,
     *,
@@ -82,15 +111,18 @@ def converge(
     at: float | None = None,
     horizon: bool = False,
     jobs: int = 0,
-) -> Record: ...
+    limit: float | None = None,
+    progress: bool = True,
+) -> Convergence: ...
 def sweep(
-    scene: Scene | str,
+    scene: Mapping[str, Any] | str,
     over: Mapping[str, Sequence[Any] | Mapping[str, Any]],
     *,
     quantities: Sequence[str] | None = None,
     combine: str = "product",
     jobs: int = 0,
+    progress: bool = True,
 ) -> Record: ...
-def scene(name: str) -> dict[str, Any]: ...
+def scene(name: str) -> Scene: ...
 def scenes() -> dict[str, str]: ...
 def schema(of: str = "scene") -> dict[str, Any]: ...

@@ -1,0 +1,82 @@
+"""Figures of results, by matplotlib."""
+
+import numpy as np
+
+from ._result import needs
+
+_ENERGIES = ("kinetic", "axial", "bending", "torsion", "gravity", "dissipated", "supplied", "total")
+_AXES = "xyz"
+
+
+def _axes(ax):
+    if ax is not None:
+        return ax
+    return needs("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
+
+
+def label(name):
+    """A name as a legend says it: "joint_position" is "joint position", "end.y" is "end y"."""
+    return name.replace("_", " ").replace(".", " ")
+
+
+def result(r, names, ax):
+    if not names and not r.shape_times:
+        names = ["end." + _AXES[k] for k in range(r.end.shape[1])] if np.isnan(r.joint_position).all() else ["joint_position"]
+    if not names:
+        return _shapes(r, _axes(ax))
+    if list(names) == ["energy"]:
+        names = ["energy." + part for part in _ENERGIES if part in dir(r.energy) and (part == "total" or np.any(r["energy." + part] != 0))]
+    return _histories(r, names, _axes(ax))
+
+
+def _histories(r, names, ax):
+    units = {name: unit for name, unit in r._run.columns()}
+    values = {name: r[name] for name in names}
+    told = {units.get(name, "-") for name in names}
+    if len(told) > 1:
+        raise ValueError(f"one figure has one unit; these have {', '.join(sorted(told))}: {', '.join(names)}")
+    for name, column in values.items():
+        ax.plot(r.t, column, label=label(name.removeprefix("energy.") if len(names) > 1 else name))
+    unit = told.pop()
+    what = label(names[0]) if len(names) == 1 else "energy" if names[0].startswith("energy.") else "value"
+    ax.set(xlabel="t (s)", ylabel=f"{what} ({unit})", title=r.title)
+    if len(names) > 1:
+        ax.legend()
+    return ax
+
+
+def _shapes(r, ax):
+    shapes = [r.shape(k) for k in range(len(r.shape_times))]
+    across, up, plane = 0, 1, ""
+    if r.end.shape[1] == 3:
+        points = np.concatenate([shape.r for shape in shapes])
+        across, up = sorted(np.argsort(np.ptp(points, axis=0), kind="stable")[-2:])
+        plane = f", {_AXES[across]}{_AXES[up]} plane"
+    colours = needs("matplotlib", "plot").colormaps["viridis"](np.linspace(0, 0.85, len(shapes)))
+    for shape, colour in zip(shapes, colours):
+        ax.plot(shape.r[:, across], shape.r[:, up], color=colour, label=f"{shape.t:.4g} s")
+        sample = np.flatnonzero(np.isclose(r.t, shape.t, rtol=0, atol=1e-9 * r.t[-1]))
+        if sample.size and "mass_position" in dir(r):
+            place = r.mass_position[sample[0]]
+            ax.plot(place[across], place[up], "o", color=colour)
+    ax.set(xlabel=f"{_AXES[across]} (m)", ylabel=f"{_AXES[up]} (m)", title=r.title + plane)
+    low, high = ax.get_ylim()
+    left, right = ax.get_xlim()
+    if 0.05 < (high - low) / (right - left) < 20:  # a small deflection keeps a scale of its own
+        ax.set_aspect("equal", adjustable="datalim")
+    if len(shapes) <= 12:
+        ax.legend(fontsize="small")
+    return ax
+
+
+def convergence(found, ax):
+    ax = _axes(ax)
+    for kind, marker in (("mesh", "o"), ("time", "s"), ("quadrature", "^")):
+        rows = [level for level in found.levels if level.refined == kind and level.get("error_bound")]
+        if rows:
+            ax.plot([row.work for row in rows], [row.error_bound for row in rows], marker, label=f"{kind} refined")
+    ax.axhline(found.error, color="0.5", label="error wanted")
+    ax.set(xscale="log", yscale="log", xlabel="work (element evaluations)", ylabel=f"bound of the error ({found.unit})",
+           title=f"{label(found.quantity)} at {found.t:g} s")
+    ax.legend()
+    return ax
