@@ -20,5 +20,5 @@ for file in scenes/*.json; do
     *) what=(--what shape) ;;
   esac
   "$program" run "$file" --report "$scratch/r.json" --quiet
-  "$program" plot "$scratch/r.json" "${what[@]}" -o "$out/$name.svg"
+  "$program" plot "$scratch/r.json" "${what[@]}" --column --bare -o "$out/$name.svg"
 done

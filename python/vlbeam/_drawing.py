@@ -4,7 +4,7 @@ import numpy as np
 
 from ._result import needs
 
-_ENERGIES = ("kinetic", "axial", "bending", "torsion", "gravity", "dissipated", "supplied", "total")
+_ENERGIES = ("kinetic", "axial", "bending", "torsion", "gravity", "dissipated", "total", "supplied")
 _AXES = "xyz"
 
 

@@ -81,6 +81,14 @@ int jobs_or_processors(int jobs) {
   return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+/// Keeps shapes at times that are even, besides those of the scene; they change no digit of the motion.
+void add_frames(Scene& scene, int frames) {
+  std::vector<double>& times = scene.output.configurations;
+  for (int k = 0; k < frames; ++k) times.push_back(scene.duration * k / (frames - 1));
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+}
+
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
@@ -91,8 +99,12 @@ int run_command(const RunArguments& arguments) {
       arguments.scene,
       {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}, {"--checkpoint", arguments.checkpoint}},
       arguments.force);
-  const Scene scene = read_scene(arguments.scene);
+  Scene scene = read_scene(arguments.scene);
   const bool in_time = scene.analysis == Analysis::dynamics;
+  if (arguments.frames > 0) {
+    if (!in_time) refuse("--frames", std::to_string(arguments.frames), "statics keep every equilibrium: leave it out");
+    add_frames(scene, arguments.frames);
+  }
   if ((!arguments.shape.empty() || !arguments.vtk.empty()) && in_time && scene.output.configurations.empty()) {
     throw InvalidInput(arguments.shape.empty() ? "--vtk" : "--shape", "a scene that keeps no shapes",
                        "list the times of some in /output/configurations");
@@ -309,7 +321,7 @@ int converge_command(const ConvergeArguments& arguments) {
   const auto status = RunStatus::completed;
   outputs.write(arguments.csv, status, [&](const TextSink& sink) { sink(convergence_table(scene, found)); });
   outputs.write_with(arguments.figure, status,
-                     [&](const std::filesystem::path& file) { plot_convergence(report, file); });
+                     [&](const std::filesystem::path& file) { plot_convergence(report, {}, file); });
   outputs.write(arguments.report, status, [&](const TextSink& sink) { sink(pretty(whole)); });
   std::cerr << convergence_summary(scene, found);
   for (const std::string& file : outputs.written()) std::cerr << "  written     " << printable(file) << '\n';
@@ -393,14 +405,14 @@ int plot_command(const PlotArguments& arguments) {
     if (!arguments.what.empty() || !arguments.quantities.empty()) {
       throw InvalidInput("--what", "\"" + arguments.what + "\"", "a report of converge has one figure: leave it out");
     }
-    plot_convergence(json, arguments.figure);
+    plot_convergence(json, arguments.look, arguments.figure);
     return done;
   }
   if (!arguments.what.empty() && !arguments.quantities.empty()) {
     throw InvalidInput("--quantity", "this option", "it draws against time by itself: leave out --what");
   }
   const std::string what = arguments.what.empty() && arguments.quantities.empty() ? "shape" : arguments.what;
-  plot_run(read_run_file(arguments.report), what, arguments.quantities, arguments.figure);
+  plot_run(read_run_file(arguments.report), what, arguments.quantities, arguments.look, arguments.figure);
   return done;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "studies/harness/diagram.hpp"
+
 namespace vlbeam {
 
 /// What the program answers to its caller; where it was asked to stop, interrupted_exit_code().
@@ -24,6 +26,7 @@ struct RunArguments {
   std::string checkpoint, restart;  ///< files to go on from, to be written and to be read; empty for none
   std::optional<double> every;      ///< [s] between checkpoints; without it there is one of a run that is interrupted
   int points = 8;                   ///< intervals an element of these
+  int frames = 0;                   ///< shapes to keep besides those of the scene, evenly in time
   bool force = false;               ///< a run that did not end well may replace an earlier result
   bool quiet = false;               ///< no summary on standard error
 };
@@ -91,6 +94,7 @@ struct PlotArguments {
   std::string what;                     ///< empty: the shapes, or the quantities
   std::vector<std::string> quantities;  ///< against time
   std::string figure;
+  Look look;
 };
 
 struct SchemaArguments {

@@ -37,6 +37,22 @@ void check_command(const CLI::App& app, int argc, char** argv) {
       "the nearest is \"" + vlbeam::nearest_of(word, known) + "\" (there are: " + vlbeam::quoted_list(known) + ")");
 }
 
+/// Says which option was meant where one is none of its command's.
+void check_options(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    for (const std::string& word : command->remaining()) {
+      if (!word.starts_with("--")) continue;
+      const std::string name = word.substr(0, word.find('='));
+      vlbeam::refuse("option", "\"" + name + "\"",
+                     "the nearest of " + command->get_name() + " is \"" + vlbeam::nearest_of(name, known) + "\"");
+    }
+  }
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("vlbeam: beams along which something slides, and how far their numbers can be trusted");
   app.set_version_flag("--version", vlbeam::provenance().at("program").get<std::string>());
@@ -53,6 +69,9 @@ int dispatch(int argc, char** argv) {
   run->add_option("--points", run_arguments.points, "Intervals an element of --shape and --vtk")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  run->add_option("--frames", run_arguments.frames,
+                  "Keep this many more shapes, evenly in time: for animations and fields")
+      ->check(CLI::Range(2, 10000));
   CLI::Option* checkpoint = run->add_option("--checkpoint", run_arguments.checkpoint,
                                             "Write here what the run can go on from: when it is stopped, and --every");
   run->add_option("--every", run_arguments.every, "Simulated time between checkpoints [s]")
@@ -142,9 +161,12 @@ int dispatch(int argc, char** argv) {
   CLI::App* plot = app.add_subcommand("plot", "Draw the report of a run or of converge, with gnuplot");
   plot->add_option("report", plot_arguments.report, "Report file")->required();
   plot->add_option("--what", plot_arguments.what,
-                   "shape (default), energy, tip, joint, strain, tension, curvature, or animation (GIF)");
+                   "shape (default), energy, tip, joint, strain, tension, curvature; strain-field, tension-field, "
+                   "curvature-field, over the beam and time; or animation (GIF)");
   plot->add_option("--quantity", plot_arguments.quantities, "Draw quantities of one unit against time instead");
-  plot->add_option("-o,--out", plot_arguments.figure, "Figure: a name ending in .svg, .png, or .gif")->required();
+  plot->add_option("-o,--out", plot_arguments.figure, "Figure: a name ending in .svg, .png, .pdf, or .gif")->required();
+  plot->add_flag("--column", plot_arguments.look.column, "As wide as a journal's column, 84 mm, with letters of 8 pt");
+  plot->add_flag("--bare", plot_arguments.look.bare, "No title");
 
   vlbeam::GateArguments gate_arguments;
   CLI::App* gate = app.add_subcommand("gate", "Judge reports of studies by their gates");
@@ -207,6 +229,7 @@ int dispatch(int argc, char** argv) {
            "  vlbeam run scene.json --report r.json                     a plot is of a report, not of a scene\n"
            "  vlbeam plot r.json -o shapes.svg\n"
            "  vlbeam plot r.json --what energy -o energy.png\n"
+           "  vlbeam plot r.json --column --bare -o figure.pdf          for a paper\n"
            "  vlbeam plot r.json --quantity end.x --quantity end.y -o end.svg\n");
   examples(gate, "  vlbeam gate                                               the reports in reports/\n");
   examples(claims, "  vlbeam claims\n");
@@ -219,6 +242,7 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    check_options(app);
     return app.exit(error) == 0 ? vlbeam::done : vlbeam::bad_input;
   }
   if (*run) return vlbeam::run_command(run_arguments);

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -30,6 +31,9 @@ bool is_whole(const std::filesystem::path& file, const std::string& format) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (format == ".png") return text.ends_with("IEND\xae\x42\x60\x82"sv);
+  if (format == ".pdf")
+    return text.starts_with("%PDF"sv) &&
+           text.find("%%EOF"sv, text.size() - std::min<std::size_t>(text.size(), 32)) != std::string::npos;
   if (format == ".gif") return text.starts_with("GIF"sv) && text.ends_with(";"sv);
   const auto last = text.find_last_not_of(" \n");
   return last != std::string::npos && std::string_view(text).substr(0, last + 1).ends_with("</svg>"sv);

@@ -9,8 +9,8 @@ namespace vlbeam {
 /// Variables a gnuplot script finds set, all of them strings.
 using GnuplotVariables = std::map<std::string, std::string>;
 
-/// Runs a gnuplot script that draws one figure, an SVG, PNG or GIF by its name's ending; the script finds `output` set
-/// to the file it must write, and chooses the terminal itself. The figure appears only once it is whole. Throws
+/// Runs a gnuplot script that draws one figure, an SVG, PNG, PDF or GIF by its name's ending; the script finds `output`
+/// set to the file it must write, and chooses the terminal itself. The figure appears only once it is whole. Throws
 /// std::runtime_error with gnuplot's words if gnuplot fails, skips data, or draws nothing.
 void draw_figure(const std::filesystem::path& script, const std::filesystem::path& figure,
                  GnuplotVariables variables = {});
