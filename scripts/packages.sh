@@ -10,7 +10,7 @@
 set -euo pipefail
 
 packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libgtest-dev libgmock-dev
-          libbenchmark-dev gnuplot-nox python3 blahtexml)
+          libbenchmark-dev gnuplot-nox python3 python3-markdown python3-jinja2 blahtexml)
 if [[ ${1:-build} == python || ${1:-build} == ci ]]; then
   packages+=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv)
 fi
@@ -24,7 +24,7 @@ if [[ ${1:-build} == theory ]]; then
   packages+=(chromium fonts-stix fonts-dejavu-core)
 fi
 if [[ ${1:-build} == ci ]]; then
-  packages+=(ccache dpkg-dev pkg-config help2man python3-pytest python3-matplotlib python3-pandas)
+  packages+=(ccache dpkg-dev pkg-config help2man python3-pytest python3-matplotlib python3-pandas chromium)
   packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
 fi
 

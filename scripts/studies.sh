@@ -9,6 +9,8 @@ set -euo pipefail
 
 action=$1 profile=$2 out=$3 jobs=$4
 vlbeam=build/vlbeam
+python=/usr/bin/python3  # for which Debian's packages are
+[[ -x $python ]] || python=python3
 if [[ -n ${5:-} ]]; then studies=("$5"); else mapfile -t studies < <("$vlbeam" list --names); fi
 
 completed() {
@@ -47,7 +49,7 @@ case $action in
       if [[ $code -eq 0 && $action == run && -z ${5:-} ]]; then finished_line "$study" >> "$finished"; fi
     done
     rm -f "$finished"
-    if [[ $action == run ]]; then python3 studies/site/build.py "$out"; fi
+    if [[ $action == run ]]; then "$python" studies/site/build.py "$out"; fi
     exit "$failed"
     ;;
   gate)

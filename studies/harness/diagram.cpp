@@ -125,8 +125,8 @@ std::string ranges_of(const Diagram& diagram) {
   }
   const double size = std::max({box[1] - box[0], box[3] - box[2], 1e-12});
   const auto range = [&](const char* axis, double low, double high) {
-    // With equal scales a flat shape still gets a frame to stand in.
-    const double least = diagram.equal_scales ? 0.25 * size : 0;
+    // With equal scales a flat shape still gets a frame to stand in, and an upright one room for the numbers below it.
+    const double least = diagram.equal_scales ? (*axis == 'x' ? 0.8 : 0.25) * size : 0;
     const double widen =
         margin * (diagram.equal_scales ? size : high - low) + std::max(0.0, (least - (high - low)) / 2);
     const double some = widen > 0 ? widen : std::max(1e-12, 0.05 * std::abs(high));
@@ -172,6 +172,7 @@ void draw_diagram(const Diagram& diagram, const Look& look, const std::filesyste
   if (diagram.ordered_colours) script += palette;
   if (!diagram.logarithmic) script += ranges_of(diagram);
   if (diagram.equal_scales) script += "set size ratio -1\n";
+  if (diagram.series.size() == 1) script += "unset key\n";  // the axis says it
   const std::size_t each = (diagram.series.size() + longest_key - 1) / longest_key;
   for (std::size_t i = 0; i < diagram.series.size(); ++i) {
     script += (i == 0 ? "plot data" : ", \\\n  data") + std::string(" index ") + std::to_string(i) +

@@ -3,7 +3,7 @@
 A document is parted from its equations before its Markdown is read, and gets them back in the HTML:
 
     text, found = part(text)
-    html = put_back(markdown.render(text), found)
+    html = put_back(documents.render(text), found)
 """
 
 import functools

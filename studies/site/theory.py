@@ -14,7 +14,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import equations  # noqa: E402
-import markdown  # noqa: E402
+import documents  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 INDEX = "docs/theory/README.md"
@@ -47,11 +47,11 @@ def chapter(file, link, where, level=2):
     text, found = equations.part((ROOT / file).read_text(encoding="utf-8"))
     title = re.match(r"# (.*)", text)[1]
     of = places()
-    page = markdown.render(re.sub(r"^# .*\n", "", text), link, level, markdown.plain(title), anchors=True)
+    page = documents.render(re.sub(r"^# .*\n", "", text), link, level, documents.plain(title), anchors=True)
     page = re.sub(r"<p>(<img[^>]*>)</p>\s*<p><em>(Figure.*?)</em></p>", figure, page, flags=re.S)
     page = equations.put_back(page, found)
     page = equations.refer(page, lambda number: where(number, of[number]) if number in of else "")
-    return title, [name for name, _ in markdown.sections(text) if name], page
+    return title, [name for name, _ in documents.sections(text) if name], page
 
 
 def figure(match):
@@ -82,7 +82,7 @@ def printed():
         title, _, page = chapter(file, linker(file), lambda number, _: f"#eq-{number}", 2)
         page = re.sub(r' id="(?!eq-)[^"]*"', "", page)
         page = re.sub(r'<a [^>]*href="(?:|/[^"]*)"[^>]*>(.*?)</a>', r"\1", page, flags=re.S)
-        parts.append(f'<section id="{of[file]}"><h1>{markdown.inline(title)}</h1>{page}</section>')
+        parts.append(f'<section id="{of[file]}"><h1>{documents.inline(title)}</h1>{page}</section>')
     style = "\n".join((Path(__file__).parent / name).read_text(encoding="utf-8") for name in ("equations.css", "print.css"))
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>vlbeam: theory</title><style>{style}</style></head>\n'
             f'<body>{"".join(parts)}</body></html>\n')
