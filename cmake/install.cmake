@@ -74,10 +74,10 @@ endforeach()
 foreach(folder core scene docs examples python/examples reference reports scenes studies tests/mutants)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           FILES_MATCHING PATTERN "*.md" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js" PATTERN "*.svg"
-          PATTERN "*.json" PATTERN "*.csv"
+          PATTERN "*.json" PATTERN "*.csv" PATTERN "*.ipynb"
           PATTERN "*.kept" EXCLUDE PATTERN "*.timing.json" EXCLUDE PATTERN "CMakeFiles" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 endforeach()
-foreach(folder examples python/examples docs/theory)
+foreach(folder examples python/examples docs/theory docs/tutorials)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           FILES_MATCHING PATTERN "*.cpp" PATTERN "*.py")
 endforeach()

@@ -49,6 +49,9 @@ case $action in
       if [[ $code -eq 0 && $action == run && -z ${5:-} ]]; then finished_line "$study" >> "$finished"; fi
     done
     rm -f "$finished"
+    if [[ $action == run && -d build/python/vlbeam ]] && "$python" -c "import matplotlib, pandas" 2> /dev/null; then
+      PYTHONPATH=build/python "$python" docs/tutorials/run.py --quick
+    fi
     if [[ $action == run ]]; then "$python" studies/site/build.py "$out"; fi
     exit "$failed"
     ;;
