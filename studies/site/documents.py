@@ -11,6 +11,8 @@ from markdown.treeprocessors import Treeprocessor
 _RULE = re.compile(r"^\|?[ :|-]*-[ :|-]*\|?$")
 _NUMBER = re.compile(r"^[-+−]?[\d.]+(?:e[-+]?\d+)?(?: ?%)?$|^$")
 _POWER = re.compile(r"(\d(?:\.\d+)?e-\d+)")
+_HYPHEN = re.compile(r"(?<!\S)([^\s<>]{0,24}-[^\s<>]{0,24})(?!\S)")  # where browsers would break a word
+_LONG, _JOINT = re.compile(r"[^\s<>]{25,}"), re.compile(r"([/_.]|\[\])(?=[^<>]{3})")
 _BAR = re.compile(r"(?<!\\)\|(?=(?:[^`]*`[^`]*`)*[^`]*$)")  # one that is neither in `code` nor behind a backslash
 
 
@@ -84,10 +86,18 @@ def render(text, link=lambda target: target, level=2, label="", anchors=False):
     pieces = re.split(r"(<pre.*?</pre>|<code.*?</code>|<math.*?</math>|<[^>]+>)", made, flags=re.S)
     for k in range(0, len(pieces), 2):  # numbers like 1.5e-5 are not broken at their sign
         pieces[k] = _POWER.sub(r'<span class="whole">\1</span>', pieces[k])
-    for k in range(1, len(pieces), 2):  # code breaks where a long word of it has a joint
-        if pieces[k].startswith("<code"):
-            pieces[k] = re.sub(r"[^\s<>]{25,}", lambda m: re.sub(r"([/_.]|\[\])(?=[^<>]{3})", r"\1<wbr>", m[0]), pieces[k])
+    for k in range(1, len(pieces), 2):
+        if pieces[k].startswith("<code>"):
+            pieces[k] = _code(pieces[k][6:-7])
     return "".join(pieces)
+
+
+def _code(code):
+    """Code in a line: a short word of it stays whole, a long one breaks at its joints."""
+    if not re.search(r"\s", code) and len(html.unescape(code)) < 25:
+        return f'<code class="whole">{code}</code>'
+    code = _LONG.sub(lambda word: _JOINT.sub(r"\1<wbr>", word[0]), code)
+    return "<code>" + _HYPHEN.sub(r'<span class="whole">\1</span>', code) + "</code>"
 
 
 def inline(text, link=lambda target: target):

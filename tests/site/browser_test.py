@@ -29,7 +29,7 @@ CROPPED = """[...document.querySelectorAll("main img")].filter((picture) => {
 BROKEN = """[...document.querySelectorAll("main code")].filter((code) => !code.closest("pre")).flatMap((code) => {
   const found = [], walker = document.createTreeWalker(code, NodeFilter.SHOW_TEXT);
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
-    for (const word of node.data.matchAll(/[^\\s\\/_.\\-]+/g)) {
+    for (const word of node.data.matchAll(/[^\\s\\/_.\\[\\]]+/g)) {
       const range = document.createRange();
       range.setStart(node, word.index);
       range.setEnd(node, word.index + word[0].length);

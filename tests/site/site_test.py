@@ -221,9 +221,9 @@ class TheSite(unittest.TestCase):
 
 class Markdown(unittest.TestCase):
     def test_marks(self):
-        self.assertEqual("<strong>a</strong> <em>b</em> <code>c_*d*</code>", documents.inline("**a** *b* `c_*d*`"))
+        self.assertEqual('<strong>a</strong> <em>b</em> <code class="whole">c_*d*</code>', documents.inline("**a** *b* `c_*d*`"))
         self.assertEqual("a &lt; b &amp; |x|", documents.inline(r"a < b & |x|"))
-        self.assertEqual('<a href="X/y.md"><code>a</code> b</a>', documents.inline("[`a` b](y.md)", lambda t: "X/" + t))
+        self.assertEqual('<a href="X/y.md"><code class="whole">a</code> b</a>', documents.inline("[`a` b](y.md)", lambda t: "X/" + t))
 
     def test_blocks(self):
         html = documents.render("# A\n\ntext\nmore\n\n* one\n  goes on\n* two\n\nmore\n\n    code < 1\n\n| a | b |\n|---|---|\n| `x|y` | 2e-5 |\n")
@@ -231,7 +231,7 @@ class Markdown(unittest.TestCase):
         self.assertIn("<p>text\nmore</p>", html)
         self.assertIn("<li>one\n  goes on</li>", html)
         self.assertIn('<pre tabindex="0"><code>code &lt; 1\n</code></pre>', html)
-        self.assertRegex(html, r'<th scope="row"><code>x\|y</code></th>\s*<td class="number"><span class="whole">2e-5</span></td>')
+        self.assertRegex(html, r'<th scope="row"><code class="whole">x\|y</code></th>\s*<td class="number"><span class="whole">2e-5</span></td>')
         self.assertIn('<div aria-label="Table in “A”" class="scroll" role="group" tabindex="0">', html.replace("&ldquo;", "“"))
 
     def test_tables_as_lists(self):
@@ -289,7 +289,7 @@ class Equations(unittest.TestCase):
         text, found = equations.part("a $x_1*y*$ `$b$`\n\n```math\nx=1\n\\tag{2.1}\n```\n")
         self.assertEqual([("x_1*y*", "", False), ("x=1", "2.1", True)], found)
         page = equations.put_back(documents.render(text), found)
-        self.assertIn("<code>$b$</code>", page)
+        self.assertIn('<code class="whole">$b$</code>', page)
         self.assertIn('<div class="equation" id="eq-2.1">', page)
         self.assertEqual(2, page.count("<math"))
         self.assertNotRegex(page, "[\ue000\ue001]")
