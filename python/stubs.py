@@ -55,9 +55,8 @@ def write(kind):
                 before.append(write_list(below))
             else:
                 before.append(write(below))
-            # Reading gives the part; what may be written is any mapping or list.
-            lines.append(f"    @property\n    def {python}(self) -> {below.__name__}:\n{text(_scene._sentence(schema['properties'][key]), ' ' * 8)}")
-            lines.append(f"    @{python}.setter\n    def {python}(self, value: {type_of(schema['properties'][key])}) -> None: ...")
+            lines.append(f"    {python}: _Below[{below.__name__}, {type_of(schema['properties'][key])}] = ...\n"
+                         f"{text(_scene._sentence(schema['properties'][key]), ' ' * 4)}")
         else:
             lines.append(f"    {python}: {type_of(schema['properties'][key])}\n{text(_scene._sentence(schema['properties'][key]), ' ' * 4)}")
     for special in ("__init__", "__call__"):
@@ -88,7 +87,11 @@ def _keys(kind, choice, schema):
 
 def main():
     head = ('"""The types of scenes, made from the option table."""\n\nfrom collections.abc import Mapping, Sequence\n'
-            "from typing import Any, Literal\n\n")
+            "from typing import Any, Generic, Literal, TypeVar\n\n_Part = TypeVar(\"_Part\")\n_Given = TypeVar(\"_Given\")\n\n"
+            "class _Below(Generic[_Part, _Given]):\n"
+            '    """A part of a scene: reading gives it, and any mapping or list may be written."""\n'
+            "    def __get__(self, instance: Any, owner: Any) -> _Part: ...\n"
+            "    def __set__(self, instance: Any, value: _Part | _Given) -> None: ...\n\n")
     tail = "\n\ndef scene_class() -> type[Scene]: ...\n"
     stub = head + write(_scene.scene_class()) + tail
     compile(stub, "_scene.pyi", "exec")

@@ -69,6 +69,16 @@ def test_what_is_not_there_is_named_with_what_is(attempt, words):
     assert words in str(caught.value)
 
 
+def test_no_key_is_hidden_by_a_choice():
+    """A support of type clamp has a key clamp."""
+    scene = vlbeam.Scene()
+    scene.supports.clamp(at="start", clamp="full")
+    assert scene.supports[0].clamp == "full"
+    vlbeam.run(vlbeam.scene("pendulum"))
+    for pointer, kind in vlbeam._scene._CLASSES.items():
+        assert not set(getattr(kind, "_keys", {})) & set(kind._choices), pointer
+
+
 def test_copies_are_scenes(built):
     for other in (copy.deepcopy(built), pickle.loads(pickle.dumps(built))):
         assert other == built and isinstance(other, vlbeam.Scene)

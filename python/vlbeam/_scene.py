@@ -214,7 +214,8 @@ def _class(pointer, schema, path, conditions):
             members["_parts"][name] = key, _class(f"{pointer}/{key}", value, (*path, key), conditions)
         elif below.get("type") == "array" and "properties" in below.get("items", {}):
             members["_parts"][name] = key, _list(f"{pointer}/{key}", below)
-    for choice, names in choices_of(schema, path, conditions).items():
+    choices = {} if pointer.endswith("/0") else choices_of(schema, path, conditions)  # an entry's are methods of its list
+    for choice, names in choices.items():
         members["_choices"][attribute(choice)] = choice
         members[attribute(choice)] = _method(choice, names, schema, pointer, False)
     members["__doc__"] = f"{_title(schema, pointer)}.\n\n" + _lines(members["_keys"], schema)

@@ -14,14 +14,13 @@ std::string read_text(const std::filesystem::path& path);
 /// Takes a text piece by piece. Throws std::runtime_error where it cannot be written.
 using TextSink = std::function<void(std::string_view)>;
 
-/// Writes what `content` sends to its sink into a file, which appears, or changes, only once it is whole: nothing is
-/// left behind otherwise. Symbolic links are followed. What is no regular file (a device, a pipe) is written into; "-"
-/// is standard output. Throws std::runtime_error, with the system's reason.
+/// Writes a file from what `content` sends to its sink. The file appears, or changes, only once it is whole; a failure
+/// leaves nothing behind. Follows symbolic links. Writes into devices and pipes; "-" is standard output. Throws
+/// std::runtime_error with the system's reason.
 void write_file(const std::filesystem::path& path, const std::function<void(const TextSink&)>& content);
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-/// Throws InvalidInput, naming the `option` that asks for it, where write_file() could not write this file. Changes
-/// nothing.
+/// Throws InvalidInput, naming the `option`, if write_file() could not write this file. Changes nothing.
 void check_writable(const std::string& option, const std::filesystem::path& path);
 
 /// Whether two names, of files that need not be there, lead to the same place. Devices without memory, like /dev/null,

@@ -10,7 +10,7 @@
 
 namespace vlbeam {
 
-/// What a gate's bound rests on.
+/// Where a gate's bound comes from.
 enum class GateKind {
   exact,        ///< a closed form or an identity
   independent,  ///< another formulation, another method or another program
@@ -43,8 +43,8 @@ struct GateVerdict {
 ///      "fit" with "order": {"expected", "tolerance", "at_most", "finest_error"}}, ...]}
 /// A quantity is a name in the report's `measured`, or a JSON pointer into the report; a fit is named by its quantity.
 /// An uncertainty is a number or a quantity; bounds must hold for the value plus and minus it. A quantity of kind
-/// `self` needs one; a fit has its own. Gates with `profiles` (["full"]) apply to these only. What the report does not
-/// hold fails, and so does a report that is not completed. Throws InvalidInput where the gates file is not understood.
+/// `self` needs an uncertainty; a fit has its own. Gates with `profiles` (["full"]) apply to these only. A gate fails
+/// if the report lacks its quantity, or is not completed. Throws InvalidInput if the gates file is not understood.
 std::vector<GateVerdict> evaluate_gates(const Json& gates, const Json& report);
 
 bool all_passed(const std::vector<GateVerdict>& verdicts);

@@ -14,8 +14,8 @@ struct NamedRun {
   const RunResult* result;
 };
 
-/// Quantities of planar runs against time, one column a run and quantity, "<quantity>_<run>"; empty where a run has
-/// none. Quantities: joint, mass_x, mass_y, end_x, end_y, beam_length, beam_length_rate, and the energies kinetic,
+/// Table of quantities of planar runs against time. Columns are "<quantity>_<run>"; a cell is empty if the run has no
+/// value. Quantities: joint, mass_x, mass_y, end_x, end_y, beam_length, beam_length_rate, and the energies kinetic,
 /// axial, bending, strain, gravity, total. The runs must have the same samples.
 Table histories(const std::string& name, const std::string& caption, const std::vector<NamedRun>& runs,
                 const std::vector<std::string>& quantities);

@@ -7,18 +7,19 @@ namespace vlbeam {
 /// program at once. A SIGHUP that is ignored already (nohup) stays ignored.
 void install_interrupt_handler();
 
-/// Makes a file that grows beyond the user's limit an error of writing it, which leaves no part of the file behind,
-/// instead of the end of the program.
+/// A file that grows beyond the user's limit becomes an error of writing, which leaves no part of the file behind;
+/// without this it would end the program.
 void ignore_file_size_signal();
 
-/// Number of the signal by which the program was asked to stop, or 0.
+/// Number of the signal that asked the program to stop; 0 if none did.
 int interruption();
 inline bool interrupted() { return interruption() != 0; }
 
-/// Asks what runs to stop, as that signal would; 0 takes it back. For programs whose signals are not the harness's.
+/// Asks running computations to stop, as that signal would; 0 takes it back. For programs with signal handlers of their
+/// own.
 void ask_to_stop(int signal);
 
-/// What the program then answers to its caller: 128 and the signal, as shells have it (130 for Ctrl-C).
+/// Exit code of a program that a signal stopped: 128 plus the signal, as in shells (130 for Ctrl-C).
 inline int interrupted_exit_code() { return 128 + interruption(); }
 
 }  // namespace vlbeam

@@ -13,14 +13,14 @@ struct Judged {
   std::optional<double> joint;     ///< its material coordinate [m]
   std::optional<Point> mass, end;  ///< [m]; an end that is held is not among its answers
   double t = 0;                    ///< [s]
-  double uncertainty = 0;          ///< the largest of these [m]
+  double uncertainty = 0;          ///< the largest uncertainty of these [m]
 
-  /// The largest distance of a sample from these [m]; NaN where it lacks one of them.
+  /// Largest distance of a sample from these [m]; NaN if the sample lacks one of them.
   double error(const Sample& sample) const;
 };
 
-/// Of a case at one of its times [s], the last one if none is given; `studies` is the folder of the studies, beside
-/// which reference/ stands. Throws InvalidInput where there is no such case or time.
+/// Reads the judge's answer to a case at a time [s]; without a time, the last one. `studies` is the folder of the
+/// studies, beside reference/. Throws InvalidInput if there is no such case or time.
 Judged judged_at(const std::filesystem::path& studies, const std::string& name, std::optional<double> t = {});
 
 }  // namespace vlbeam

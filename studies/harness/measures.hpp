@@ -22,7 +22,7 @@ const Sample* sample_at(const RunResult& result, double t);
 double position_error(const RunResult& run, const RunResult& reference, double t);
 double position_error(const Sample& a, const Sample& b);
 
-/// Length-control events up to time t; the separation is none of them.
+/// Number of length-control events up to time t. The separation does not count.
 std::vector<const Event*> merges_until(const RunResult& result, double t);
 
 /// When the mass leaves the beam [s]; NaN if it does not.
@@ -31,7 +31,7 @@ double separation_time(const RunResult& result);
 /// Largest material coordinate of the mass over the samples up to time t [m].
 double furthest_joint_position(const RunResult& result, double t);
 
-/// The set of weights the paper gathers (Table 2): three unit weights of segmented elements once, then k_0, k_1, k_2 of
+/// The set of weights of the paper's Table 2: three unit weights of segmented elements once, then k_0, k_1, k_2 of
 /// every merge.
 struct WeightSet {
   std::size_t size = 0;
@@ -42,25 +42,25 @@ struct WeightSet {
 };
 WeightSet weight_set(const RunResult& result, double t);
 
-/// Total energy by the 25-point rule at a sample, without what the length-control events up to it have added [J].
+/// Total energy at a sample [J], by the 25-point rule, less the jumps of all length-control events before it.
 double energy_without_jumps(const RunResult& result, const Sample& sample);
 
 /// Largest |E - E_0 - jumps| over the samples up to time t, by the 25-point rule, over the largest kinetic energy.
 double ledger_gap(const RunResult& result, double t);
 
-/// What length control did to the total energy over a whole run, by the 25-point rule: finer than any rule of a model,
-/// so that it does not see what `conservative` velocities restore by construction.
+/// Jumps of the total energy at length-control events, by the 25-point rule. That rule is finer than any model's own,
+/// so that `conservative` velocities do not restore it by construction.
 struct EventEnergy {
   double largest = 0;  ///< largest |jump| at one event [J]
   double sum = 0;      ///< of the jumps' magnitudes [J]
 };
 EventEnergy event_energy(const RunResult& result);
 
-/// Largest change of the total energy over the samples by the 25-point rule, dissipation and what was supplied counted
-/// in, events included, over the largest kinetic energy.
+/// Largest change of the total energy over the samples, by the 25-point rule, in parts of the largest kinetic energy.
+/// Dissipated and supplied energy are accounted for; jumps at events count as changes.
 double energy_change(const RunResult& result);
 
-/// The stretch of material coordinates an event changes.
+/// The range of material coordinates that an event changes.
 struct Stretch {
   double begin = 0;
   double cut = 0;  ///< the joint: segmented on one side, merged on the other

@@ -13,22 +13,22 @@ namespace vlbeam {
 // not. Both refuse to speak outside the asymptotic range. Levels are element counts (growing) or sizes and steps
 // (shrinking), coarse to fine.
 
-/// Which levels enter a fit, decided before any error is seen: it stands in the study's data.
+/// Which levels enter a fit. The study's data decide it, before any error is seen.
 struct LevelRule {
   std::optional<double> coarsest = {};  ///< levels coarser than this one are left out
   std::optional<double> finest = {};    ///< and those finer than this one
   std::string reason = {};
 };
 
-/// The rule of a study's data, {"coarsest", "finest", "reason"}; null is the rule that leaves out nothing. Throws
-/// InvalidInput where it is not understood, or has no reason.
+/// Reads a rule, {"coarsest", "finest", "reason"}; null leaves out no level. Throws InvalidInput if it is not
+/// understood, or has no reason.
 LevelRule level_rule_from_json(const Json& json);
-/// That of a fit in a study's data, {"levels": {fit: rule}}; the rule that leaves out nothing where there is none.
+/// Reads the rule of one fit from a study's data, {"levels": {fit: rule}}. Without a rule no level is left out.
 LevelRule level_rule_of(const Json& config, const std::string& fit);
 
 struct OrderFitOptions {
-  /// What errors are known to: rounding, or the error of the reference. The fit stops before the first error that is
-  /// not above it, and it makes the uncertainty of each pair's order.
+  /// Uncertainty of the errors: rounding, or the error of the reference. The fit stops before the first error that is
+  /// no larger. The uncertainty of each pair's order follows from it.
   double floor = 0;
   LevelRule rule = {};
 };
@@ -45,15 +45,15 @@ struct OrderFit {
   std::vector<double> pairwise_orders;     ///< between neighbouring fitted levels: last - first - 1 of them
   std::vector<double> pair_uncertainties;  ///< of these, by what the errors are known to
   double slope = 0;                        ///< least squares over the fitted levels; NaN where they are too few
-  /// Of the slope: its standard error, or what the floor makes of it, whichever is larger. NaN as the slope.
+  /// Uncertainty of the slope: the larger of its standard error and of what the floor makes of it. NaN if the slope is.
   double slope_uncertainty = 0;
-  /// Why these levels show no order: too few of them, an error that does not fall, or pairs farther apart than a half
-  /// (a tenth of the order, where that is more). Empty in the asymptotic range.
+  /// Why these levels show no order: too few levels, an error that does not fall, or orders of pairs that differ by
+  /// more than 0.5 (by more than a tenth of the order, if that is larger). Empty in the asymptotic range.
   std::string refusal = {};
 };
 
-/// Fits the observed order over all levels above the floor that the rule leaves in. Levels must be positive and
-/// strictly monotone, errors one a level; throws std::invalid_argument otherwise.
+/// Fits the observed order over all levels that the rule keeps and whose errors are above the floor. Levels must be
+/// positive and strictly monotone, with one error each; throws std::invalid_argument otherwise.
 OrderFit fit_order(std::string quantity, std::vector<double> levels, std::vector<double> errors,
                    const OrderFitOptions& options = {});
 
@@ -69,7 +69,7 @@ struct OrderRule {
 std::string broken_order_rule(const OrderFit& fit, const OrderRule& rule);
 
 struct GridConvergenceOptions {
-  double expected_order = 0;  ///< of the theory; 0 where there is none: the safety factor then stays 3
+  double expected_order = 0;  ///< by theory; 0 if theory has none: the safety factor then stays 3
   double floor = 0;           ///< rounding or temporal error of the values: differences below it say nothing
 };
 
@@ -80,21 +80,22 @@ struct GridConvergence {
   std::vector<double> values;   ///< one a level
   std::optional<double> order;  ///< of the three finest; none where they are refused
   std::optional<double> limit;  ///< Richardson's extrapolation with it
-  /// 1.25 where the order is within a tenth of the expected one, and, with four levels or more, that of the three
-  /// levels before is so too; else 3.
+  /// 1.25 if the order differs from the expected one by less than a tenth; with four levels or more, the order of the
+  /// three levels before must do so, too. Else 3.
   double safety_factor = 3;
-  /// Of the finest value: the grid convergence index, safety factor times |finest - limit| with an order that is taken
-  /// no better than expected, and never less than the floor. Where no limit can be given, three times the largest
-  /// difference among the three finest values. NaN below two levels.
+  /// Uncertainty of the finest value: the grid convergence index, safety factor times |finest - limit|. The order is
+  /// taken no better than expected; the result is never less than the floor. Without a limit it is three times the
+  /// largest difference among the three finest values. NaN with fewer than two levels.
   double uncertainty = 0;
   /// Why there is no limit: too few levels, an oscillation, differences that grow, orders far apart, or differences
   /// within the floor. Empty where there is one.
   std::string refusal = {};
 };
 
-/// From the values on at least two levels; the limit needs three. Safety factors and the limiting of the order follow
-/// Roache, and Oberkampf & Roy, *Verification and Validation in Scientific Computing* (2010), section 8.7; three times
-/// the largest difference is Eca & Hoekstra's estimate outside the asymptotic range. Throws as fit_order().
+/// Estimates the limit from values on at least three levels; two give an uncertainty only. Safety factors and the
+/// limiting of the order follow Roache, and Oberkampf & Roy, *Verification and Validation in Scientific Computing*
+/// (2010), section 8.7; three times the largest difference is Eca & Hoekstra's estimate outside the asymptotic range.
+/// Throws as fit_order().
 GridConvergence grid_convergence(std::string quantity, std::vector<double> levels, std::vector<double> values,
                                  const GridConvergenceOptions& options = {});
 

@@ -6,8 +6,8 @@
 
 namespace vlbeam {
 
-/// One line on standard error: how far a computation is and about how long it still takes. Silent where standard error
-/// is not a terminal. May be called from several threads.
+/// Writes one line to standard error: the part that is done, and about how long the rest takes. Silent if standard
+/// error is not a terminal. Several threads may call it.
 class Progress {
  public:
   explicit Progress(std::string title);
@@ -15,7 +15,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `fraction` of the work that is done, in [0, 1]; `detail` says what of ("3/20 runs").
+  /// `fraction` of the work that is done, in [0, 1]; `detail` says it in words ("3/20 runs").
   void update(double fraction, const std::string& detail = "");
 
  private:

@@ -29,17 +29,19 @@ std::string beam_text(const Scene& scene) {
   for (const SlidingJointSpec& joint : sliding_joints(scene)) {
     text += joint.support == SupportType::pin     ? "; runs through a ring"
             : joint.support == SupportType::clamp ? "; runs through a sleeve"
+            : joint.x                             ? "; " + six_digits(joint.mass) + " kg is guided along it"
                                                   : "; " + six_digits(joint.mass) + " kg slides on it";
   }
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";
   if (may_have_corners(scene.beam.curve)) {
     const auto round = rounded_corners(scene, drawn_axis<3>(scene.beam.curve)).size();
-    if (round > 0) text += "; " + std::to_string(round) + (round == 1 ? " corner" : " corners") + " rounded off, which shorten it";
+    if (round > 0)
+      text += "; " + std::to_string(round) + (round == 1 ? " corner" : " corners") + " rounded off, which shorten it";
   }
   if (const auto count = knots(scene).size(); count > 0) {
-    text +=
-        "; " + std::to_string(count) + (count == 1 ? " node" : " nodes") + " with two slopes, at masses, loads and corners";
+    text += "; " + std::to_string(count) + (count == 1 ? " node" : " nodes") +
+            " with two slopes, at masses, loads and corners";
   }
   if (const auto count = scene.point_masses.size(); count > 0) {
     text += "; " + std::to_string(count) + (count == 1 ? " point mass" : " point masses");
@@ -130,10 +132,20 @@ std::string stability_text(const StaticSample& at) {
   return falls == 0 ? ", stable" : ", not stable: the energy falls in " + std::to_string(falls) + " directions";
 }
 
+/// Whether the first joint goes where its guide leads it: what it needs is the guide's force, and it is not held.
+bool first_is_guided(const Scene& scene) {
+  const auto joints = sliding_joints(scene);
+  return !joints.empty() && joints.front().x.has_value();
+}
+
 /// What a motion starts from.
-std::string start_text(const StaticSample& at, bool with_joint) {
-  const std::string held = at.holding_force == 0 ? "" : ", held until then by " + in_digits(at.holding_force, 8) + " N";
-  return "equilibrium" + stability_text(at) + (with_joint ? "; joint free" + held : "");
+std::string start_text(const Scene& scene, const StaticSample& at) {
+  const std::string force = in_digits(at.holding_force, 8) + " N";
+  const std::string held = at.holding_force == 0 ? "" : ", held until then by " + force;
+  return "equilibrium" + stability_text(at) +
+         (sliding_joint(scene) == nullptr ? ""
+          : first_is_guided(scene)        ? "; joint guided by " + force
+                                          : "; joint free" + held);
 }
 
 std::string static_summary(const Scene& scene, const RunResult& result) {
@@ -155,8 +167,10 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
     line("end of beam", point_text(last.end, scene.dimension));
     if (last.joint_position) {
       const double holding = last.equilibrium->holding_force;
-      line("joint", "at " + in_digits(*last.joint_position, 10) + " m along the beam" +
-                        (holding == 0 ? ", free" : ", held by " + in_digits(holding, 8) + " N"));
+      const bool guided = first_is_guided(scene);
+      line("joint",
+           "at " + in_digits(*last.joint_position, 10) + " m along the beam" +
+               (holding == 0 ? ", free" : (guided ? ", guided by " : ", held by ") + in_digits(holding, 8) + " N"));
     }
     line("energy", in_digits(last.energy.total(), 8) + " J");
   }
@@ -181,7 +195,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   if (!scene.integrator.reason.empty()) line("", choice_text(scene));
   if (!result.samples.empty()) {
     const Sample &first = result.samples.front(), &last = result.samples.back();
-    if (first.equilibrium) line("start", start_text(*first.equilibrium, sliding_joint(scene) != nullptr));
+    if (first.equilibrium) line("start", start_text(scene, *first.equilibrium));
     line("time reached", in_digits(last.t, 8) + " s of " + in_digits(scene.duration, 8) + " s");
     line("end of beam", point_text(last.end, scene.dimension));
     if (last.joint_position) line("joint position", in_digits(*last.joint_position, 8) + " m");

@@ -17,7 +17,7 @@ namespace vlbeam {
 enum class Profile { ci, full };
 constexpr auto names(Profile) { return std::to_array<Named<Profile>>({{Profile::ci, "ci"}, {Profile::full, "full"}}); }
 
-/// What a study is given: its data, its folder, and the threads it may use.
+/// Data, folder and threads of a study.
 struct StudyContext {
   std::string study;
   Profile profile = Profile::full;
@@ -38,12 +38,12 @@ struct StudyContext {
   /// Pass to simulate(): a run ends early once the user interrupts the study.
   static ProgressCallback until_interrupted();
 
-  /// simulate(), which ends early then, and goes on where an earlier run of the study ended; in a process of its own
-  /// where the study has a program for that. One that crashes throws std::runtime_error: it costs its case only.
+  /// Calls simulate(). The run ends early if the user interrupts the study, and goes on where an earlier one ended. It
+  /// is a process of its own if the study has a program for that. A crash throws std::runtime_error, and costs one
+  /// case.
   static RunResult simulate_until_interrupted(const Scene& scene);
 
-  /// The same, where a run that broke down or was interrupted throws std::runtime_error: a case of a sweep then
-  /// fails.
+  /// The same; a run that breaks down or is interrupted throws std::runtime_error, so that a case of a sweep fails.
   static RunResult simulate_to_the_end(const Scene& scene);
 };
 
@@ -65,7 +65,7 @@ struct StudyRun {
   std::string program = {};  ///< runs each scene in a process of its own, see KeptRuns; empty: in this one
 };
 
-/// What became of a study.
+/// Result of a study.
 struct StudyVerdict {
   std::string status;  ///< completed | failed | interrupted
   std::string failure = {};
@@ -73,9 +73,9 @@ struct StudyVerdict {
   std::filesystem::path report = {};  ///< written
 };
 
-/// Runs a study and writes its files: tables and figures, then the report, all of them once everything is there. A
-/// computation that fails is reported, beside an earlier completed report as NAME.failed.json; one that is interrupted
-/// leaves all files as they are. Only data that is not understood throws (InvalidInput), before anything is written.
+/// Runs a study and writes its files: tables and figures, then the report, all of them at the end. A study that fails
+/// is reported as NAME.failed.json beside an earlier completed report. A study that is interrupted leaves all files as
+/// they are. Throws InvalidInput for data that is not understood, before anything is written.
 StudyVerdict run_study(const Study& study, const StudyRun& run);
 
 /// Judges a written report anew by the gates that stand in the study's folder now.

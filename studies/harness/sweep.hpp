@@ -13,7 +13,7 @@
 
 namespace vlbeam {
 
-/// What became of one case of a sweep.
+/// Result of one case of a sweep, or why it failed.
 template <class Result>
 struct Outcome {
   std::optional<Result> result;  ///< empty where the case failed
@@ -32,7 +32,8 @@ void run_tasks(const std::string& title, const std::vector<double>& costs, int j
 
 /// Runs `run(case)` for independent cases on `jobs` threads. Outcomes stand in the order of the cases and do not depend
 /// on `jobs`. A case that throws, or that an interruption kept from starting, has a failure and no result.
-/// `cost(case)` is a rough estimate of its work, so that the longest start first and the time left can be told.
+/// `cost(case)` is a rough estimate of its work, so that the longest start first and the remaining time can be
+/// estimated.
 template <class Case, class Run, class Cost>
 auto sweep(const std::string& title, const std::vector<Case>& cases, int jobs, const Run& run, const Cost& cost) {
   using Result = std::invoke_result_t<const Run&, const Case&>;

@@ -8,6 +8,10 @@ check "a scene" 0 "$(exit_of "$vlbeam" scene pendulum)"
 cp out.txt scene.json
 check "an unknown scene" 2 "$(exit_of "$vlbeam" scene pendulun)"
 check "the nearest one" 1 "$(says 'is "pendulum"')"
+"$vlbeam" scene bridge > bridge.json
+check "a guided mass" 0 "$(exit_of "$vlbeam" run bridge.json)"
+check "is said to be guided" 1 "$(says '8000 kg is guided along it')"
+check "and not to be held" 0 "$(says 'held')"
 "$vlbeam" list > out.txt
 check "the list has scenes" 1 "$(grep -c '^  pendulum  Flexible pendulum$' out.txt)"
 check "and studies" 1 "$(grep -c "^  torsion  Torsional" out.txt)"
