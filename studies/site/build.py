@@ -51,7 +51,7 @@ DOCUMENTS = {
     "CONTRIBUTING.md": ("Contributing", "How to add a part, a scene, a study, an option."),
 }
 # Scenes of the first page: what people come for.
-SHOWN = ["falling_beam", "two_trolleys", "bridge", "winch", "cable_through_ring", "capstan", "drill_stem", "lead_screw", "suspended_beam"]
+SHOWN = ["container_crane", "bridge", "zipline", "winch", "mooring_line", "cable_through_ring", "movable_pulley", "drill_stem", "lead_screw"]
 
 
 def document_page(file):

@@ -149,9 +149,13 @@ class Documents(unittest.TestCase):
         def library(name):
             return json.loads((SOURCES / f"scenes/{name}.json").read_text(encoding="utf-8"))
 
+        def ropes():
+            scene = library("movable_pulley")
+            return scene | {"fluid": {"density": 1, "area": 1e-6}, "ground": {"height": -100, "stiffness": 1e3}}
+
         scenes = {"a sliding mass": falling(), "several masses": library("two_trolleys"), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
                   "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
-                  "loads": library("moving_force"), "spin": library("torsion")}
+                  "loads": library("moving_force"), "ropes": ropes(), "spin": library("torsion")}
         self.assertEqual(len(scenes), len(rows) - 2)
         for row in rows[2:]:
             name = next(name for name in scenes if row[0].startswith(name))
