@@ -37,6 +37,21 @@ def test_plots_say_what_they_show(falling):
     assert falling.plot("end.x", ax=ends) is ends
 
 
+def test_a_plot_has_all_that_slides():
+    pytest.importorskip("matplotlib").use("Agg")
+    r = vlbeam.run(vlbeam.scene("two_trolleys"))
+    dots = [line.get_xydata()[0] for line in r.plot().get_lines() if line.get_marker() == "o"]
+    assert len(dots) == 2 * len(r.shape_times)
+    np.testing.assert_allclose(dots[0], r.mass_position[0], atol=1e-12)
+    assert not np.allclose(dots[0], dots[1])
+
+
+def test_equilibria_have_no_seconds():
+    pytest.importorskip("matplotlib").use("Agg")
+    r = vlbeam.run(vlbeam.scene("cable_through_ring"))
+    assert r.plot().get_lines()[0].get_label() == "0" and r.plot("end.y").get_xlabel() == "equilibrium"
+
+
 def test_a_plot_in_space_names_its_plane():
     pytest.importorskip("matplotlib").use("Agg")
     scene = vlbeam.scene("drill_stem")

@@ -38,11 +38,25 @@ def _histories(r, names, ax):
     for name, column in values.items():
         ax.plot(r.t, column, label=label(name.removeprefix("energy.") if len(names) > 1 else name))
     unit = told.pop()
+    time = "equilibrium" if _statics(r) else "t (s)"
     what = label(names[0]) if len(names) == 1 else "energy" if names[0].startswith("energy.") else "value"
-    ax.set(xlabel="t (s)", ylabel=f"{what} ({unit})", title=r.title)
+    ax.set(xlabel=time, ylabel=f"{what} ({unit})", title=r.title)
     if len(names) > 1:
         ax.legend()
     return ax
+
+
+def _statics(r):
+    return "load_factor" in r.names
+
+
+def _joints(r):
+    """Places of all that slides: a list of arrays of shape (samples, dimension)."""
+    axes = _AXES[: r.end.shape[1]]
+    several = [k for k in range(len(r.names)) if f"joint{k}_mass_position_x" in r.names]
+    if several:
+        return [np.column_stack([r[f"joint{k}_mass_position_{axis}"] for axis in axes]) for k in several]
+    return [r.mass_position] if "mass_position.x" in r.names else []
 
 
 def _shapes(r, ax):
@@ -52,13 +66,14 @@ def _shapes(r, ax):
         points = np.concatenate([shape.r for shape in shapes])
         across, up = sorted(np.argsort(np.ptp(points, axis=0), kind="stable")[-2:])
         plane = f", {_AXES[across]}{_AXES[up]} plane"
+    places = _joints(r)
+    unit = "" if _statics(r) else " s"
     colours = needs("matplotlib", "plot").colormaps["viridis"](np.linspace(0, 0.85, len(shapes)))
     for shape, colour in zip(shapes, colours):
-        ax.plot(shape.r[:, across], shape.r[:, up], color=colour, label=f"{shape.t:.4g} s")
+        ax.plot(shape.r[:, across], shape.r[:, up], color=colour, label=f"{shape.t:.4g}{unit}")
         sample = np.flatnonzero(np.isclose(r.t, shape.t, rtol=0, atol=1e-9 * r.t[-1]))
-        if sample.size and "mass_position" in dir(r):
-            place = r.mass_position[sample[0]]
-            ax.plot(place[across], place[up], "o", color=colour)
+        for place in places if sample.size else []:
+            ax.plot(place[sample[0], across], place[sample[0], up], "o", color=colour)
     ax.set(xlabel=f"{_AXES[across]} (m)", ylabel=f"{_AXES[up]} (m)", title=r.title + plane)
     low, high = ax.get_ylim()
     left, right = ax.get_xlim()
