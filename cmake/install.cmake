@@ -77,7 +77,7 @@ foreach(folder core scene docs examples python/examples reference reports scenes
           PATTERN "*.json" PATTERN "*.csv" PATTERN "*.ipynb"
           PATTERN "*.kept" EXCLUDE PATTERN "*.timing.json" EXCLUDE PATTERN "CMakeFiles" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 endforeach()
-foreach(folder examples python/examples docs/theory docs/tutorials)
+foreach(folder examples python/examples docs)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           FILES_MATCHING PATTERN "*.cpp" PATTERN "*.py")
 endforeach()

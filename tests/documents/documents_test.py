@@ -93,6 +93,10 @@ class Documents(unittest.TestCase):
                 if not line.startswith(("|", "#", "    ", "![", "*Figure")):
                     self.assertLessEqual(len(line), 140, line)
 
+    def test_keys_of_a_scene_are_the_programs(self):
+        told = subprocess.run([sys.executable, SOURCES / "docs/scene_keys.py", PROGRAM, "-"], capture_output=True, text=True, check=True)
+        self.assertEqual(told.stdout, (SOURCES / "docs/scene_keys.md").read_text(encoding="utf-8"), "docs/scene_keys.py makes it anew")
+
     def test_targets_of_make_exist(self):
         makefile = (SOURCES / "Makefile.studies").read_text(encoding="utf-8")
         known = set(re.search(r"^\.PHONY: (.*)$", makefile, re.M)[1].split())
