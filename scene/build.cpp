@@ -8,12 +8,14 @@
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
+#include "core/parts/drum.hpp"
 #include "core/parts/ground.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_loads.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
 #include "scene/time_function.hpp"
+#include "scene/validate_feed.hpp"
 
 namespace vlbeam {
 namespace {
@@ -238,6 +240,31 @@ std::shared_ptr<const Part<D>> build_ground(const Scene& scene, const BeamModel<
                                      model.quadrature_points);
 }
 
+/// Makes a joint of an end of the beam through which it is fed.
+template <int D>
+void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& model) {
+  const SupportSpec& end = at_start ? scene.start : scene.end;
+  ModelJoint<D>& joint = model.joints.emplace_back();
+  if (end.feed) {
+    const double sign = at_start ? -1 : 1;
+    joint.x = travelling(at_start ? 0 : length, [sign, in = time_function(*end.feed)](double t) -> Prescribed {
+      const Prescribed way = in(t);
+      return {sign * way.value, sign * way.rate, sign * way.acceleration};
+    });
+    return;
+  }
+  TimeFunction push;
+  if (end.drum) {
+    joint.law.turning = end.drum->inertia / (end.drum->radius * end.drum->radius);
+    push = [torque = time_function(end.drum->torque), radius = end.drum->radius](double t) -> Prescribed {
+      return {torque(t).value / radius, 0, 0};
+    };
+  } else {
+    push = [pull = time_function(*end.held_tension)](double t) -> Prescribed { return {-pull(t).value, 0, 0}; };
+  }
+  model.parts.push_back(std::make_shared<Drum<D>>(at_start, model.section.rhoA, std::move(push)));
+}
+
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
@@ -285,13 +312,9 @@ BeamModel<D> build_model(const Scene& scene) {
   model.at_meeting = {contact.joints, contact.restitution};
   model.joints_rest = joints_may_rest(scene);
   model.contact_distance = contact.distance;
-  if (scene.start.feed) {
-    model.joints.emplace_back().x = travelling(0, [in = time_function(*scene.start.feed)](double t) -> Prescribed {
-      const Prescribed length = in(t);
-      return {-length.value, -length.rate, -length.acceleration};
-    });
+  for (const bool at_start : {true, false}) {
+    if ((at_start ? scene.start : scene.end).pays_out()) add_winch(scene, at_start, axis.length(), model);
   }
-  if (scene.end.feed) model.joints.emplace_back().x = travelling(axis.length(), time_function(*scene.end.feed));
   for (const Knot& knot : knots(scene)) {
     ModelJoint<D>& joint = model.joints.emplace_back();
     joint.law.slopes = knot.slopes;
@@ -373,7 +396,7 @@ ChainState<D> build_shape(const Scene& scene) {
     joint.kink = {kinked ? axis.tangent(at) : Vec<double, D>(slope<D>(chain.q.data(), node)), Vec<double, D>::Zero()};
   };
   for (std::size_t i = 0; i < joints.size(); ++i) add_joint(nodes.joints[i], i, joint_slopes(scene, joints[i]));
-  std::size_t index = joints.size() + (scene.start.feed ? 1 : 0) + (scene.end.feed ? 1 : 0);
+  std::size_t index = joints.size() + (scene.start.pays_out() ? 1 : 0) + (scene.end.pays_out() ? 1 : 0);
   for (const Knot& knot : knots(scene)) add_joint(knot.node, index++, knot.slopes);
   std::ranges::sort(chain.joints, {}, [](const auto& joint) { return joint.node; });
   const LengthControl control = build_length_control(scene);
@@ -391,13 +414,12 @@ ChainState<D> build_shape(const Scene& scene) {
 /// Makes joints of the ends through which the beam is fed.
 template <int D>
 void add_feeds(const Scene& scene, ChainState<D>& chain) {
-  const auto rate = [](const TimeSpec& feed) { return time_function(feed)(0).rate; };
   int index = static_cast<int>(sliding_joints(scene).size());
-  if (scene.start.feed) {
-    chain.joints.insert(chain.joints.begin(), {.node = 0, .rate = -rate(*scene.start.feed), .index = index++});
+  if (scene.start.pays_out()) {
+    chain.joints.insert(chain.joints.begin(), {.node = 0, .rate = -feed_rate(scene.start), .index = index++});
   }
-  if (scene.end.feed) {
-    chain.joints.push_back({.node = chain.mesh.last(), .rate = rate(*scene.end.feed), .index = index});
+  if (scene.end.pays_out()) {
+    chain.joints.push_back({.node = chain.mesh.last(), .rate = feed_rate(scene.end), .index = index});
   }
 }
 

@@ -68,7 +68,7 @@ inline bool threaded(const Scene& scene) {
                      [](const SlidingJointSpec& joint) { return joint.pitch.has_value(); });
 }
 /// Whether beam comes in or leaves through its ends.
-inline bool fed(const Scene& scene) { return scene.start.feed || scene.end.feed; }
+inline bool fed(const Scene& scene) { return scene.start.pays_out() || scene.end.pays_out(); }
 /// Whether there are more nodes that can move along the beam than that of one sliding joint.
 bool has_several_joints(const Scene& scene);
 inline std::string joint_key(const Scene& scene, std::size_t which = 0) {

@@ -68,6 +68,12 @@ struct SlidingSample {
   std::optional<JointSample> on_beam;
 };
 
+/// What a winch has done whose length is an unknown.
+struct WinchSample {
+  double length;  ///< paid out since t = 0 [m]
+  double rate;    ///< [m/s]
+};
+
 /// The observed quantities at one instant.
 struct Sample {
   double t = 0;                          ///< in statics the number of the equilibrium, from 0
@@ -77,10 +83,11 @@ struct Sample {
   Point end{};                           ///< position of the beam's last node [m]
   double beam_length = 0;                ///< current arc length [m]
   double beam_length_rate = 0;           ///< [m/s]
-  Energy energy;                         ///< by a 25-point rule, independent of the model's own points
-  double discrete_total = 0;             ///< total energy summed over the model's own quadrature points [J]
-  Point momentum{};                      ///< linear momentum of beam and mass [kg m/s]
-  Point angular_momentum{};              ///< of the same about the origin [kg m^2/s]; in the plane the last component
+  std::array<std::optional<WinchSample>, 2> winches = {};  ///< at the start and the end of the beam
+  Energy energy;              ///< by a 25-point rule, independent of the model's own points
+  double discrete_total = 0;  ///< total energy summed over the model's own quadrature points [J]
+  Point momentum{};           ///< linear momentum of beam and mass [kg m/s]
+  Point angular_momentum{};   ///< of the same about the origin [kg m^2/s]; in the plane the last component
   std::array<Reaction, 2>
       reactions{};  ///< of the supports at start and end, by the accelerations that belong to the state
   StrainSample strains;

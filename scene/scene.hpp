@@ -138,12 +138,25 @@ struct SupportMotionSpec {
   std::optional<TimeSpec> angle = {};  ///< [rad], of a clamp in the plane, about its point
 };
 
+/// A drum that a motor turns: the length of beam that it pays out is an unknown.
+struct DrumSpec {
+  double radius = 0;     ///< [m]
+  double inertia = 0;    ///< about its axis, with what is wound up [kg m^2]
+  TimeSpec torque = {};  ///< of the motor, paying out where it is > 0 [N m]
+};
+
 /// The support of one end.
 struct SupportSpec {
   SupportType type = SupportType::free;
   ClampType clamp = ClampType::direction;  ///< used with a clamp
   std::optional<SupportMotionSpec> motion = {};
   std::optional<TimeSpec> feed = {};  ///< length of beam that has come in through this end since t = 0: a winch [m]
+  std::optional<TimeSpec> held_tension = {};  ///< with which a winch without inertia pulls, in place of it [N]
+  std::optional<DrumSpec> drum = {};          ///< in place of both
+
+  /// Whether beam comes in or leaves there; whether as much as it wants.
+  bool pays_out() const { return feed || held_tension || drum; }
+  bool winds_freely() const { return held_tension || drum; }
 };
 
 /// The mass that slides on the beam.

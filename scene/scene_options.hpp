@@ -70,6 +70,21 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
                 at.feed)) {
       time_function(feed, "m", *at.feed);
     }
+    const std::string held_tension = entry + "/held_tension", drum = entry + "/drum";
+    if (present(
+            held_tension,
+            "pull of a winch on the beam, at this clamp or pin, that pays out or draws in what it takes to keep it, "
+            "in place of feed",
+            at.held_tension)) {
+      time_function(held_tension, "N", *at.held_tension);
+    }
+    if (present(drum, "a drum that a motor turns, at this clamp or pin, in place of feed: the length is an unknown",
+                at.drum)) {
+      number(drum + "/radius", "m", Range::positive(), "of the drum", at.drum->radius, {.required = true});
+      number(drum + "/inertia", "kg m^2", Range::non_negative(),
+             "moment of inertia about its axis, with what is wound up", at.drum->inertia, {.required = true});
+      time_function(drum + "/torque", "N m", at.drum->torque);
+    }
   }
   template <class Joint>
   void joint_options(const std::string& at, bool massless, Joint& mass) {

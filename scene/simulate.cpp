@@ -155,6 +155,10 @@ class Run {
       }
       if (count > 1) sample.joints.push_back(joint);
     }
+    if (scene_.start.winds_freely()) sample.winches[0] = {-chain.mesh.x.front(), -chain.joints.front().rate};
+    if (scene_.end.winds_freely()) {
+      sample.winches[1] = {chain.mesh.x.back() - beam_length(scene_), chain.joints.back().rate};
+    }
     const ConstraintResidual slopes = system_.slope_residual(y);
     result_.slopes.position = std::max(result_.slopes.position, slopes.position);
     result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);

@@ -346,15 +346,16 @@ void check_initial_velocity(const Scene& scene) {
     const Support<D> support = build_support<D>(spec, axis.tangent(x));
     const Vec<double, D> velocity = initial_velocity<D>(scene, axis.derivatives(x)[0]);
     const Vec<double, D> passes = x == 0 ? axis.tangent(x) : Vec<double, D>(-axis.tangent(x));
-    const Vec<double, D> coming = spec.feed ? Vec<double, D>(feed_rate(spec) * passes) : Vec<double, D>::Zero();
+    const Vec<double, D> coming = spec.pays_out() ? Vec<double, D>(feed_rate(spec) * passes) : Vec<double, D>::Zero();
     const double held = (support.into_frame(velocity - coming).array() * (1 - support.free_position)).matrix().norm();
     const double size =
         Eigen::Map<const Eigen::Vector3d>(motion.translation.data()).norm() + std::abs(motion.rotation) * axis.length();
     if (held <= 1e-9 * size) return;
     refuse("/initial_velocity", "a velocity of " + number_text(held) + " m/s against " + at,
-           spec.feed ? "at t = 0 the beam comes in there at " + number_text(feed_rate(spec)) + " m/s, along its tangent"
-                     : "what holds it there stands still at t = 0: let the beam turn about it" +
-                           std::string(spec.type == SupportType::slide ? ", or run along its tangent" : ""));
+           spec.pays_out()
+               ? "at t = 0 the beam comes in there at " + number_text(feed_rate(spec)) + " m/s, along its tangent"
+               : "what holds it there stands still at t = 0: let the beam turn about it" +
+                     std::string(spec.type == SupportType::slide ? ", or run along its tangent" : ""));
   };
   check("/supports/at=start", scene.start, 0);
   check("/supports/at=end", scene.end, axis.length());

@@ -56,14 +56,29 @@ void check_parts(const Scene& scene, const std::string& at) {
   if (scene.integrator.type == IntegratorType::ida) integrator("it knows no feed");
 }
 
+/// An end whose length is an unknown.
+void check_winding(const Scene& scene, const std::string& at) {
+  const IntegratorType type = scene.integrator.type;
+  if (type == IntegratorType::rosenbrock4 || type == IntegratorType::cvode) {
+    refuse("/integrator/type", quoted(type), "it knows no " + at + ": take an explicit one, or \"generalized-alpha\"");
+  }
+  if (starts_in_equilibrium(scene) && static_joints(scene) == StaticJoints::released) {
+    refuse("/statics/joints", "\"released\"", "what is at " + at + " is held until t = 0: leave it out");
+  }
+}
+
 /// One end.
 void check_end(const Scene& scene, const std::string& support, const SupportSpec& end) {
-  if (!end.feed) return;
-  const std::string at = support + "/feed";
+  if (!end.pays_out()) return;
+  const std::string at = support + (end.feed ? "/feed" : end.drum ? "/drum" : "/held_tension");
+  if ((end.feed ? 1 : 0) + (end.drum ? 1 : 0) + (end.held_tension ? 1 : 0) > 1) {
+    refuse(at, "this key", "\"feed\", \"held_tension\" and \"drum\" say the same thing: give one of them");
+  }
   if (end.type != SupportType::clamp && end.type != SupportType::pin) {
     refuse(support + "/type", quoted(end.type), "beam is fed through a \"clamp\" or a \"pin\"");
   }
   check_parts(scene, at);
+  if (end.winds_freely()) return check_winding(scene, at);
   if (end.feed->value != 0 && end.feed->ramp == 0) {
     refuse(
         at + "/value", number_text(end.feed->value),
@@ -86,6 +101,7 @@ void check_end(const Scene& scene, const std::string& support, const SupportSpec
 void check_way(const Scene& scene) {
   const auto ends = beam_ends(scene);
   const double length = beam_length(scene);
+  if (scene.start.winds_freely() || scene.end.winds_freely()) return;  // nobody knows
   const std::string fed = scene.start.feed ? "/supports/at=start/feed" : "/supports/at=end/feed";
   const std::vector<double> nodes = place_nodes(scene, build_axis<3>(scene).breaks()).x;
   for (int i = 0; i <= instants; ++i) {

@@ -263,7 +263,7 @@ class BeamSystem final : public EventedOde {
 
   void adopt(const ChainState<D>& chain);
   /// The joints are solved for as a chain.
-  bool chained() const { return places_.size() > 1 || (has_joint() && (guides(0) || joint(0).pitch != 0)); }
+  bool chained() const { return places_.size() > 1 || (has_joint() && (guides(0) || feeds(0) || joint(0).pitch != 0)); }
   /// The state is read from what prescribes parts of it.
   bool imposes() const { return model_.driven() || nut_; }
   /// Lengths of the last and the first element below which an end-merge is due [m]; 0 where none will be.

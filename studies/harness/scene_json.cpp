@@ -359,6 +359,8 @@ Scene scene_with_every_part() {
   for (SupportSpec* support : {&scene.start, &scene.end}) {
     support->motion.emplace().angle.emplace();
     support->feed.emplace();
+    support->held_tension.emplace();
+    support->drum.emplace();
   }
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
