@@ -38,6 +38,18 @@ struct Dual {
     const Real root = sqrt(a.value);
     return {root, a.rate / (Real(2) * root)};
   }
+  friend Dual sin(const Dual& a) {
+    using std::cos, std::sin;
+    return {sin(a.value), a.rate * cos(a.value)};
+  }
+  friend Dual cos(const Dual& a) {
+    using std::cos, std::sin;
+    return {cos(a.value), -(a.rate * sin(a.value))};
+  }
+  friend Dual atan2(const Dual& y, const Dual& x) {
+    using std::atan2;
+    return {atan2(y.value, x.value), (y.rate * x.value - x.rate * y.value) / (x.value * x.value + y.value * y.value)};
+  }
 };
 
 /// q + q' t as a function of time, at t = 0.
