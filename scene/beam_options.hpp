@@ -55,30 +55,46 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     auto& beam = scene.beam;
     choice(section_type, "how the section is given", beam.section.type);
     const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+    const Condition rectangle = only_if(section_type, beam.section.type, Section::Type::rectangle);
     const Condition stiffness = only_if(section_type, beam.section.type, Section::Type::stiffness);
     number("/beam/section/radius", "m", Range::positive(), "radius of the full circular section", beam.section.radius,
            {.source = example1, .when = circle});
+    number("/beam/section/width", "m", Range::positive(), "of a full rectangle, along the section's axis y",
+           beam.section.width, {.when = rectangle, .required = true});
+    number("/beam/section/height", "m", Range::positive(),
+           "of a full rectangle, along the section's axis z; in the plane it lies in it", beam.section.height,
+           {.when = rectangle, .required = true});
     number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
            {.when = stiffness, .required = true});
     number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
-           {.when = stiffness, .required = true});
+           {.when = stiffness, .required = true, .instead = "EI_y"});
+    number("/beam/section/EI_y", "N m^2", Range::positive(),
+           "in place of EI, together with EI_z: resists bending about the section's axis y", beam.section.EI_y,
+           {.when = stiffness});
+    number("/beam/section/EI_z", "N m^2", Range::positive(), "resists bending about the section's axis z",
+           beam.section.EI_z, {.when = stiffness});
     number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
            {.when = stiffness, .required = true});
-    number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin", beam.section.GIp,
-           {.when = stiffness});
+    number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin and by frames",
+           beam.section.GIp, {.when = stiffness});
     number("/beam/section/rhoIp", "kg m", Range::non_negative(),
-           "moment of inertia per length about the axis, needed by spin", beam.section.rhoIp, {.when = stiffness});
+           "moment of inertia per length about the axis, needed by spin and by frames that move", beam.section.rhoIp,
+           {.when = stiffness});
+    vector("/beam/section/orientation", "-",
+           "a direction that is the section's axis y, as far as it is across the beam, all along it; needed where the "
+           "two bending stiffnesses differ",
+           beam.section.orientation, {.components = 3});
   }
 
   void material() {
     auto& beam = scene.beam;
-    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
+    const Condition solid = only_if(section_type, beam.section.type, Section::Type::circle, Section::Type::rectangle);
     number("/beam/material/density", "kg/m^3", Range::positive(), "density", beam.material.density,
-           {.source = example1, .when = circle});
+           {.source = example1, .when = solid});
     number("/beam/material/youngs_modulus", "Pa", Range::positive(), "Young's modulus", beam.material.youngs_modulus,
-           {.source = example1, .when = circle});
+           {.source = example1, .when = solid});
     number("/beam/material/poisson_ratio", "-", {.low = -1, .high = 0.5, .low_open = true, .high_open = true},
-           "Poisson's ratio, of the torsional stiffness", beam.material.poisson_ratio, {.when = circle});
+           "Poisson's ratio, of the torsional stiffness", beam.material.poisson_ratio, {.when = solid});
     number("/beam/material/damping", "s", Range::non_negative(),
            "Kelvin-Voigt time c: stresses E (strain + c strain rate)", beam.material.damping,
            {.source = "Ding & Ouyang 2022, Eq. 19"});
@@ -106,9 +122,14 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     choice("/beam/rotary_inertia",
            "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,
            {.source = "Katz 2001"});
+    choice("/beam/space_law",
+           "how a beam bends in space: about two axes of its sections, which twist, or by the size of its curvature "
+           "alone; if not given frames where it is curved at rest and out_of_plane does not say that this does not "
+           "matter, or where two bending stiffnesses differ",
+           beam.space_law);
     choice("/beam/out_of_plane",
-           "what resists loads across the plane of a beam that is curved at rest, in space: to be written there, for "
-           "nothing does",
+           "what resists loads across the plane of a beam that is curved at rest, in space, with the scalar law: to be "
+           "written there, for nothing does",
            beam.out_of_plane);
     choice("/beam/axial_strain",
            "where an element's axial strain is summed: at all its quadrature points (full), or at both nodes and the "

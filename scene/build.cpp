@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
@@ -78,34 +77,6 @@ std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
 }
 
 }  // namespace
-
-BeamSection build_section(const BeamSpec& beam) {
-  BeamSection section;
-  if (beam.section.type == Section::Type::circle) {
-    const double r2 = beam.section.radius * beam.section.radius;
-    const double area = std::numbers::pi * r2;
-    section.rhoA = beam.material.density * area;
-    section.stiffness = {beam.material.youngs_modulus * area, beam.material.youngs_modulus * area * r2 / 4};
-  } else {
-    section.rhoA = beam.section.rhoA;
-    section.stiffness = {beam.section.EA, beam.section.EI};
-  }
-  section.stiffness.law = beam.strain_law;
-  section.damping = beam.material.damping;
-  section.curvature_regularization = beam.material.curvature_regularization;
-  return section;
-}
-
-SpinSection build_spin(const BeamSpec& beam) {
-  const Section& section = beam.section;
-  if (section.type == Section::Type::stiffness) return {section.rhoIp, section.GIp, beam.material.damping};
-  return CircularShaft{.radius = section.radius,
-                       .density = beam.material.density,
-                       .youngs_modulus = beam.material.youngs_modulus,
-                       .poisson_ratio = beam.material.poisson_ratio,
-                       .damping = beam.material.damping}
-      .spin();
-}
 
 template <int D>
 Support<D> build_support(const SupportSpec& spec, const Vec<double, D>& tangent) {
@@ -187,6 +158,24 @@ TimeFunction travelling(double from, const TimeFunction& way) {
   };
 }
 
+/// How sections stand at the nodes: as the scene says, or else turned by nothing from one node to the next.
+std::vector<SectionState> sections_along(const Scene& scene, const ChainState<3>& chain) {
+  const Vec<double, 3> given = vector_of<3>(scene.beam.section.orientation);
+  std::vector<SectionState> sections;
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    const Vec<double, 3> t = slope<3>(chain.q.data(), k).normalized();
+    if (given != Vec<double, 3>::Zero()) {
+      sections.push_back({(given - t * t.dot(given)).normalized()});
+    } else if (k == 0) {
+      sections.push_back({t.unitOrthogonal()});
+    } else {
+      const Vec<double, 3> before = slope<3>(chain.q.data(), k - 1).normalized();
+      sections.push_back({carried<double>(before, t, sections.back().direction)});
+    }
+  }
+  return sections;
+}
+
 /// Adds the velocities of the scene's rigid motion to those of a chain's nodes, without what supports hold.
 template <int D>
 void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& chain) {
@@ -198,6 +187,12 @@ void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& ch
   for (int k = 0; k <= last; ++k) {
     position<D>(chain.rate.data(), k) += initial_velocity<D>(scene, position<D>(chain.q.data(), k));
     slope<D>(chain.rate.data(), k) += turning(slope<D>(chain.q.data(), k));
+    if constexpr (D == 3) {
+      if (chain.sections.empty()) continue;
+      const Vec<double, 3> spin =
+          scene.initial_velocity->rotation * vector_of<3>(scene.initial_velocity->axis).normalized();
+      chain.sections[static_cast<std::size_t>(k)].spin += spin.dot(slope<3>(chain.q.data(), k).normalized());
+    }
   }
   for (auto& joint : chain.joints) {
     if (joint.kink) joint.kink->rate += turning(joint.kink->slope);
@@ -210,6 +205,7 @@ void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& ch
     };
     keep(position<D>(chain.rate.data(), k), support.free_position);
     keep(slope<D>(chain.rate.data(), k), support.free_slope);
+    if (!chain.sections.empty() && !support.free_angle) chain.sections[static_cast<std::size_t>(k)].spin = 0;
   }
 }
 
@@ -282,7 +278,7 @@ BeamModel<D> build_model(const Scene& scene) {
     if (!spec) return {};
     const auto& [direction, displacement, angle] = *spec;
     SupportMotion<D> motion;
-    if (angle) motion.angle = time_function(*angle);
+    if (angle) motion.angle = acting(*angle, scene.analysis);
     if (direction == Point{}) return motion;
     motion.direction = vector_of<D>(direction).normalized();
     motion.displacement = acting(displacement, scene.analysis);
@@ -342,7 +338,9 @@ BeamModel<D> build_model(const Scene& scene) {
   };
   stay(loads.points);
   stay(torques.points);
-  if (scene.spin) {
+  if (has_frames(scene)) {
+    model.frames = FrameModel{build_frames(scene.beam), std::move(torques)};
+  } else if (scene.spin) {
     SpinModel& spin = model.spin.emplace();
     spin.section = build_spin(scene.beam);
     spin.field = scene.spin->angles;
@@ -385,6 +383,9 @@ ChainState<D> build_shape(const Scene& scene) {
       position<D>(chain.rest.data(), k) = at[0];
       slope<D>(chain.rest.data(), k) = at[1];
     }
+  }
+  if constexpr (D == 3) {
+    if (has_frames(scene)) chain.sections = chain.rest_sections = sections_along(scene, chain);
   }
   const auto joints = sliding_joints(scene);
   const auto add_joint = [&](int node, std::size_t index, JointSlopes slopes) {

@@ -24,8 +24,10 @@ struct InitialNodes {
 };
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks);
 
+/// Of two bending stiffnesses that about the section's axis y, which is across the plane where there is one.
 BeamSection build_section(const BeamSpec& beam);
 SpinSection build_spin(const BeamSpec& beam);
+FrameSection build_frames(const BeamSpec& beam);
 
 /// Of the point r in the rigid motion that the scene starts with [m/s].
 template <int D>

@@ -50,14 +50,23 @@ bool has_rest_shape(const Scene& scene) {
   return scene.beam.rest_shape == RestShape::as_built && (!unit || is_curved(scene));
 }
 
+bool has_frames(const Scene& scene) {
+  const BeamSpec& beam = scene.beam;
+  if (scene.dimension != 3) return false;
+  if (beam.space_law) return *beam.space_law == SpaceLaw::frames;
+  const FrameSection section = build_frames(beam);
+  return section.EI_y != section.EI_z || (section.EI_y > 0 && is_curved_at_rest(scene) && !beam.out_of_plane);
+}
+
 int quadrature_points(const Scene& scene) {
   if (scene.beam.quadrature_points > 0) return scene.beam.quadrature_points;
   return is_polynomial(scene.beam.element) ? polynomial_points : rational_points;
 }
 
 AxialStrain axial_strain(const Scene& scene) {
-  const auto& [EA, EI, law] = build_section(scene.beam).stiffness;
-  const double l = standard_length(scene);
+  const double EA = build_section(scene.beam).stiffness.EA, l = standard_length(scene);
+  const FrameSection bending = build_frames(scene.beam);
+  const double EI = scene.dimension == 3 ? std::min(bending.EI_y, bending.EI_z) : bending.EI_y;
   const bool locks = EI > 0 && EA * l * l > slender * EI;
   return scene.beam.axial_strain.value_or(locks ? AxialStrain::lobatto : AxialStrain::full);
 }

@@ -29,6 +29,11 @@ bool is_curved(const Scene& scene);
 /// Whether strains are measured from a shape other than a straight, unstrained one.
 bool has_rest_shape(const Scene& scene);
 
+/// Whether sections have frames, so that the beam bends about two axes and twists. If the scene does not say so they
+/// have in space where the beam is curved at rest and bends, unless it says that nothing leaves its plane, and where
+/// its two bending stiffnesses differ.
+bool has_frames(const Scene& scene);
+
 /// How the elements of the scene follow a curved axis: evenly; in the paper's setting exactly, where its elements can
 /// and no mass slides along a beam that is curved at rest.
 AxisForm axis_form(const Scene& scene);

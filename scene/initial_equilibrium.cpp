@@ -24,6 +24,13 @@ BeamModel<D> at_start(BeamModel<D> model) {
     grow(load.moment);
   }
   grow(model.loads.line_force);
+  if (model.frames) {
+    for (Torques::Point& point : model.frames->torques.points) {
+      hold(point.x);
+      grow(point.torque);
+    }
+    grow(model.frames->torques.line);
+  }
   model.time_is_load_factor = true;
   model.start_motion = model.end_motion = {};
   for (ModelJoint<D>& joint : model.joints) {

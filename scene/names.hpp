@@ -44,6 +44,9 @@ constexpr auto names(StrainLaw) {
   return std::to_array<Named<StrainLaw>>({{StrainLaw::green, "green"}, {StrainLaw::engineering, "engineering"}});
 }
 constexpr auto names(OutOfPlane) { return std::to_array<Named<OutOfPlane>>({{OutOfPlane::none, "none"}}); }
+constexpr auto names(SpaceLaw) {
+  return std::to_array<Named<SpaceLaw>>({{SpaceLaw::frames, "frames"}, {SpaceLaw::scalar, "scalar"}});
+}
 constexpr auto names(AxialStrain) {
   return std::to_array<Named<AxialStrain>>({{AxialStrain::full, "full"}, {AxialStrain::lobatto, "lobatto"}});
 }
@@ -131,7 +134,7 @@ constexpr auto names(NewtonKind) {
 }
 constexpr auto names(Section::Type) {
   using enum Section::Type;
-  return std::to_array<Named<Section::Type>>({{circle, "circle"}, {stiffness, "stiffness"}});
+  return std::to_array<Named<Section::Type>>({{circle, "circle"}, {rectangle, "rectangle"}, {stiffness, "stiffness"}});
 }
 constexpr auto names(Formulation) {
   using enum Formulation;

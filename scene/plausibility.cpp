@@ -31,11 +31,12 @@ void check_strain(const Scene& scene, const RunResult& result, std::vector<Warni
   };
   const auto at = std::ranges::max_element(result.samples, {}, largest);
   if (!(largest(*at) > large_strains)) return;
-  const bool circle = scene.beam.section.type == Section::Type::circle;
-  warnings.push_back({WarningKind::large_strain,
-                      text_of("the beam is strained by ", 100 * largest(*at), " % at t = ", at->t, " s"),
-                      circle ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
-                             : "is /beam/section/EA in N?"});
+  const Section::Type type = scene.beam.section.type;
+  warnings.push_back(
+      {WarningKind::large_strain, text_of("the beam is strained by ", 100 * largest(*at), " % at t = ", at->t, " s"),
+       type == Section::Type::circle      ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
+       : type == Section::Type::rectangle ? "is /beam/material/youngs_modulus in Pa, and /beam/section in m?"
+                                          : "is /beam/section/EA in N?"});
 }
 
 void check_section(const Scene& scene, std::vector<Warning>& warnings) {

@@ -66,22 +66,26 @@ struct CurveSpec {
   std::vector<Point> points = {};                ///< polyline [m]
 };
 
-/// The cross-section: a solid circle of the beam's material, or stiffnesses and masses per length.
+/// The cross-section: a solid circle or rectangle of the beam's material, or stiffnesses and masses per length.
 struct Section {
-  enum class Type { circle, stiffness } type = Type::circle;
-  double radius = 0.01;  ///< circle [m]
-  double EA = 0;         ///< stiffness [N]
-  double EI = 0;         ///< stiffness [N m^2]; 0 is a cable
-  double rhoA = 0;       ///< stiffness [kg/m]
-  double GIp = 0;        ///< stiffness [N m^2], used with spin
-  double rhoIp = 0;      ///< stiffness, moment of inertia per length about the axis [kg m], used with spin
+  enum class Type { circle, rectangle, stiffness } type = Type::circle;
+  double radius = 0.01;             ///< circle [m]
+  double EA = 0;                    ///< stiffness [N]
+  double EI = 0;                    ///< stiffness [N m^2]; 0 is a cable
+  double rhoA = 0;                  ///< stiffness [kg/m]
+  double GIp = 0;                   ///< stiffness [N m^2], used with spin and with frames
+  double rhoIp = 0;                 ///< stiffness, moment of inertia per length about the axis [kg m]
+  double width = 0, height = 0;     ///< rectangle, along the section's axes y and z [m]; in the plane height lies in it
+  std::optional<double> EI_y = {};  ///< stiffness, in place of EI: bending about the section's axis y [N m^2]
+  std::optional<double> EI_z = {};  ///< stiffness, in place of EI: bending about the section's axis z [N m^2]
+  Point orientation{};              ///< of the section's axis y, as far as it is across the beam; zero: not given
 };
 
 /// Properties of the material.
 struct Material {
-  double density = 7200;                ///< [kg/m^3], used with a circle
-  double youngs_modulus = 2e7;          ///< [Pa], used with a circle
-  double poisson_ratio = 0.3;           ///< used with a circle that spins
+  double density = 7200;                ///< [kg/m^3], used with a circle or a rectangle
+  double youngs_modulus = 2e7;          ///< [Pa], used with a circle or a rectangle
+  double poisson_ratio = 0.3;           ///< used with a circle or rectangle that twists
   double damping = 0;                   ///< Kelvin-Voigt time c [s]
   double mass_damping = 0;              ///< alpha [1/s]: forces -alpha rhoA v per length
   double curvature_regularization = 0;  ///< kappa_reg [1/m], needed by bending damping in 3D
@@ -114,6 +118,12 @@ enum class OutOfPlane {
   none,  ///< nothing but the change of the curvature's magnitude, which is of second order
 };
 
+/// How a beam bends in space.
+enum class SpaceLaw {
+  frames,  ///< about two axes of its sections, and twists as it does
+  scalar,  ///< by the size of its curvature, whatever way it bends
+};
+
 /// The beam: its initial axis, section and material, and how it is divided into elements.
 struct BeamSpec {
   CurveSpec curve;
@@ -125,7 +135,8 @@ struct BeamSpec {
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
   BendingInertia rotary_inertia = BendingInertia::none;
-  std::optional<OutOfPlane> out_of_plane = {};   ///< to be said of a curved beam in space
+  std::optional<SpaceLaw> space_law = {};        ///< in space; see has_frames()
+  std::optional<OutOfPlane> out_of_plane = {};   ///< to be said of a curved beam in space whose law is scalar
   std::optional<AxialStrain> axial_strain = {};  ///< see axial_strain()
   int quadrature_points = 0;                     ///< Gauss points an element; 0 stands for the element's default
   std::array<double, 4> weights{1, 1, 1, 1};     ///< initial weights of every element

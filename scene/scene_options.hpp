@@ -56,8 +56,11 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
                 "displacement of a clamp or a pin as a function of time, from where it is at t = 0 and from rest, and "
                 "the angle of a clamp",
                 at.motion)) {
-      const bool turns = present(
-          angle, "by which a clamp turns about its point, in the plane, from how it stands at t = 0", at.motion->angle);
+      const bool turns = present(angle,
+                                 "by which a clamp turns from how it stands at t = 0: about its point, in the plane; "
+                                 "about the beam's tangent, "
+                                 "in space with frames",
+                                 at.motion->angle);
       if (turns) time_function(angle, "rad", *at.motion->angle);
       vector(direction, "-", "of the displacement; it need not have unit length; needed without an angle",
              at.motion->direction, {.required = !turns, .instead = "angle"});

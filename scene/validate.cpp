@@ -16,6 +16,7 @@
 #include "scene/validate_beam.hpp"
 #include "scene/validate_feed.hpp"
 #include "scene/validate_flow.hpp"
+#include "scene/validate_frames.hpp"
 #include "scene/validate_joints.hpp"
 #include "scene/validate_nut.hpp"
 
@@ -163,8 +164,16 @@ void check_turning(const Scene& scene, const std::string& at, const SupportSpec&
   if (support.type != SupportType::clamp) {
     refuse(key, "this key", "only a \"clamp\" can turn: a " + quoted(support.type) + " holds no direction");
   }
-  if (scene.dimension == 3) refuse(key, "this key", "a clamp turns in a planar scene only");
-  if (scene.analysis == Analysis::statics) refuse(key, "this key", "statics knows none: leave it out");
+  const bool frames = has_frames(scene);  // it turns about the beam's tangent then
+  if (scene.dimension == 3 && !frames) {
+    refuse(key, "this key", "a clamp turns in a planar scene, or one with /beam/space_law \"frames\"");
+  }
+  if (scene.analysis == Analysis::statics && !frames) refuse(key, "this key", "statics knows none: leave it out");
+  if (scene.analysis == Analysis::statics) return;
+  if (frames && scene.integrator.type != IntegratorType::generalized_alpha) {
+    refuse("/integrator/type", quoted(scene.integrator.type),
+           "a clamp that turns in space needs \"generalized-alpha\"");
+  }
   if (scene.integrator.type == IntegratorType::ida) {
     refuse("/integrator/type", quoted(scene.integrator.type),
            "it knows no clamp that turns: take any other but \"energy-momentum\"");
@@ -244,9 +253,10 @@ void check_loads(const Scene& scene) {
     if (load.type == LoadType::force && load.direction == Point{}) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
-    if (load.type == LoadType::torque && !scene.spin) {
+    if (load.type == LoadType::torque && !scene.spin && !has_frames(scene)) {
       refuse("/spin", InvalidInput::missing,
-             at + " is a torque, which turns the section about the axis: it needs this object");
+             at + " is a torque, which turns the section about the axis: it needs this object, or /beam/space_law "
+                  "\"frames\"");
     }
     const TimeSpec& size = load.magnitude;
     if (is_zero(size)) {
@@ -478,8 +488,13 @@ void check_statics(const Scene& scene) {
     if (joint.x) constant(joint_key(scene, i) + "/x", *joint.x);
     if (joint.motion) constant(joint_key(scene, i) + "/motion", joint.motion->displacement);
   }
-  if (scene.start.motion) constant("/supports/at=start/motion", scene.start.motion->displacement);
-  if (scene.end.motion) constant("/supports/at=end/motion", scene.end.motion->displacement);
+  const auto moves = [&](const std::string& at, const SupportSpec& support) {
+    if (!support.motion) return;
+    constant(at, support.motion->displacement);
+    if (support.motion->angle) constant(at + "/angle", *support.motion->angle);
+  };
+  moves("/supports/at=start/motion", scene.start);
+  moves("/supports/at=end/motion", scene.end);
   constexpr int most = 500;  // the matrices are dense
   if (scene.statics.frequencies > 0 && scene.beam.elements > most) {
     refuse("/statics/frequencies", std::to_string(scene.statics.frequencies),
@@ -514,6 +529,7 @@ void check_all(const Scene& scene) {
   visit_options(RangeCheck{}, scene);
   check_plane(scene);
   validate_beam(scene);
+  validate_frames(scene);
   validate_joints(scene);
   validate_nut(scene);
   validate_length_control(scene);

@@ -44,20 +44,22 @@ bool of_usual_size(double value) { return value > 1 / largest_quantity && value 
 
 void check_sizes(const Scene& scene) {
   const BeamSpec& beam = scene.beam;
-  const bool circle = beam.section.type == Section::Type::circle;
+  const bool solid = beam.section.type != Section::Type::stiffness;
   const BeamSection section = build_section(beam);
   const auto check = [&](const char* name, double value) {
     if (of_usual_size(value)) return;
     const std::string bounds = "it must be between 1e-100 and 1e100";
-    if (!circle) refuse(std::string("/beam/section/") + name, number_text(value), bounds);
-    refuse("/beam/section/radius", number_text(beam.section.radius),
+    if (!solid) refuse(std::string("/beam/section/") + name, number_text(value), bounds);
+    const bool circle = beam.section.type == Section::Type::circle;
+    refuse(circle ? "/beam/section/radius" : "/beam/section/height",
+           number_text(circle ? beam.section.radius : beam.section.height),
            "with /beam/material/density = " + number_text(beam.material.density) +
                " and youngs_modulus = " + number_text(beam.material.youngs_modulus) + " it makes " + name + " = " +
                number_text(value) + "; " + bounds);
   };
   check("rhoA", section.rhoA);
   check("EA", section.stiffness.EA);
-  if (circle || section.stiffness.EI > 0) check("EI", section.stiffness.EI);
+  if (solid || section.stiffness.EI > 0) check("EI", section.stiffness.EI);
 }
 
 /// Each piece of a drawn axis with corners needs an element.
@@ -196,13 +198,18 @@ void check_beam(const Scene& scene) {
     }
   }
 
-  const bool bends = beam.section.type == Section::Type::circle || beam.section.EI > 0;
+  const bool bends = build_section(beam).bends();
   const bool curved_in_space = scene.dimension == 3 && bends && has_rest_shape(scene) && is_curved(scene);
-  if (curved_in_space && !beam.out_of_plane) {
+  const bool frames = has_frames(scene);
+  if (curved_in_space && !frames && !beam.out_of_plane) {
     refuse("/beam/out_of_plane", InvalidInput::missing,
-           "a beam that is curved at rest does not resist loads across its plane here, for its strain energy has the "
-           "magnitude of the curvature and no torsion: write \"none\" if nothing leaves that plane, or \"rest_shape\": "
-           "\"paper\", or \"dimension\": 2");
+           "a beam that is curved at rest does not resist loads across its plane with the scalar law, for its strain "
+           "energy has the magnitude of the curvature and no torsion: write \"none\" if nothing leaves that plane, or "
+           "\"space_law\": \"frames\", or \"dimension\": 2");
+  }
+  if (frames && beam.out_of_plane) {
+    refuse("/beam/out_of_plane", quoted(*beam.out_of_plane),
+           "bending and torsion resist it with /beam/space_law \"frames\": leave one of the two out");
   }
   if (!curved_in_space && beam.out_of_plane) {
     refuse("/beam/out_of_plane", quoted(*beam.out_of_plane),
@@ -225,7 +232,8 @@ void check_beam(const Scene& scene) {
           "the mesh's, and changes as the mesh does");
     }
   }
-  if (scene.dimension == 3 && bends && beam.material.curvature_regularization == 0 && has_rest_shape(scene)) {
+  if (scene.dimension == 3 && bends && !frames && beam.material.curvature_regularization == 0 &&
+      has_rest_shape(scene)) {
     refuse("/beam/material/curvature_regularization", "0",
            "a curved rest shape in 3D has no direction where the beam is straight: it must be a number > 0 [1/m], such "
            "as " +

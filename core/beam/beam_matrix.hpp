@@ -11,7 +11,8 @@
 namespace vlbeam {
 
 /// The tangent of a beam's equations. Nodes are its blocks; its border holds, as coordinates do, the material
-/// coordinates of joints and the slopes behind kinks, then whatever else is added.
+/// coordinates of joints and the slopes behind kinks, then whatever else is added. In space each node may have an
+/// angle, too, which stands behind all nodes; there is no border then.
 template <int D>
 class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
  public:
@@ -19,13 +20,98 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   using Base = BorderedBlockTridiagonal<B>;
   using Base::add_border, Base::border, Base::corner, Base::diagonal, Base::lower, Base::upper;
   using typename Base::Block;
+  using WideBlock = Eigen::Matrix<double, B + 1, B + 1>;
 
   /// A zero matrix of so many nodes, with the border of these joints.
   void start(int nodes, std::span<const JointPlace> joints) {
     Base::reset(nodes);
+    turns_ = false;
     for (const JointPlace& joint : joints) add_border(std::max(0, joint.node - 1));
     for (const JointPlace& joint : joints) {
       for (int c = 0; c < (joint.behind < 0 ? 0 : D); ++c) add_border(std::max(0, joint.node - 1));
+    }
+  }
+
+  /// Gives each node an angle.
+  void add_angles() requires(D == 3) {
+    turns_ = true;
+    wide_.reset(Base::nodes());
+    work_.resize(Eigen::Index{B + 1} * Base::nodes());
+  }
+
+  /// Adds the coupling of two nodes that are neighbours or the same: position, slope and angle each.
+  void add_turning(int row, int column, const WideBlock& block) requires(D == 3) {
+    const auto i = static_cast<std::size_t>(row);
+    (row == column ? diagonal : column > row ? upper : lower)[i] += block.template topLeftCorner<B, B>();
+    WideBlock& wide = (row == column ? wide_.diagonal : column > row ? wide_.upper : wide_.lower)[i];
+    wide.col(B) += block.col(B);
+    wide.row(B).template head<B>() += block.row(B).template head<B>();
+  }
+  /// The same of the element between node k and the next.
+  template <class Matrix>
+  void add_turning_element(int k, const Matrix& matrix) requires(D == 3) {
+    constexpr int W = B + 1;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) add_turning(k + i, k + j, matrix.template block<W, W>(i * W, j * W));
+    }
+  }
+  /// Adds to what a node's slope does to itself.
+  void add_slope_stiffness(int node, const Eigen::Matrix<double, D, D>& matrix) {
+    diagonal[static_cast<std::size_t>(node)].template bottomRightCorner<D, D>() += matrix;
+  }
+
+  bool factor() {
+    if constexpr (D == 3) {
+      if (turns_) {
+        for (std::size_t k = 0; k < diagonal.size(); ++k) {
+          wide_.diagonal[k].template topLeftCorner<B, B>() = diagonal[k];
+          wide_.upper[k].template topLeftCorner<B, B>() = upper[k];
+          wide_.lower[k].template topLeftCorner<B, B>() = lower[k];
+        }
+        return wide_.factor();
+      }
+    }
+    return Base::factor();
+  }
+  void solve(double* x) const {
+    if constexpr (D == 3) {
+      if (turns_) {
+        const Eigen::Index n = Base::nodes();
+        for (Eigen::Index k = 0; k < n; ++k) {
+          work_.template segment<B>((B + 1) * k) = Eigen::Map<const typename Base::Vector>(x + B * k);
+          work_[(B + 1) * k + B] = x[B * n + k];
+        }
+        wide_.solve(work_.data());
+        for (Eigen::Index k = 0; k < n; ++k) {
+          Eigen::Map<typename Base::Vector>(x + B * k) = work_.template segment<B>((B + 1) * k);
+          x[B * n + k] = work_[(B + 1) * k + B];
+        }
+        return;
+      }
+    }
+    Base::solve(x);
+  }
+  int negative_pivots(double zero) const {
+    if constexpr (D == 3) {
+      if (turns_) return wide_.negative_pivots(zero);
+    }
+    return Base::negative_pivots(zero);
+  }
+  void expand(Eigen::MatrixXd& dense) const {
+    Base::expand(dense);
+    if constexpr (D == 3) {
+      const Eigen::Index n = Base::nodes(), first = B * n;
+      const auto put = [&](Eigen::Index row, Eigen::Index column, const WideBlock& block) {
+        dense.block<B, 1>(B * row, first + column) = block.template topRightCorner<B, 1>();
+        dense.block<1, B>(first + row, B * column) = block.template bottomLeftCorner<1, B>();
+        dense(first + row, first + column) = block(B, B);
+      };
+      for (Eigen::Index k = 0; turns_ && k < n; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        put(k, k, wide_.diagonal[i]);
+        if (k + 1 < n) put(k, k + 1, wide_.upper[i]);
+        if (k > 0) put(k, k - 1, wide_.lower[i]);
+      }
     }
   }
 
@@ -98,7 +184,8 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   /// Takes what a support holds at a node, and at the slope behind a kink there, out of rows and columns, and leaves
   /// its stiffness in its place.
   void hold(int node, Eigen::Index behind, const Support<D>& support) {
-    if ((support.free_position > 0).all() && (support.free_slope > 0).all()) return;
+    const bool angle = !turns_ || support.free_angle;
+    if ((support.free_position > 0).all() && (support.free_slope > 0).all() && angle) return;
     using Keep = Eigen::Matrix<double, D, D>;
     const auto kept = [&](const typename Support<D>::Components& free) {
       return Keep(support.frame * free.matrix().asDiagonal() * support.frame.transpose());
@@ -121,6 +208,9 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
       lower[k] = keep * lower[k];
       upper[k - 1] = upper[k - 1] * keep;
     }
+    if constexpr (D == 3) {
+      if (turns_) hold_angles(k, keep, support.free_angle);
+    }
     for (auto& b : border) {
       const int reached = node - b.first;
       if (reached < 0 || reached >= Base::reach) continue;
@@ -133,6 +223,27 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   }
 
  private:
+  /// Of node k: what couples to angles, in the directions that a support leaves, and its own angle.
+  void hold_angles(std::size_t k, const Block& keep, bool free) {
+    const auto column = [&](WideBlock& block) {
+      block.template topRightCorner<B, 1>() = (keep * block.template topRightCorner<B, 1>()).eval();
+    };
+    const auto row = [&](WideBlock& block) {
+      block.template bottomLeftCorner<1, B>() = (block.template bottomLeftCorner<1, B>() * keep).eval();
+    };
+    column(wide_.diagonal[k]), column(wide_.upper[k]), column(wide_.lower[k]);
+    row(wide_.diagonal[k]);
+    if (k + 1 < wide_.lower.size()) row(wide_.lower[k + 1]);
+    if (k > 0) row(wide_.upper[k - 1]);
+    if (free) return;
+    const double size = wide_.diagonal[k](B, B);
+    wide_.diagonal[k].row(B).setZero(), wide_.diagonal[k].col(B).setZero();
+    wide_.upper[k].row(B).setZero(), wide_.lower[k].row(B).setZero();
+    if (k + 1 < wide_.lower.size()) wide_.lower[k + 1].col(B).setZero();
+    if (k > 0) wide_.upper[k - 1].col(B).setZero();
+    wide_.diagonal[k](B, B) = size > 0 ? size : 1;
+  }
+
   /// Keeps a part of D unknowns of the border.
   void hold_border(Eigen::Index at, const Eigen::Matrix<double, D, D>& keep, double size) {
     for (std::size_t n = 0; n < Base::reach; ++n) {
@@ -168,6 +279,11 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
       }
     }
   }
+
+  bool turns_ = false;
+  /// Of its blocks the last row and column, all else only once they are factored.
+  BorderedBlockTridiagonal<D == 3 ? B + 1 : B> wide_;
+  mutable Eigen::VectorXd work_;
 };
 
 }  // namespace vlbeam

@@ -121,11 +121,12 @@ template <int B>
 int BorderedBlockTridiagonal<B>::negative_pivots(double zero) const {
   int count = 0;
   for (std::size_t k = 0; k < inverse_.size(); ++k) {
-    Vector size;  // slopes, the second half of a node's unknowns, have another unit than places
-    for (int half : {0, B / 2}) {
+    Vector size;  // places, slopes and, of an odd number, an angle have units of their own
+    for (int first = 0; first < B; first += B / 2) {
+      const int end = std::min(first + B / 2, B);
       double largest = 0;
-      for (int i = half; i < half + B / 2; ++i) largest = std::max(largest, std::abs(diagonal[k](i, i)));
-      for (int i = half; i < half + B / 2; ++i) size[i] = std::sqrt(largest);
+      for (int i = first; i < end; ++i) largest = std::max(largest, std::abs(diagonal[k](i, i)));
+      for (int i = first; i < end; ++i) size[i] = std::sqrt(largest);
     }
     const Block scaled = size.asDiagonal() * inverse_[k] * size.asDiagonal();
     const Block even = (scaled + scaled.transpose()) / 2;
@@ -186,5 +187,6 @@ void BorderedBlockTridiagonal<B>::substitute(double* x, std::size_t first) const
 template class BorderedBlockTridiagonal<2>;
 template class BorderedBlockTridiagonal<4>;
 template class BorderedBlockTridiagonal<6>;
+template class BorderedBlockTridiagonal<7>;
 
 }  // namespace vlbeam

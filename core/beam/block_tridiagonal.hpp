@@ -75,5 +75,6 @@ class BorderedBlockTridiagonal {
 extern template class BorderedBlockTridiagonal<2>;
 extern template class BorderedBlockTridiagonal<4>;
 extern template class BorderedBlockTridiagonal<6>;
+extern template class BorderedBlockTridiagonal<7>;
 
 }  // namespace vlbeam

@@ -29,6 +29,7 @@ struct Support {
   bool aligned = true;                                                          ///< the frame is the global one
   Components free_position = Components::Ones();
   Components free_slope = Components::Ones();
+  bool free_angle = true;  ///< about the tangent, where nodes have an angle
 
   static Support free_end() { return {}; }
 
@@ -42,6 +43,7 @@ struct Support {
   static Support clamp() {
     Support support = pin();
     support.free_slope.setZero();
+    support.free_angle = false;
     return support;
   }
 

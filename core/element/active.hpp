@@ -75,13 +75,6 @@ class Active {
     const double cosine = portable::cosh(a.value_);
     return chain(portable::tanh(a.value_), a, 1 / (cosine * cosine));
   }
-  friend Active sin(const Active& a) { return chain(portable::sin(a.value_), a, portable::cos(a.value_)); }
-  friend Active cos(const Active& a) { return chain(portable::cos(a.value_), a, -portable::sin(a.value_)); }
-  friend Active atan2(const Active& y, const Active& x) {
-    const double scale = 1 / (x.value_ * x.value_ + y.value_ * y.value_);
-    return make(portable::atan2(y.value_, x.value_),
-                [&](int i) { return (y.by(i) * x.value_ - x.by(i) * y.value_) * scale; });
-  }
   friend Active asin(const Active& a) {
     return chain(portable::asin(a.value_), a, 1 / std::sqrt(1 - a.value_ * a.value_));
   }

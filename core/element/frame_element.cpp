@@ -45,7 +45,7 @@ FrameTable::FrameTable(double l, const Weights<double>& w) : length(l) {
 }
 
 FrameEnds<double> frame_ends(const FrameNode& a, const FrameNode& b, double turned) {
-  return {b.r - a.r, a.s, b.s, a.direction(), b.direction(), turned};
+  return {b.r - a.r, a.s, b.s, a.direction, b.direction, turned};
 }
 
 FrameVector frame_gradient(const FrameTable& table, const FrameSection& section, const FrameNode& a, const FrameNode& b,
@@ -53,8 +53,8 @@ FrameVector frame_gradient(const FrameTable& table, const FrameSection& section,
   const FrameElement<double> element(table, section, frame_ends(a, b, turned));
   const FrameForce<double> f = element.force(element.inner());
   FrameVector result;
-  result << -f.chord, f.s_a + f.spin_a * a.reference.spin_by_slope(a.s), f.spin_a, f.chord,
-      f.s_b + f.spin_b * b.reference.spin_by_slope(b.s), f.spin_b;
+  result << -f.chord, f.s_a + f.spin_a * a.spin_by_slope, f.spin_a, f.chord, f.s_b + f.spin_b * b.spin_by_slope,
+      f.spin_b;
   return result;
 }
 
@@ -92,12 +92,12 @@ FrameMatrix frame_tangent(const FrameTable& table, const FrameSection& section, 
   map.block<3, 3>(0, 7).setIdentity();
   map.block<3, 3>(3, 3).setIdentity();
   map.block<3, 3>(6, 10).setIdentity();
-  map.block<1, 3>(9, 3) = a.reference.spin_by_slope(a.s).transpose();
-  map.block<1, 3>(10, 10) = b.reference.spin_by_slope(b.s).transpose();
+  map.block<1, 3>(9, 3) = a.spin_by_slope.transpose();
+  map.block<1, 3>(10, 10) = b.spin_by_slope.transpose();
   map(9, 6) = map(10, 13) = 1;
   FrameMatrix result = map.transpose() * k * map;
-  result.block<3, 3>(3, 3) += f.spin_a.value() * a.reference.spin_by_slope_gradient(a.s);
-  result.block<3, 3>(10, 10) += f.spin_b.value() * b.reference.spin_by_slope_gradient(b.s);
+  result.block<3, 3>(3, 3) += f.spin_a.value() * a.reference->spin_by_slope_gradient<double>(a.s);
+  result.block<3, 3>(10, 10) += f.spin_b.value() * b.reference->spin_by_slope_gradient<double>(b.s);
   return result;
 }
 

@@ -3,44 +3,28 @@
 #include <array>
 #include <cmath>
 
-#include "core/element/shape_functions.hpp"
-#include "core/element/strain_law.hpp"
+#include "core/element/active.hpp"
+#include "core/element/frame_table.hpp"
 #include "core/element/triad.hpp"
 
 namespace vlbeam {
 
-/// What a section resists besides stretching, about its own axes y and z and about the tangent, and its inertia about
-/// that.
-struct FrameSection {
-  double EI_y = 0, EI_z = 0;  ///< [N m^2]
-  double GIp = 0;             ///< [N m^2]
-  double rhoIp = 0;           ///< [kg m]
-  StrainLaw law = StrainLaw::green;
-};
+template <int N>
+SineCosine<Active<N>> sine_cosine(const Active<N>& x) {
+  const auto of = sine_cosine(x.value());
+  SineCosine<Active<N>> result{Active<N>(of.sine), Active<N>(of.cosine)};
+  result.sine.derivatives() = of.cosine * x.derivatives();
+  result.cosine.derivatives() = -of.sine * x.derivatives();
+  return result;
+}
 
-/// Two curvatures and the torsion [1/m].
-template <class Real>
-struct FrameStrain {
-  Real y, z, torsion;
-};
-
-/// What an element of fixed length needs to know of itself: its shape functions in its middle and at two Gauss points,
-/// three of which would lock where torsion is stiff, and its strains there at rest. r_x and r_xx need the columns of
-/// r_B - r_A, s_A and s_B only.
-struct FrameTable {
-  struct Point {
-    double u, weight;  ///< weight times length [m]
-    std::array<double, 3> s_x, s_xx;
-    FrameStrain<double> rest{0, 0, 0};
-
-    double bump() const { return 4 * u * (1 - u); }
-  };
-  double length;
-  std::array<double, 3> middle;
-  std::array<Point, 2> points;
-
-  FrameTable(double l, const Weights<double>& w);
-};
+template <int N>
+Active<N> angle_of(const Active<N>& y, const Active<N>& x) {
+  Active<N> result(angle_of(y.value(), x.value()));
+  const double size = x.value() * x.value() + y.value() * y.value();
+  result.derivatives() = (y.derivatives() * x.value() - x.derivatives() * y.value()) / size;
+  return result;
+}
 
 /// Where an element's ends are and how they are turned, as far as it matters: r_B - r_A, the slopes, the directions of
 /// the sections' y axes across these. `turned` is the angle between the latter, to within half a turn.
@@ -73,7 +57,6 @@ class FrameElement {
 
   FrameElement(const FrameTable& table, const FrameSection& section, const FrameEnds<Real>& ends)
       : table_(table), section_(section) {
-    using portable::atan2;
     using std::sqrt;
     middle_ = sum(table.middle, ends);
     stretch_m_ = sqrt(middle_.dot(middle_));
@@ -88,20 +71,20 @@ class FrameElement {
     };
     a_ = end(ends.s_a, ends.d_a);
     b_ = end(ends.s_b, ends.d_b);
-    twist_ = atan2(m_.dot(a_.d.cross(b_.d)), a_.d.dot(b_.d));
-    constexpr double turn = 2 * 3.14159265358979323846;
-    twist_ = twist_ + turn * std::round((ends.turned - value_of(twist_)) / turn);
+    const auto expected = sine_cosine(ends.turned);
+    const Real along = a_.d.dot(b_.d), across = m_.dot(a_.d.cross(b_.d));
+    twist_ = angle_of(Real(across * expected.cosine - along * expected.sine),
+                      Real(along * expected.cosine + across * expected.sine)) +
+             ends.turned;
     for (std::size_t g = 0; g < 2; ++g) points_[g] = look(table.points[g], ends);
   }
 
   const Real& twist() const { return twist_; }
   /// At a point of the table.
   FrameStrain<Real> strain(std::size_t g, const Real& inner) const {
-    using portable::cos;
-    using portable::sin;
     const Seen& at = points_[g];
     const auto& point = table_.points[g];
-    const Real angle = inner * point.bump(), c = cos(angle), s = sin(angle);
+    const auto [s, c] = sine_cosine(Real(inner * point.bump()));
     return {at.y * c + at.z * s, at.z * c - at.y * s, at.torsion + at.by_inner * inner};
   }
   /// The inner angle of the least energy, found from 0 [rad].
@@ -134,8 +117,6 @@ class FrameElement {
   bool green() const { return section_.law == StrainLaw::green; }
 
   Seen look(const FrameTable::Point& point, const FrameEnds<Real>& ends) const {
-    using portable::cos;
-    using portable::sin;
     using std::sqrt;
     Seen at;
     at.r_x = sum(point.s_x, ends);
@@ -146,8 +127,8 @@ class FrameElement {
     at.over = green() ? Real(Real(1) / (g * at.stretch)) : Real(Real(1) / g);
     at.k = at.r_x.cross(at.r_xx) * at.over;
     at.below = Real(1) + m_.dot(at.t);
-    const Real angle = twist_ * point.u;
-    const Vector f = a_.d * Real(cos(angle)) + m_.cross(a_.d) * Real(sin(angle));
+    const auto [sine, cosine] = sine_cosine(Real(twist_ * point.u));
+    const Vector f = a_.d * cosine + m_.cross(a_.d) * sine;
     at.f_y = carried<Real>(m_, at.t, f);
     at.f_z = at.t.cross(at.f_y);
     at.y = at.k.dot(at.f_y);
@@ -213,8 +194,6 @@ std::array<Real, 2> FrameElement<Real>::energy(const Real& inner) const {
 /// What follows a strain's change back to what it changes with.
 template <class Real>
 FrameForce<Real> FrameElement<Real>::force(const Real& inner) const {
-  using portable::cos;
-  using portable::sin;
   FrameForce<Real> force;
   Vector on_middle = Vector::Zero();  // on the tangent there
   const double n = curvature_power(section_.law);
@@ -226,7 +205,7 @@ FrameForce<Real> FrameElement<Real>::force(const Real& inner) const {
     const Real M_y = w * Real(section_.EI_y) * (strain.y - Real(point.rest.y));
     const Real M_z = w * Real(section_.EI_z) * (strain.z - Real(point.rest.z));
     const Real T = w * Real(section_.GIp) * (strain.torsion - Real(point.rest.torsion));
-    const Real angle = inner * point.bump(), c = cos(angle), s = sin(angle);
+    const auto [s, c] = sine_cosine(Real(inner * point.bump()));
     // all that acts on the curvature vector, and on the spin of the frame
     const Real share = T / at.below;
     const Vector on_k = at.f_y * Real(M_y * c - M_z * s) + at.f_z * Real(M_y * s + M_z * c) - m_ * share;
@@ -258,13 +237,19 @@ FrameForce<Real> FrameElement<Real>::force(const Real& inner) const {
   return force;
 }
 
-/// Where an end of an element is and how it is turned.
+/// Where an end of an element is and how it is turned by its angle.
 struct FrameNode {
-  const TriadReference& reference;
+  const TriadReference* reference;
   Vec<double, 3> r, s;
-  double phi;
+  Vec<double, 3> direction;      ///< of the section's y axis
+  Vec<double, 3> spin_by_slope;  ///< A
 
-  Vec<double, 3> direction() const { return reference.direction(s, phi); }
+  FrameNode(const TriadReference& from, const Vec<double, 3>& place, const Vec<double, 3>& slope, double phi)
+      : reference(&from),
+        r(place),
+        s(slope),
+        direction(from.direction(slope, phi)),
+        spin_by_slope(from.spin_by_slope<double>(slope)) {}
 };
 
 /// Unknowns of an element: r_A, s_A, phi_A, r_B, s_B, phi_B.

@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
-#include "core/geometry/elementary.hpp"
+#include "core/geometry/small_angle.hpp"
 #include "core/geometry/vec.hpp"
 
 namespace vlbeam {
@@ -15,6 +16,12 @@ Vec<Real, 3> carried(const Vec<Real, 3>& from, const Vec<Real, 3>& to, const Vec
   const Real along = to.dot(v);
   return v - (from + to) * Real(along / (Real(1) + from.dot(to)));
 }
+
+/// How the section at a node stands: the direction of its y axis, and the spin about the tangent [rad/s].
+struct SectionState {
+  Vec<double, 3> direction;
+  double spin = 0;
+};
 
 /// What a node's angle is counted from: a direction d across a tangent t, which the smallest rotation takes along with
 /// the tangent. The section there has the direction d(s, phi), across the slope s, turned about it by phi.
@@ -28,20 +35,27 @@ struct TriadReference {
 
   Vec<double, 3> direction(const Vec<double, 3>& s, double phi) const {
     const Vec<double, 3> now = s.normalized(), from = carried<double>(t, now, d);
-    return from * portable::cos(phi) + now.cross(from) * portable::sin(phi);
+    const auto [sine, cosine] = sine_cosine(phi);
+    return from * cosine + now.cross(from) * sine;
   }
   /// A [1].
-  Vec<double, 3> spin_by_slope(const Vec<double, 3>& s) const {
-    const double size = s.norm();
-    return -t.cross(s) / (size * (size + t.dot(s)));
+  template <class Real>
+  Vec<Real, 3> spin_by_slope(const Vec<Real, 3>& s) const {
+    using std::sqrt;
+    const Vec<Real, 3> from = t.cast<Real>();
+    const Real size = sqrt(s.dot(s));
+    return s.cross(from) / Real(size * (size + from.dot(s)));
   }
   /// dA/ds: row i is the gradient of A_i.
-  Eigen::Matrix3d spin_by_slope_gradient(const Vec<double, 3>& s) const {
-    const double size = s.norm(), along = t.dot(s), below = size * (size + along);
-    const Vec<double, 3> by = s * (2 + along / size) + t * size;  // gradient of what is below
-    Eigen::Matrix3d cross;
-    cross << 0, -t[2], t[1], t[2], 0, -t[0], -t[1], t[0], 0;
-    return -cross / below + t.cross(s) * by.transpose() / (below * below);
+  template <class Real>
+  Eigen::Matrix<Real, 3, 3> spin_by_slope_gradient(const Vec<Real, 3>& s) const {
+    using std::sqrt;
+    const Vec<Real, 3> from = t.cast<Real>();
+    const Real size = sqrt(s.dot(s)), along = from.dot(s), below = size * (size + along);
+    const Vec<Real, 3> by = (s * Real(Real(2) + along / size) + from * size) / Real(below * below), own = from.cross(s);
+    Eigen::Matrix<Real, 3, 3> result;
+    for (int c = 0; c < 3; ++c) result.col(c) = Vec<Real, 3>::Unit(c).cross(from) / below + own * by[c];
+    return result;
   }
   /// The same section seen from the present slope: the angle stays what it is.
   TriadReference at(const Vec<double, 3>& s) const {

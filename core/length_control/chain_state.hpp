@@ -7,6 +7,7 @@
 
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_map.hpp"
+#include "core/element/triad.hpp"
 #include "core/geometry/axis.hpp"
 
 namespace vlbeam {
@@ -21,6 +22,8 @@ struct ChainState {
   std::vector<double> mark_rates;  ///< of the nodes' material coordinates, where all of them travel [m/s]
   std::vector<double> rest;        ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
   const Axis<D>* rest_curve = nullptr;  ///< what new nodes follow then
+  /// How sections are turned at the nodes, and are at rest, where they have frames.
+  std::vector<SectionState> sections, rest_sections;
   /// The beam's slope behind a joint.
   struct Kink {
     Vec<double, D> slope, rate;

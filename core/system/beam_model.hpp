@@ -14,6 +14,7 @@
 #include "core/joint/sliding_joint.hpp"
 #include "core/length_control/length_control.hpp"
 #include "core/parts/drag.hpp"
+#include "core/parts/frames.hpp"
 #include "core/parts/loads.hpp"
 #include "core/parts/point_masses.hpp"
 #include "core/parts/spin.hpp"
@@ -57,7 +58,10 @@ struct BeamModel {
   bool start_releases = false, end_releases = false;  ///< joints may leave the beam there
   Loads<D> loads;
   Drag<D> drag;
-  std::optional<SpinModel> spin;  ///< without it there is no angle at all
+  std::optional<SpinModel> spin;  ///< without it there is no angle at all, but of frames
+  /// In space, of a beam whose nodes rest: it bends about two axes, and twists. Without it bending knows the size of the
+  /// curvature alone.
+  std::optional<FrameModel> frames = {};
   PointMasses<D> masses;
   std::vector<std::shared_ptr<const Part<D>>> parts = {};  ///< what else acts on the beam
   Impact at_meeting = {};                                  ///< of two joints
@@ -77,6 +81,12 @@ struct BeamModel {
   /// others; null for a straight, unstrained rest shape.
   std::shared_ptr<const Axis<D>> rest;
 
+  /// What elements of the axis alone resist.
+  BeamSection axis_section() const {
+    BeamSection axis = section;
+    if (frames) axis.stiffness.EI = 0;
+    return axis;
+  }
   /// Whether energy is lost.
   bool dissipates() const {
     return !parts.empty() || section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
@@ -105,7 +115,9 @@ struct BeamModel {
   /// The energies that the state counts.
   Tallies tallies() const {
     if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
-    return {dissipates(), loads.present() || !parts.empty() || drag.streams() || (spin && spin->torques.present()),
+    return {dissipates(),
+            loads.present() || !parts.empty() || drag.streams() || (spin && spin->torques.present()) ||
+                (frames && frames->torques.present()),
             spin && !spin->drives.empty(), driven()};
   }
 };

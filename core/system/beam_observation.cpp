@@ -6,7 +6,8 @@ namespace vlbeam {
 template <int D>
 void BeamSystem<D>::observe_elements(const ChainState<D>& chain, int first, int last, double t, int points,
                                      Observation<D>& seen) const {
-  const Observer<D> observer(model_.section, gravity(t), beam_rule(points, model_.axial_strain),
+  const BeamSection section = model_.axis_section();
+  const Observer<D> observer(section, gravity(t), beam_rule(points, model_.axial_strain),
                              model_.rotary.present() ? &model_.rotary : nullptr);
   for (int k = first; k < last; ++k) {
     const MovingKinematics<double, D> element(chain.coordinates(k), chain.rates(k),
@@ -59,6 +60,14 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
     seen.energy.kinetic += turning.kinetic;
     seen.energy.torsion += turning.torsion;
     seen.spin_momentum += turning.momentum;
+  }
+  if (frames_) {
+    const Frames::Seen bent = frames_->observe(y.data(), y.data() + coordinates());
+    seen.energy.kinetic += bent.kinetic;
+    seen.energy.bending += bent.bending;
+    seen.energy.torsion += bent.torsion;
+    seen.angular_momentum += bent.momentum;
+    if (strains) seen.extremes->curvature = bent.curvature;
   }
   const Tally counted = layout_.tallies.of(y);
   seen.energy.dissipated = counted.dissipated;

@@ -25,6 +25,9 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y[layout_.mark()] = chain.rider->x;
     y[coordinates() + layout_.mark()] = chain.rider->rate;
   }
+  for (Eigen::Index k = 0; frames_ && k < frames_->nodes(); ++k) {
+    y[coordinates() + angles() + k] = chain.sections[static_cast<std::size_t>(k)].spin;
+  }
   if (old.size() == 0) return y;
   const Eigen::Index tallies = layout_.tallies.count();
   y.tail(tallies) = old.tail(tallies);
@@ -52,6 +55,7 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
   result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + layout_.mark());
   result.rest = rest_;
   result.rest_curve = model_.rest.get();
+  if (frames_) result.sections = frames_->sections(y.data(), y.data() + coordinates());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
     result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];

@@ -28,6 +28,13 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
   if (model_.drag.present()) acting_.push_back(std::make_shared<ActingDrag<D>>(model_.drag));
   if (model_.masses.present()) acting_.push_back(std::make_shared<ActingPointMasses<D>>(model_.masses));
   acting_.insert(acting_.end(), model_.parts.begin(), model_.parts.end());
+  if constexpr (D == 3) {
+    if (model_.frames) {
+      frames_ = std::make_shared<Frames>(*model_.frames, chain.mesh, chain.rest.empty() ? nullptr : chain.rest.data(),
+                                         chain.rest_sections, chain.q.data(), chain.sections);
+      acting_.push_back(frames_);
+    }
+  }
   adopt(chain);
   initial_ = state_of(chain, {});
   if (spin_) spin_->start(initial_.data() + angles(), initial_.data() + coordinates() + angles());
@@ -63,7 +70,9 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   layout_ = {.nodes = static_cast<int>(mesh_.x.size()),
              .marks = chain.rider ? 1 : static_cast<int>(chain.joints.size()),
              .departed = static_cast<int>(departed_.size()),
-             .turning = spin_ ? spin_->coordinates() : 0,
+             .turning = spin_     ? spin_->coordinates()
+                        : frames_ ? frames_->coordinates()
+                                  : 0,
              .tallies = model_.tallies()};
   places_.clear();
   index_.clear();
@@ -79,7 +88,13 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     if (!joint(i).law.kinked()) continue;
     places_[i].behind = layout_.kink(layout_.kinks++);
   }
-  held_.adopt(model_, mesh_.last(), places_, index_);
+  held_.adopt(model_, mesh_.last(), places_, index_, frames_ ? layout_.angle() : -1);
+  if (frames_) {
+    std::vector<bool> held(mesh_.x.size(), false);
+    for (const HeldNode<D>& node : held_.nodes()) held[static_cast<std::size_t>(node.node)] = node.holds_angle();
+    frames_->hold(held);
+  }
+  const BeamSection section = model_.axis_section();
   const BeamRule rule = beam_rule(model_.quadrature_points, model_.axial_strain);
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
@@ -87,12 +102,12 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
                          : has_joint() ? std::min(mesh_.last(), places_.back().node + 1)
                                        : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
-  left_.emplace(mesh_, 0, left_open, model_.start, model_.section, rule, rest, model_.masses.points);
-  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, model_.section, rule, rest, model_.masses.points);
+  left_.emplace(mesh_, 0, left_open, model_.start, section, rule, rest, model_.masses.points);
+  right_.emplace(mesh_, mesh_.last(), right_open, model_.end, section, rule, rest, model_.masses.points);
   between_.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;
-    if (low <= high) between_.emplace_back(mesh_, low, high, model_.section, rule, rest, model_.masses.points);
+    if (low <= high) between_.emplace_back(mesh_, low, high, section, rule, rest, model_.masses.points);
   }
   if (model_.driven()) {
     for (const std::size_t end : {0, 1}) {
@@ -345,6 +360,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   };
   if (!travel(t)) return invalid();
   Tally power = add_forces(q, rate, t, force, elements_);
+  if (frames_) frames_->solve_spins(q, rate, force);
   std::optional<PrescribedMotion> pull;  // of moving supports
   const Eigen::Index angles = this->angles();
   if (spin_ && !spin_->accelerate(q + angles, rate + angles, t, force + angles, power.dissipated)) return invalid();
@@ -380,6 +396,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       if (driven) pull->add_rider(solved->force, at.s);
     }
   }
+  if (frames_) frames_->complete(q, rate, force);
   for (std::size_t i = 0; i < departed_.size(); ++i) dydt.segment<D>(coordinates() + departed_at(i)) = gravity(t);
   const Eigen::VectorXd* by_nut = nullptr;
   if (nut) by_nut = &nut_->torque(nut_->turn(force[places_[*nut].mark], force + angles));
@@ -418,6 +435,7 @@ template <int D>
 void BeamSystem<D>::exchange(Memory& memory) {
   memory(rhs_evaluations_);
   ramp_.exchange(memory);
+  if (frames_) frames_->exchange(memory);
   bool viewed = implicit_ != nullptr;
   memory(viewed);
   if (viewed) second_order()->exchange(memory);

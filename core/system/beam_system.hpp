@@ -182,6 +182,12 @@ class BeamSystem final : public EventedOde {
   /// How the section turns; null if it does not. Its angles stand behind all else.
   Spin* spin() { return spin_ ? &*spin_ : nullptr; }
   const Spin* spin() const { return spin_ ? &*spin_ : nullptr; }
+  /// Of a beam whose sections have frames, or null. Their angles stand behind the nodes.
+  Frames* frames() const { return frames_.get(); }
+  /// After a step on a path of equilibria: what angles are counted from follows.
+  void follow(const Eigen::VectorXd& q) {
+    if (frames_) frames_->follow(q.data(), nullptr);
+  }
   /// Where the angles stand among the coordinates.
   Eigen::Index angles() const { return layout_.angle(); }
   /// Where the angle of a node of the mesh at t = 0 stands.
@@ -421,6 +427,7 @@ class BeamSystem final : public EventedOde {
   double cut_limit_ = 0;                         ///< distance of a rider from the end at which it gets a node [m]
   Held<D> held_;
   std::vector<std::shared_ptr<const Part<D>>> acting_;
+  std::shared_ptr<Frames> frames_;  ///< one of these, too
   Layout<D> layout_;
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;

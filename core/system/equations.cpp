@@ -18,6 +18,7 @@ double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v
   const PointMasses<D>& masses = system_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
   at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data()); });
+  if (system_.frames() != nullptr) system_.frames()->add_inertia(q.data(), v.data(), a.data(), r.data());
   if (system_.moving_mesh() != nullptr) {
     lost += system_.add_travelling_residual(q.data(), v.data(), a.data(), t, r.data());
   } else if (system_.has_joint()) {
@@ -109,6 +110,9 @@ void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, 
                             const TangentWeights& by, BeamMatrix<D>& tangent) {
   const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
   tangent.start(system_.layout().nodes, system_.places());
+  if constexpr (D == 3) {
+    if (system_.frames() != nullptr) tangent.add_angles();
+  }
   if (system_.moving_mesh() != nullptr) {
     add_travelling_elements(now, by, tangent);
   } else {

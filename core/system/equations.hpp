@@ -17,7 +17,8 @@ class Equations {
   /// Writes r of the coordinates of the state, at the start of an array that may be longer; returns the power lost [W].
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) const;
-  /// Makes of `tangent` that of the residual with weights `by`, but for angles, which couple to nothing else.
+  /// Makes of `tangent` that of the residual with weights `by`, but for the angles of Spin, which couple to nothing
+  /// else.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                 const TangentWeights& by, BeamMatrix<D>& tangent);
 

@@ -79,9 +79,13 @@ class Path {
   bool advance(Eigen::VectorXd& q, double from, double to, int halvings, bool first) {
     Eigen::VectorXd tried = q;
     const bool found = search_.newton(tried, to) && (first || follows(q, from, tried, to));
-    if (first && !(found && holds_at_start_) && search_.relax(q, to)) return true;
+    if (first && !(found && holds_at_start_) && search_.relax(q, to)) {
+      system_.follow(q);
+      return true;
+    }
     if (found) {
       q = tried;
+      system_.follow(q);
       if (system_.model().guides() && !search_.control_length(q, to)) {
         throw ComputationFailed("length control leaves no equilibrium at load factor " + in_digits(to, 4), from);
       }
@@ -106,7 +110,7 @@ class Path {
     return std::sqrt(inner(off, off)) <= most;
   }
 
-  /// Positions over the beam's length and slopes, both per node, and the load factor: what makes a length of a path.
+  /// Positions over the beam's length, slopes and angles, each per node, and the load factor: what makes a length of a path.
   double inner(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
     double sum = 0;
     const int nodes = system_.mesh().last() + 1;
@@ -114,6 +118,8 @@ class Path {
       sum += position<D>(a.data(), k).dot(position<D>(b.data(), k)) / (search_.length * search_.length) +
              slope<D>(a.data(), k).dot(slope<D>(b.data(), k));
     }
+    const Eigen::Index angles = system_.angles(), turning = system_.layout().turning;
+    sum += a.segment(angles, turning).dot(b.segment(angles, turning));
     const double unit = system_.model().length_control.standard_length;
     for (const JointPlace& place : system_.places()) {
       if (search_.releasing) sum += a[place.mark] * b[place.mark] / (unit * unit);
@@ -181,6 +187,7 @@ class Path {
         Eigen::VectorXd last = q + share * (next - q);
         if (search_.newton(last, 1)) {
           q = last;
+          system_.follow(q);
           if (search_.releasing && !search_.control_length(q, 1))
             path_ends(q, "length control leaves no equilibrium", 1);
           return on_point(search_.point(q, 1));
@@ -188,6 +195,7 @@ class Path {
       }
       q = next;
       factor = next_factor;
+      system_.follow(q);
       if (search_.releasing) {
         const std::size_t events = counters_.newton.iterations;
         if (!search_.control_length(q, factor)) path_ends(q, "length control leaves no equilibrium", factor);

@@ -216,6 +216,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
   impose(y, t);
   orient(t);
+  if (frames_) return frames_->follow(y.data(), y.data() + coordinates());  // it has no other events
   const bool ramped = ramp_.due(model_.gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
   const std::vector<PendingEvent> dues = all_due(index, y, t);

@@ -31,7 +31,8 @@ enum class Kind {
   contact,
   used_up,
   pass_forward,
-  pass_backward
+  pass_backward,
+  turned_away
 };
 
 constexpr int number(Kind kind) { return static_cast<int>(kind); }
@@ -106,6 +107,7 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
     const double value = (contacts[i].distance - gap.distance) / unit;  // what parts is clear of each other
     guards.push_back({number(Kind::contact), part, gap.rate > 0 ? value - clearance : value});
   }
+  if (frames_) guards.push_back({number(Kind::turned_away), 0, frames_->turned_away(y.data())});
   return guards;
 }
 
@@ -212,6 +214,7 @@ typename BeamSystem<D>::PendingEvent BeamSystem<D>::due(const Guard& guard, cons
       return {EventType::passage, direction, which, {}};
     case Kind::meeting:
     case Kind::used_up:
+    case Kind::turned_away:
     case Kind::end:
     case Kind::start:
       break;

@@ -29,7 +29,7 @@ Eigen::Map<Vec<double, D>> behind_kink(const HeldNode<D>& held, double* a) {
 
 template <int D>
 void Held<D>::adopt(const BeamModel<D>& model, int last, std::span<const JointPlace> joints,
-                    const std::vector<int>& index) {
+                    const std::vector<int>& index, Eigen::Index angles) {
   nodes_.clear();
   index_ = index;
   moves_ = model.supports_move();
@@ -47,6 +47,7 @@ void Held<D>::adopt(const BeamModel<D>& model, int last, std::span<const JointPl
   }
   for (HeldNode<D>& held : nodes_) {
     if (held.motion != nullptr && !*held.motion) held.motion = nullptr;
+    if (angles >= 0) held.angle = angles + held.node;
   }
   if (anchored_) set_anchors();
 }
@@ -106,6 +107,10 @@ void Held<D>::impose(double t, double* q, double* rate) const {
     set(position<D>(q, held.node), held.position_now(), by.free_position);
     set(position<D>(rate, held.node), held.driven.rate, by.free_position);
     if (!held.turns()) continue;
+    if (held.holds_angle()) {
+      q[held.angle] = held.driven.angle.value;
+      rate[held.angle] = held.driven.angle.rate;
+    }
     set(slope<D>(q, held.node), held.slope_now(), by.free_slope);
     set(slope<D>(rate, held.node), held.driven.slope_rate(slope<D>(q, held.node)), by.free_slope);
   }
@@ -118,6 +123,7 @@ void Held<D>::project(double* a) const {
     position<D>(a, held.node) = freed<D>(by, position<D>(a, held.node), by.free_position);
     slope<D>(a, held.node) = freed<D>(by, slope<D>(a, held.node), by.free_slope);
     if (held.behind >= 0) behind_kink(held, a) = freed<D>(by, behind_kink(held, a), by.free_slope);
+    if (held.holds_angle()) a[held.angle] = 0;
   }
 }
 
@@ -134,6 +140,7 @@ void Held<D>::add_offset(double t, const double* q, double* offset) const {
     const Vec<double, D> off = position<D>(q, held.node) - held.anchor.template head<D>() - held.driven.value;
     position<D>(offset, held.node) = freed<D>(by, off, 1 - by.free_position);
     if (!held.turns()) continue;
+    if (held.holds_angle()) offset[held.angle] = q[held.angle] - held.driven.angle.value;
     slope<D>(offset, held.node) = DrivenPoint<D>::held(by, slope<D>(q, held.node) - held.slope_now());
   }
 }
@@ -148,6 +155,7 @@ double Held<D>::power(const double* lacking, const double* rate) const {
       sum += (force.array() * velocity.array() * (1 - free)).sum();
     };
     add(position<D>(lacking, held.node), position<D>(rate, held.node), held.support.free_position);
+    if (held.turns() && held.holds_angle()) sum += lacking[held.angle] * rate[held.angle];
     if (held.turns()) add(slope<D>(lacking, held.node), slope<D>(rate, held.node), held.support.free_slope);
   }
   return sum;
@@ -166,6 +174,7 @@ Eigen::MatrixXd Held<D>::directions(Eigen::Index coordinates) const {
     hold(node, held.support, held.support.free_position);
     hold(node + D, held.support, held.support.free_slope);
     if (held.behind >= 0) hold(held.behind, held.support, held.support.free_slope);
+    if (held.holds_angle()) free[held.angle] = 0;
   }
   Eigen::Index kept = 0;
   for (Eigen::Index k = 0; k < coordinates; ++k) {

@@ -17,12 +17,14 @@ struct HeldNode {
   int end = -1;                                                              ///< of the beam, 0 or 1, where it is there
   int joint = -1;                                                            ///< which of those on the beam
   Eigen::Index behind = -1;                                                  ///< where the slope behind a kink stands
+  Eigen::Index angle = -1;                                                   ///< where the node's angle stands
   const Support<D>* built = nullptr;                                         ///< as it stood at t = 0
   const SupportMotion<D>* motion = nullptr;                                  ///< where it moves
   Eigen::Matrix<double, node_size<D>, 1> anchor = decltype(anchor)::Zero();  ///< position and slope there, at t = 0
   Support<D> support = *built;
   DrivenPoint<D> driven = {};
 
+  bool holds_angle() const { return angle >= 0 && !support.free_angle; }
   bool turns() const { return motion != nullptr && motion->turns(); }
   /// Where it holds what it holds of the position and of the slope.
   Vec<double, D> position_now() const { return anchor.template head<D>() + driven.value; }
@@ -34,8 +36,10 @@ struct HeldNode {
 template <int D>
 class Held {
  public:
-  /// After each change of the mesh; `index` tells which of the model's joints those on the beam are.
-  void adopt(const BeamModel<D>& model, int last, std::span<const JointPlace> joints, const std::vector<int>& index);
+  /// After each change of the mesh; `index` tells which of the model's joints those on the beam are, `angles` where
+  /// those of the nodes stand, negative where they have none.
+  void adopt(const BeamModel<D>& model, int last, std::span<const JointPlace> joints, const std::vector<int>& index,
+             Eigen::Index angles);
   /// What they hold is where it is in q, a beam at t = 0.
   void anchor(const double* q);
 

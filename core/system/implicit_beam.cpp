@@ -172,6 +172,9 @@ double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eig
   if (system_.model().spin) {
     throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
   }
+  if (system_.frames() != nullptr) {
+    throw ModelError("integrator", "\"energy-momentum\"", "it knows no frames in space: take any other integrator");
+  }
   if (driven() || system_.moving_mesh() != nullptr || system_.model().loads.present() ||
       system_.model().drag.present()) {
     throw ModelError(

@@ -74,7 +74,7 @@ class StaticSearch {
   }
   double holding_force(const Eigen::VectorXd& q, double factor) const { return holding_forces(q, factor)[slider]; }
 
-  /// Of positions over the beam's length, and of slopes: the largest.
+  /// Of positions over the beam's length, of slopes and of angles: the largest.
   double size(const Eigen::VectorXd& change) const {
     double largest = 0;
     for (int k = 0; k <= system.mesh().last(); ++k) {
@@ -83,6 +83,9 @@ class StaticSearch {
     for (const JointPlace& place : system.places()) {
       largest = std::max(largest, std::abs(change[place.mark]) / length);
       if (place.behind >= 0) largest = std::max(largest, change.template segment<D>(place.behind).norm());
+    }
+    for (Eigen::Index k = 0; k < system.layout().turning; ++k) {
+      largest = std::max(largest, std::abs(change[system.angles() + k]));
     }
     return std::isfinite(change.sum()) ? largest : std::numeric_limits<double>::infinity();
   }

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "core/element/shape_functions.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -231,7 +232,7 @@ TEST(FrameElement, KnowsNothingOfItsReferences) {
     const auto built = oracle.nodes(q);
     Random random(4);
     const auto seen_from = [&](const FrameNode& node, const TriadReference& other) {
-      const Vec<double, 3> t = node.s.normalized(), d = node.direction(), from = other.direction(node.s, 0);
+      const Vec<double, 3> t = node.s.normalized(), d = node.direction, from = other.direction(node.s, 0);
       return std::atan2(t.dot(from.cross(d)), from.dot(d));
     };
     std::array<TriadReference, 2> others;
@@ -279,10 +280,11 @@ TEST(TriadReference, SpinIsWhatASlopeTurnsItBy) {
         smallest_rotation<Dual<double>>(from.t.cast<Dual<double>>(), t, from.d.cast<Dual<double>>());
     const Vec<double, 3> now = value_of(d), turning = rate_of(d);
     EXPECT_LE((now - from.direction(s, 0)).norm(), 1e-14);
-    EXPECT_NEAR(from.spin_by_slope(s).dot(rate), value_of(t).cross(now).dot(turning), 1e-13);
-    const Eigen::Matrix3d by = from.spin_by_slope_gradient(s);
+    EXPECT_NEAR(from.spin_by_slope<double>(s).dot(rate), value_of(t).cross(now).dot(turning), 1e-13);
+    const Eigen::Matrix3d by = from.spin_by_slope_gradient<double>(s);
     const double h = 1e-6;
-    const Vec<double, 3> difference = (from.spin_by_slope(s + h * rate) - from.spin_by_slope(s - h * rate)) / (2 * h);
+    const Vec<double, 3> difference =
+        (from.spin_by_slope<double>(s + h * rate) - from.spin_by_slope<double>(s - h * rate)) / (2 * h);
     EXPECT_LE((by * rate - difference).norm(), 1e-8 * by.norm());
     const Vec<double, 3> curl(by(2, 1) - by(1, 2), by(0, 2) - by(2, 0), by(1, 0) - by(0, 1));
     EXPECT_LE((curl + spin_curl(s)).norm(), 1e-12 * curl.norm());
