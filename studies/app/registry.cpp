@@ -25,6 +25,7 @@ Study rational_study();
 Study rotating_load_study();
 Study semicircle_study();
 Study slender_study();
+Study space_study();
 Study suspended_beam_study();
 Study thresholds_study();
 Study torsion_study();
@@ -38,8 +39,8 @@ const std::vector<Study>& all_studies() {
         equilibria_study(),    exact_arc_study(),  exact_solutions_study(), falling_beam_study(),
         hard_cases_study(),    joints_study(),     judge_study(),           manufactured_study(),
         moving_string_study(), quadrature_study(), rational_study(),        rotating_load_study(),
-        semicircle_study(),    slender_study(),    suspended_beam_study(),  thresholds_study(),
-        torsion_study(),       weights_study(),    work_precision_study(),
+        semicircle_study(),    slender_study(),    space_study(),           suspended_beam_study(),
+        thresholds_study(),    torsion_study(),    weights_study(),         work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;

@@ -1,0 +1,225 @@
+// Beams in space whose sections have frames: an arc across its plane, a bend that goes far, buckling, frequencies, and
+// a free beam that tumbles.
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/elementary.hpp"
+#include "scene/options.hpp"
+#include "studies/harness/observed_order.hpp"
+#include "studies/harness/scene_json.hpp"
+
+namespace vlbeam {
+namespace space {
+namespace {
+
+using std::numbers::pi;
+
+struct Case {
+  std::string problem;
+  double torsion = 0;  ///< GIp/EI, of the arc
+  int elements = 0;
+  Scene scene;
+};
+
+/// Of the equilibrium of a scene under its loads and turned ends times a factor.
+bool is_stable(Scene scene, double factor) {
+  for (LoadSpec& load : scene.loads) load.magnitude.value *= factor;
+  if (scene.end.motion) scene.end.motion->angle->value *= factor;
+  const RunResult run = simulate(scene, StudyContext::until_interrupted());
+  return run.status == RunStatus::completed && run.samples.back().equilibrium->negative_pivots == 0;
+}
+
+double critical_factor(const Scene& scene, double low, double high) {
+  constexpr int halvings = 24;
+  if (!is_stable(scene, low) || is_stable(scene, high)) return std::nan("");
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    (is_stable(scene, middle) ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+std::vector<double> numbers_of(const Point& point) { return {point.begin(), point.end()}; }
+
+class Report {
+ public:
+  explicit Report(const StudyContext& context) : context_(context) {}
+
+  StudyReport operator()() {
+    quarter_arc();
+    bend();
+    buckling();
+    modes();
+    tumbling();
+    report_.tables.push_back(std::move(arcs_));
+    report_.tables.push_back(std::move(buckled_));
+    report_.tables.push_back(std::move(steps_));
+    report_.figures = {{.name = "errors",
+                        .caption =
+                            "A quarter arc across its plane: error of its end against mesh and torsional stiffness; "
+                            "critical loads; a free beam that tumbles",
+                        .script = "errors.gp",
+                        .variables = {{"folder", context_.folder.string()}}}};
+    return std::move(report_);
+  }
+
+ private:
+  std::vector<int> meshes(const char* problem) const {
+    return context_.config.at("elements").at(problem).get<std::vector<int>>();
+  }
+  Scene scene_of(const char* problem, int elements) const {
+    Scene scene = scene_from_json(context_.config.at("scenes").at(problem));
+    for (LoadSpec& load : scene.loads) load.node = load.node == 0 ? 0 : elements;
+    scene.beam.elements = elements;
+    return scene;
+  }
+  void keep(const Json& options, const Json& results) {
+    report_.cases.push_back({.options = options, .results = results});
+  }
+
+  /// Bending and torsion of a curved beam (Castigliano): P R^3 (pi/4/EI + (3 pi/4 - 2)/GIp).
+  void quarter_arc() {
+    std::vector<Case> cases;
+    const auto torsions = context_.config.at("torsion").get<std::vector<double>>();
+    for (const double torsion : torsions) {
+      for (const int n : meshes("quarter_arc")) {
+        Case& item = cases.emplace_back(Case{"quarter_arc", torsion, n, scene_of("quarter_arc", n)});
+        item.scene.beam.section.GIp = torsion * item.scene.beam.section.EI;
+        item.scene.loads.front().magnitude.value *= std::min(1.0, torsion);  // small, however soft it is
+      }
+    }
+    const auto runs =
+        context_.sweep(cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); });
+    std::vector<double> levels, errors;
+    double worst = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const Case& item = cases[i];
+      const Section& section = item.scene.beam.section;
+      const double exact =
+          item.scene.loads.front().magnitude.value * (pi / 4 / section.EI + (3 * pi / 4 - 2) / section.GIp);
+      const double error = std::abs(runs[i]->samples.back().end[2] / exact - 1);
+      const std::string name = "quarter_arc_" + number_text(item.torsion);
+      arcs_.rows.push_back({item.torsion, item.elements, error});
+      report_.measured[name + "_n" + std::to_string(item.elements)] = error;
+      keep({{"problem", item.problem}, {"torsion", item.torsion}, {"elements", item.elements}}, {{"error", error}});
+      if (item.elements == 8) worst = std::max(worst, error);
+      levels.push_back(item.elements);
+      errors.push_back(error);
+      if (item.elements != meshes("quarter_arc").back()) continue;
+      report_.fits.push_back(
+          fit_order(name, levels, errors, {.floor = 1e-8, .rule = level_rule_of(context_.config, name)}));
+      levels.clear();
+      errors.clear();
+    }
+    report_.measured["quarter_arc_worst_n8"] = worst;
+  }
+
+  /// Bathe & Bolourchi (1979). Published elements shear; the known end is of an independent static code without shear.
+  void bend() {
+    const auto known = context_.config.at("bend_end").get<std::vector<double>>();
+    std::vector<double> finest;
+    for (const int n : meshes("bend")) {
+      const RunResult run = StudyContext::simulate_to_the_end(scene_of("bend", n));
+      const std::vector<double> end = numbers_of(run.samples.back().end);
+      double most = 0;
+      for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(end[c] - known[c]));
+      report_.measured["bend_n" + std::to_string(n)] = most;
+      report_.measured["bend_change_n" + std::to_string(n)] = finest.empty() ? 0 : distance(end, finest);
+      keep({{"problem", "bend"}, {"elements", n}}, {{"end", end}, {"off", most}});
+      finest = end;
+    }
+  }
+
+  void buckling() {
+    // M L/EI of a shaft between clamps (Greenhill 1883); P L^2/sqrt(EI_z GIp) of a narrow strip (Michell, Prandtl 1899)
+    for (const auto& [problem, known] : {std::pair{"greenhill", 8.986818916}, {"strip", 4.0126}}) {
+      for (const int n : meshes(problem)) {
+        const double critical = critical_factor(scene_of(problem, n), 0.6 * known, 1.6 * known);
+        const double off = std::abs(critical / known - 1);
+        report_.measured[std::string(problem) + "_n" + std::to_string(n)] = off;
+        buckled_.rows.push_back({problem, n, critical, off});
+        keep({{"problem", problem}, {"elements", n}}, {{"critical", critical}});
+      }
+    }
+  }
+
+  /// A straight cantilever of length 1 with two bending stiffnesses.
+  void modes() {
+    const double first = 3.5160152685;  // of cos x cosh x = -1, squared
+    for (const int n : meshes("modes")) {
+      const Scene scene = scene_of("modes", n);
+      const Section& s = scene.beam.section;
+      const RunResult run = StudyContext::simulate_to_the_end(scene);
+      std::vector<double> exact{first / (2 * pi) * std::sqrt(*s.EI_y / s.rhoA),
+                                first / (2 * pi) * std::sqrt(*s.EI_z / s.rhoA), std::sqrt(s.GIp / s.rhoIp) / 4};
+      std::ranges::sort(exact);
+      double most = 0;
+      for (std::size_t i = 0; i < exact.size(); ++i) most = std::max(most, std::abs(run.frequencies[i] / exact[i] - 1));
+      report_.measured["modes_n" + std::to_string(n)] = most;
+      keep({{"problem", "modes"}, {"elements", n}}, {{"frequencies", run.frequencies}, {"off", most}});
+    }
+  }
+
+  void tumbling() {
+    const Scene free = scene_of("tumbling", 4), driven = scene_of("driven", 4);
+    const RunResult fine = StudyContext::simulate_to_the_end(free);
+    const Sample &first = fine.samples.front(), &last = fine.samples.back();
+    const std::vector<double> none(3, 0);
+    const auto drift = [&](const auto& before, const auto& after) {
+      const std::vector<double> a(before.begin(), before.end()), b(after.begin(), after.end());
+      return distance(a, b) / distance(a, none);
+    };
+    report_.measured["tumbling_momentum"] = drift(first.momentum, last.momentum);
+    report_.measured["tumbling_angular_momentum"] = drift(first.angular_momentum, last.angular_momentum);
+    report_.measured["tumbling_energy"] = fine.max_energy_drift / first.energy.total();
+    const RunResult reference = StudyContext::simulate_to_the_end(driven);
+    report_.measured["driven_energy"] = reference.max_energy_drift / reference.max_kinetic;
+    keep({{"problem", "tumbling"}, {"integrator", to_string(free.integrator.type)}}, {{"steps", fine.solver.steps}});
+    std::vector<double> levels, errors;
+    for (const double step : context_.config.at("steps").get<std::vector<double>>()) {
+      Scene scene = driven;
+      scene.integrator.type = IntegratorType::generalized_alpha;
+      scene.integrator.step = step;
+      const RunResult run = StudyContext::simulate_to_the_end(scene);
+      const double error = distance(numbers_of(run.samples.back().end), numbers_of(reference.samples.back().end));
+      levels.push_back(1 / step);
+      errors.push_back(error);
+      steps_.rows.push_back({step, error});
+      keep({{"problem", "driven"}, {"step", step}}, {{"error", error}});
+    }
+    report_.fits.push_back(fit_order("generalized_alpha", levels, errors));
+  }
+
+  const StudyContext& context_;
+  Table arcs_{.name = "arcs",
+              .caption = "Quarter arc across its plane: GIp/EI, elements, relative error of its end",
+              .columns = {"torsion", "elements", "error"}};
+  Table buckled_{.name = "buckled",
+                 .caption = "Critical torque M L/EI between clamps, critical force P L^2/sqrt(EI_z GIp) of a strip",
+                 .columns = {"problem", "elements", "critical", "off"}};
+  Table steps_{.name = "steps",
+               .caption = "A free arc that a force and a torque drive: error of its end [m] against the step [s]",
+               .columns = {"step", "error"}};
+  StudyReport report_;
+};
+
+StudyReport run(const StudyContext& context) { return Report(context)(); }
+
+}  // namespace
+}  // namespace space
+
+Study space_study();
+
+Study space_study() {
+  return {.name = "space", .title = "Beams in space bend about two axes and twist", .run = space::run};
+}
+
+}  // namespace vlbeam
