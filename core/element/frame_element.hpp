@@ -152,7 +152,6 @@ template <class Real>
 Real FrameElement<Real>::inner() const {
   constexpr int most = 30;
   Real angle(0);
-  double last = HUGE_VAL;
   for (int i = 0; i < most; ++i) {
     Real pull(0), slope(0), stiff(0);
     for (std::size_t g = 0; g < 2; ++g) {
@@ -170,9 +169,7 @@ Real FrameElement<Real>::inner() const {
     }
     const Real step = pull / (slope + stiff > Real(0) ? Real(slope + stiff) : stiff);
     angle -= step;
-    const double size = std::abs(value_of(step));
-    if (size <= 1e-17 || (size < 1e-9 && size > last / 2)) break;  // rounding
-    last = size;
+    if (std::abs(value_of(step)) < 1e-9) break;  // the next one would be below rounding
   }
   return angle;
 }

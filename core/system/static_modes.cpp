@@ -103,7 +103,10 @@ std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium
   Eigen::VectorXd u(system.coordinates() + at.multipliers.size());
   u << at.y.head(system.coordinates()), at.multipliers;
   const Modes modes = modes_at<D>(equations, u, at.factor);
-  if (std::ranges::any_of(system.model().loads.points, [](const auto& load) { return bool{load.follower}; })) {
+  const bool follow =
+      std::ranges::any_of(system.model().loads.points, [](const auto& load) { return bool{load.follower}; });
+  const auto& frames = system.model().frames;
+  if (follow || (frames && frames->torques.present())) {
     return frequencies_without_potential(modes, count, at.factor);
   }
   const Eigen::VectorXd squares = generalized_eigenvalues(modes.stiffness, modes.mass);

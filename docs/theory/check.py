@@ -9,7 +9,7 @@ r_v and the y are differences of the curve itself; forces are Lagrange's equatio
 import random
 import sys
 
-from mpmath import binomial, cos, cot, exp, legendre, mp, mpf, nstr, pi, polyroots, sin, sqrt, tanh, taylor
+from mpmath import atan2, binomial, cos, cot, exp, legendre, mp, mpf, nstr, pi, polyroots, sin, sqrt, tanh, taylor
 
 mp.dps = 60
 random.seed(3)
@@ -369,8 +369,98 @@ def check_the_rest():
     say("(12.9)  friction at a kink", abs(ahead - tension - contact * t / sqrt(t * t + k * (1 - t * t))), 1e-40)
 
 
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def direction(a):
+    return [x / sqrt(dot(a, a)) for x in a]
+
+
+def carried(a, b, v):
+    """(16.1)."""
+    k = dot(b, v) / (1 + dot(a, b))
+    return [x - k * (y + z) for x, y, z in zip(v, a, b)]
+
+
+def turned(t, angle, v):
+    return plus([cos(angle) * x for x in v], cross(t, v), sin(angle))
+
+
+def across(t, v):
+    return direction(plus(v, t, -dot(t, v)))
+
+
+def check_frames():
+    vector = lambda: [number() for _ in range(3)]  # noqa: E731
+    a, b = direction(vector()), direction(vector())
+    v = across(a, vector())
+    axis = cross(a, b)
+    by_rodrigues = plus(plus([dot(a, b) * x for x in v], cross(axis, v)), axis, dot(axis, v) / (1 + dot(a, b)))
+    say("(16.1)  smallest rotation", largest(carried(a, b, v), by_rodrigues), 1e-50)
+
+    t0 = direction(vector())
+    d0, s0, s1, s2, phi = across(t0, vector()), plus(t0, vector(), mpf("0.4")), vector(), vector(), [number() for _ in range(3)]
+    slope = lambda t: [x + t * y + t * t * z for x, y, z in zip(s0, s1, s2)]  # noqa: E731
+    angle = lambda t: phi[0] + t * phi[1] + t * t * phi[2]  # noqa: E731
+
+    def potential(s):
+        size = sqrt(dot(s, s))
+        return [-x / (size * (size + dot(t0, s))) for x in cross(t0, s)]
+
+    def section(s, at):
+        t = direction(s)
+        return turned(t, at, carried(t0, t, d0))
+
+    d, rate = section(s0, phi[0]), difference(lambda h: section(slope(h), angle(h)))
+    say("(16.2)  spin about the tangent", abs(dot(direction(s0), cross(d, rate)) - phi[1] - dot(potential(s0), s1)), 1e-25)
+    by = [difference(lambda h: potential(plus(s0, unit(k, 3), h))) for k in range(3)]
+    curl = [by[1][2] - by[2][1], by[2][0] - by[0][2], by[0][1] - by[1][0]]
+    monopole = lambda s: [x / dot(s, s) ** mpf("1.5") for x in s]  # noqa: E731
+    say("(16.3)  its curl", largest(curl, [-x for x in monopole(s0)]), 1e-25)
+
+    def momentum(s, v, w):
+        return w + dot(potential(s), v)
+
+    v0 = lambda t: plus(s1, [2 * t * x for x in s2])  # noqa: E731
+    w0 = lambda t: phi[1] + 2 * t * phi[2]  # noqa: E731
+    p = lambda t: momentum(slope(t), v0(t), w0(t))  # noqa: E731
+    by_lagrange = difference(lambda h: [p(h) * x for x in potential(slope(h))])
+    by_slope = [difference(lambda h: momentum(plus(s0, unit(k, 3), h), s1, phi[1]) ** 2 / 2) for k in range(3)]
+    ours = plus([difference(p) * x for x in potential(s0)], cross(s1, monopole(s0)), p(mpf(0)))
+    say("(16.8)  inertia about the tangent", largest(plus(by_lagrange, by_slope, -1), ours), 1e-25)
+
+    l, beta, ends = mpf("0.7"), mpf("0.2"), []
+    q = [vector(), plus(t0, vector(), mpf("0.3")), None, plus(t0, vector(), mpf("0.3"))]
+    q[2] = plus(q[0], plus(t0, vector(), mpf("0.2")), l)
+
+    def axis_at(u, q):
+        v = 1 - u
+        b = v**3 + 3 * v * v * u, l * v * v * u, u**3 + 3 * u * u * v, -l * u * u * v
+        return [dot(b, [part[c] for part in q]) for c in range(3)]
+
+    slope_at = lambda u, q: [x / l for x in difference(lambda h: axis_at(u + h, q))]  # noqa: E731
+    for s in (q[1], q[3]):
+        ends.append(across(direction(s), vector()))
+
+    def frame(u, q, ends):
+        m, t = direction(slope_at(mpf("0.5"), q)), direction(slope_at(u, q))
+        at_a, at_b = (carried(direction(s), m, d) for s, d in zip((q[1], q[3]), ends))
+        twist = atan2(dot(m, cross(at_a, at_b)), dot(at_a, at_b))
+        return t, carried(m, t, turned(m, u * twist + 4 * u * (1 - u) * beta, at_a)), twist, m
+
+    u, h = mpf("0.3"), mpf(10) ** -12
+    t, f, twist, m = frame(u, q, ends)
+    r_x, r_xx = slope_at(u, q), [x / l for x in difference(lambda d: slope_at(u + d, q), h)]
+    k = [x / sqrt(dot(r_x, r_x)) ** 3 for x in cross(r_x, r_xx)]
+    torsion = (twist + 4 * (1 - 2 * u) * beta) / (l * sqrt(dot(r_x, r_x))) - dot(m, k) / (1 + dot(m, t))
+    by_frame = dot(cross(t, f), difference(lambda d: frame(u + d, q, ends)[1], h)) / (l * sqrt(dot(r_x, r_x)))
+    say("(16.5)  torsion is how the frame turns", abs(torsion - by_frame), 1e-15)
+
+
 if __name__ == "__main__":
     check_an_element()
     check_a_joint()
     check_the_rest()
+    check_frames()
     sys.exit(f"too far off: {', '.join(failed)}" if failed else 0)

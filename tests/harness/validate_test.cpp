@@ -166,7 +166,7 @@ const Rule rules[] = {
        s.beam.curve.type = CurveType::arc;
        s.beam.out_of_plane = OutOfPlane::none;
      }},
-    {"/beam/out_of_plane",
+    {"/sliding_mass",  // with frames, which it has by default, nothing slides
      [](Scene& s) {
        s.dimension = 3;
        s.beam.curve.type = CurveType::arc;

@@ -132,6 +132,35 @@ TEST(Frames, TangentIsTheDerivativeOfTheResidual) {
   }
 }
 
+TEST(Frames, TangentIsSolvedWithItsAngles) {
+  const Chain chain(6);
+  for (const bool clamped : {false, true}) {
+    BeamMatrix<3> tangent;
+    tangent.start(chain_nodes, {});
+    tangent.add_angles();
+    chain.frames->add_tangent(chain.motion(), {1, 20, 400}, tangent);
+    for (auto& block : tangent.diagonal) block.diagonal().array() += 1e3;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    tangent.expand(dense);
+    Column right = Random(3).vector<unknowns>();
+    if (clamped) {  // holds position and slope of the middle node, and its angle
+      tangent.hold(1, -1, Support<3>::clamp());
+      std::vector<Eigen::Index> held{6 * chain_nodes + 1};
+      for (Eigen::Index i = 6; i < 12; ++i) held.push_back(i);
+      for (const Eigen::Index i : held) {
+        dense.row(i).setZero();
+        dense.col(i).setZero();
+        dense(i, i) = 1;
+        right[i] = 0;
+      }
+    }
+    ASSERT_TRUE(tangent.factor());
+    Column solution = right;
+    tangent.solve(solution.data());
+    EXPECT_LE((dense * solution - right).norm(), 1e-11 * dense.norm() * solution.norm());
+  }
+}
+
 TEST(Frames, NothingChangesAsWhatAnglesAreCountedFromFollows) {
   Chain chain(5);
   const auto before = chain.frames->observe(chain.q.data(), chain.rate.data());
