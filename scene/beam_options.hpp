@@ -66,13 +66,13 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
            {.when = rectangle, .required = true});
     number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
            {.when = stiffness, .required = true});
-    number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
-           {.when = stiffness, .required = true, .instead = "EI_y"});
     number("/beam/section/EI_y", "N m^2", Range::positive(),
            "in place of EI, together with EI_z: resists bending about the section's axis y", beam.section.EI_y,
            {.when = stiffness});
     number("/beam/section/EI_z", "N m^2", Range::positive(), "resists bending about the section's axis z",
            beam.section.EI_z, {.when = stiffness});
+    number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
+           {.when = stiffness, .required = !beam.section.EI_y, .instead = "EI_y"});
     number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
            {.when = stiffness, .required = true});
     number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin and by frames",

@@ -1,5 +1,7 @@
 #include "core/element/frame_element.hpp"
 
+#include <tuple>
+
 #include "core/element/active.hpp"
 #include "core/element/fixed_element.hpp"
 #include "core/element/quadrature.hpp"
@@ -30,6 +32,12 @@ Vec<Number, 3> seeded_direction(const Vec<double, 3>& d, const Vec<double, 3>& s
     result[c].derivatives()[spin] = turned[c];
   }
   return result;
+}
+
+/// Flattened: left in calls, numbers with derivatives would go through memory.
+[[gnu::flatten]] FrameForce<Number> active_force(const FrameTable& table, const FrameSection& section,
+                                                 const FrameEnds<Number>& ends, double inner) {
+  return FrameElement<Number>(table, section, ends).force(Number(inner, own));
 }
 
 }  // namespace
@@ -68,7 +76,7 @@ FrameMatrix frame_tangent(const FrameTable& table, const FrameSection& section, 
                                  seeded_direction(ends.d_a, ends.s_a, 3, 9),
                                  seeded_direction(ends.d_b, ends.s_b, 6, 10),
                                  turned};
-  const FrameForce<Number> f = FrameElement<Number>(table, section, active).force(Number(inner, own));
+  const FrameForce<Number> f = active_force(table, section, active, inner);
   OwnMatrix k;
   OwnVector by_inner;
   const auto row = [&](int i, const Number& of) {
@@ -87,17 +95,20 @@ FrameMatrix frame_tangent(const FrameTable& table, const FrameSection& section, 
   k -= by_inner * inner_by.transpose() / f.inner.derivatives()[own];
 
   // from spins to angles: dspin = dphi + A.ds
-  Eigen::Matrix<double, own, 14> map = Eigen::Matrix<double, own, 14>::Zero();
-  map.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
-  map.block<3, 3>(0, 7).setIdentity();
-  map.block<3, 3>(3, 3).setIdentity();
-  map.block<3, 3>(6, 10).setIdentity();
-  map.block<1, 3>(9, 3) = a.spin_by_slope.transpose();
-  map.block<1, 3>(10, 10) = b.spin_by_slope.transpose();
-  map(9, 6) = map(10, 13) = 1;
-  FrameMatrix result = map.transpose() * k * map;
-  result.block<3, 3>(3, 3) += f.spin_a.value() * a.reference->spin_by_slope_gradient<double>(a.s);
-  result.block<3, 3>(10, 10) += f.spin_b.value() * b.reference->spin_by_slope_gradient<double>(b.s);
+  for (const auto& [node, slope, spin] : {std::tuple(&a, 3, 9), {&b, 6, 10}}) {
+    k.middleRows<3>(slope) += node->spin_by_slope * k.row(spin);
+    k.middleCols<3>(slope) += k.col(spin) * node->spin_by_slope.transpose();
+    k.block<3, 3>(slope, slope) +=
+        (spin == 9 ? f.spin_a : f.spin_b).value() * node->reference->spin_by_slope_gradient<double>(node->s);
+  }
+  // from the chord to the places, and in the order of nodes
+  constexpr std::array<int, own> at{7, 8, 9, 3, 4, 5, 10, 11, 12, 6, 13};
+  FrameMatrix result;
+  for (int j = 0; j < own; ++j) {
+    for (int i = 0; i < own; ++i) result(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]) = k(i, j);
+  }
+  result.topRows<3>() = -result.middleRows<3>(7);
+  result.leftCols<3>() = -result.middleCols<3>(7);
   return result;
 }
 
