@@ -82,6 +82,9 @@ foreach(folder examples python/examples docs)
           FILES_MATCHING PATTERN "*.cpp" PATTERN "*.py")
 endforeach()
 
+# What is installed is built by name (make build, make package): cpack does not build all tests before.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
 # make package: a Debian package, build/vlbeam_VERSION_ARCHITECTURE.deb
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The vlbeam developers")
