@@ -24,9 +24,9 @@ auto members(Is<FlowSample> auto& of) {
   return std::tie(mass, end_angles, spin_momentum, loads, supports, torques, ledger);
 }
 auto members(Is<Sample> auto& of) {
-  auto& [t, joint_position, mass_position, end, beam_length, beam_length_rate, energy, discrete_total, momentum,
-         angular_momentum, reactions, strains, joint, joints, flow, equilibrium] = of;
-  return std::tie(t, joint_position, mass_position, end, beam_length, beam_length_rate, energy, discrete_total,
+  auto& [t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,
+         momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium] = of;
+  return std::tie(t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,
                   momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium);
 }
 auto members(Is<Configuration::Rest> auto& of) {
