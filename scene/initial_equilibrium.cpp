@@ -56,7 +56,8 @@ EquilibriumOptions equilibrium_options(const Scene& scene) {
 
 template <int D>
 std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, const std::function<bool()>& goes_on) {
-  BeamSystem<D> system(at_start(build_model<D>(scene)), build_shape<D>(scene));
+  const ChainState<D> shape = build_shape<D>(scene);
+  BeamSystem<D> system(at_start(build_model<D>(scene)), shape);
   std::optional<Equilibrium> last;
   SolverCounters counters;
   const auto on_point = [&](const Equilibrium& at) {
@@ -67,7 +68,9 @@ std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, con
   };
   trace_equilibria<D>(system, equilibrium_options(scene), on_point, counters);
   if (!last) return std::nullopt;
-  return InitialEquilibrium<D>{system.chain(last->y, 0), static_sample_of(*last)};
+  InitialEquilibrium<D> found{system.chain(last->y, 0), static_sample_of(*last)};
+  found.chain.rest_sections = shape.rest_sections;
+  return found;
 }
 
 template std::optional<InitialEquilibrium<2>> initial_equilibrium(const Scene&, const std::function<bool()>&);

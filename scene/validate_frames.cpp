@@ -94,8 +94,13 @@ void check_others(const Scene& scene) {
   const std::string rest = "nodes do not move along the beam: leave it out, or take \"scalar\"";
   none(sliding_joint(scene) != nullptr, joint_key(scene), rest);
   none(scene.flow.has_value(), "/flow", rest);
-  none(scene.start.feed.has_value(), "/supports/at=start/feed", rest);
-  none(scene.end.feed.has_value(), "/supports/at=end/feed", rest);
+  const auto pays_out = [&](const SupportSpec& support, const std::string& at) {
+    none(support.feed.has_value(), at + "/feed", rest);
+    none(support.held_tension.has_value(), at + "/held_tension", rest);
+    none(support.drum.has_value(), at + "/drum", rest);
+  };
+  pays_out(scene.start, "/supports/at=start");
+  pays_out(scene.end, "/supports/at=end");
   none(scene.spin.has_value(), "/spin", "sections turn without it: leave it out, or take \"scalar\"");
   if (scene.beam.rotary_inertia != BendingInertia::none) {
     refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), law + "it must be \"none\"");

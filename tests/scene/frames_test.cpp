@@ -150,6 +150,21 @@ TEST(SpaceLaw, RefusesByName) {
   validate(arc_in_space());
 }
 
+TEST(SpaceLaw, AMotionStartsFromTheEquilibrium) {
+  Scene scene = arc_in_space();
+  scene.gravity = {0, 0, -0.5};
+  scene.initial_shape = InitialShape::equilibrium;
+  scene.beam.elements = 6;
+  scene.integrator.step = 1e-2;
+  scene.duration = 0.2;
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  const Point &first = result.samples.front().end, &last = result.samples.back().end;
+  EXPECT_LT(first[2], -0.1);  // it hangs, and twists
+  EXPECT_GT(result.samples.front().energy.torsion, 0.01);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(last[c], first[c], 1e-9);
+}
+
 /// A clamp that turns about the beam winds it up.
 TEST(SpaceLaw, AClampTurnsAboutTheTangent) {
   Scene scene = arc_in_space();
