@@ -163,12 +163,12 @@ TEST(FrameElement, ForceIsTheGradientOfTheLeastEnergy) {
 
 TEST(FrameElement, TangentIsTheSecondDerivative) {
   for_each_element([](const Oracle& oracle, const FrameVector& q) {
-    using Second = Dual<Dual<double>>;
+    using Twice = Dual<Dual<double>>;
     const double inner = oracle.inner(q);
     Eigen::Matrix<double, 15, 15> exact;
     for (int i = 0; i < 15; ++i) {
       for (int j = 0; j <= i; ++j) {
-        Eigen::Matrix<Second, 15, 1> at;
+        Eigen::Matrix<Twice, 15, 1> at;
         const auto all = with_inner<double>(q, inner);
         for (int k = 0; k < 15; ++k) {
           at[k] = {Dual<double>(all[k], k == j ? 1 : 0), Dual<double>(k == i ? 1 : 0, 0)};
