@@ -116,4 +116,4 @@ def test_the_stub_has_the_keys_of_the_option_table():
         here = names[kind.__name__]
         assert set(getattr(kind, "_keys", {})) | set(kind._choices) <= here, pointer
     clamp = next(item for item in classes["Supports"].body if getattr(item, "name", "") == "clamp")
-    assert {argument.arg for argument in clamp.args.kwonlyargs} == {"at", "clamp", "motion", "feed"}
+    assert {"at", "clamp", "motion", "feed"} <= {argument.arg for argument in clamp.args.kwonlyargs}

@@ -157,9 +157,15 @@ class Documents(unittest.TestCase):
             scene = library("movable_pulley")
             return scene | {"fluid": {"density": 1, "area": 1e-6}, "ground": {"height": -100, "stiffness": 1e3}}
 
+        def in_space():
+            return {"dimension": 3, "gravity": [0, 0, -9.81], "supports": [{"at": "start", "type": "clamp"}],
+                    "beam": {"curve": {"type": "arc", "center": [0, 0, 0], "radius": 1, "from_degrees": 0, "to_degrees": 90}, "elements": 8, "space_law": "frames",
+                             "section": {"type": "rectangle", "width": 0.01, "height": 0.02, "orientation": [0, 0, 1]},
+                             "material": {"density": 7800, "youngs_modulus": 2e11, "poisson_ratio": 0.3}}}
+
         scenes = {"a sliding mass": falling(), "several masses": library("two_trolleys"), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
                   "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
-                  "loads": library("moving_force"), "ropes": ropes(), "spin": library("torsion")}
+                  "loads": library("moving_force"), "ropes": ropes(), "in space": in_space(), "spin": library("torsion")}
         self.assertEqual(len(scenes), len(rows) - 2)
         for row in rows[2:]:
             name = next(name for name in scenes if row[0].startswith(name))
