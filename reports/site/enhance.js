@@ -1,4 +1,5 @@
-// What the pages can do besides: tables sort by a column, figures open over the page. Without it everything is still there.
+// What the pages can do besides: tables sort by a column, figures open over the page, words are found. Without it everything
+// is still there.
 for (const table of document.querySelectorAll("table.sortable")) {
   const body = table.tBodies[0];
   const given = [...body.rows];
@@ -53,3 +54,46 @@ document.addEventListener("click", (event) => {
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") for (const menu of menus) menu.open = false;
 });
+
+// The search: sections that have all words, those that have them in a heading first. Its index is fetched when it is used.
+const form = document.querySelector(".search");
+const [field, list] = [form.querySelector("input"), form.querySelector(".found")];
+form.hidden = false;
+let asked = false;
+const look = () => {
+  const words = field.value.toLowerCase().match(/[\w-]+/g) ?? [];
+  const found = [];
+  for (const [href, page, section, text] of window.searchIndex ?? []) {
+    const heading = ` ${page} ${section}`.toLowerCase();
+    const rank = words.map((word) => (heading.includes(` ${word}`) ? 2 : ` ${text}`.includes(` ${word}`) ? 1 : 0));
+    if (words.length && rank.every((r) => r > 0)) found.push([rank.reduce((a, b) => a + b), href, page, section]);
+  }
+  found.sort((a, b) => b[0] - a[0]);
+  list.replaceChildren(...found.slice(0, 12).map(([, href, page, section]) => {
+    const item = document.createElement("li");
+    const link = document.createElement("a");
+    link.href = href;
+    link.textContent = section ? `${page}: ${section}` : page;
+    item.append(link);
+    return item;
+  }));
+  if (words.length && window.searchIndex && !found.length) {
+    list.innerHTML = "<li>Nothing is found.</li>";
+  }
+  list.hidden = !words.length || !window.searchIndex;
+};
+field.addEventListener("focus", () => {
+  if (asked) return;
+  asked = true;
+  const script = document.createElement("script");
+  script.src = "site/search.js";
+  script.addEventListener("load", look);
+  document.head.append(script);
+});
+field.addEventListener("input", look);
+form.addEventListener("submit", (event) => {
+  event.preventDefault();
+  list.querySelector("a")?.click();
+});
+document.addEventListener("click", (event) => { if (!form.contains(event.target)) list.hidden = true; });
+document.addEventListener("keydown", (event) => { if (event.key === "Escape") list.hidden = true; });
