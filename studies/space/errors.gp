@@ -19,7 +19,7 @@ unset key
 plot csv("arcs") using "torsion":(column("elements") == 8 ? column("error") : NaN) with linespoints linewidth 1.8 pointtype 7 pointsize 0.6 linecolor rgb "#2171b5"
 set title "(c) a driven free arc, error [m] of its end"
 set xlabel "step [s]"
-set key bottom right samplen 1.5
+set key bottom right notitle samplen 1.5
 plot csv("steps") using "step":"error" with linespoints linewidth 1.8 pointtype 7 pointsize 0.6 linecolor rgb "#2171b5" title "generalized-alpha", \
      30*x**2 with lines dashtype 2 linecolor rgb "#888888" title "order 2"
 unset multiplot
