@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/beam_options.hpp"
+#include "scene/joint_options.hpp"
 #include "scene/option_lines.hpp"
 
 namespace vlbeam {
@@ -18,8 +19,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     whole();
     beam_parts();
     BeamOptions<Visitor, SceneT>{{visitor, scene}}.all();
-    supports();
-    joints();
+    JointOptions<Visitor, SceneT>{{visitor, scene}}.all();
     contact();
     spin();
     flow();
@@ -41,88 +41,6 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
   using Lines::scene, Lines::number, Lines::vector, Lines::choice, Lines::section, Lines::present, Lines::list,
       Lines::time_function, Lines::in_time, Lines::of_analysis, Lines::in_motion, Lines::paper, Lines::example1,
       Lines::analysis, Lines::initial_shape, Lines::visitor;
-
-  template <class Support>
-  void support(const std::string& entry, Support& at) {
-    const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
-                      direction = motion + "/direction", angle = motion + "/angle";
-    choice(type,
-           "how the end is held: clamp, position and slope; pin, position; slide, all of the position but along the "
-           "axis's tangent at t = 0; or free",
-           at.type, {.required = true});
-    choice(clamp, "what a clamp holds: the slope's direction, or the whole slope vector", at.clamp,
-           {.when = only_if(type, at.type, SupportType::clamp)});
-    if (present(motion,
-                "displacement of a clamp or a pin as a function of time, from where it is at t = 0 and from rest, and "
-                "the angle of a clamp",
-                at.motion)) {
-      const bool turns = present(angle,
-                                 "by which a clamp turns from how it stands at t = 0: about its point, in the plane; "
-                                 "about the beam's tangent, "
-                                 "in space with frames",
-                                 at.motion->angle);
-      if (turns) time_function(angle, "rad", *at.motion->angle);
-      vector(direction, "-", "of the displacement; it need not have unit length; needed without an angle",
-             at.motion->direction, {.required = !turns, .instead = "angle"});
-      time_function(motion, "m", at.motion->displacement);
-    }
-    const std::string feed = entry + "/feed";
-    if (present(feed,
-                "length of beam that has come in through this clamp or pin since t = 0, straight and unstrained, as a "
-                "winch pays it out; less than 0 where it draws in",
-                at.feed)) {
-      time_function(feed, "m", *at.feed);
-    }
-    const std::string held_tension = entry + "/held_tension", drum = entry + "/drum";
-    if (present(
-            held_tension,
-            "pull of a winch on the beam, at this clamp or pin, that pays out or draws in what it takes to keep it, "
-            "in place of feed",
-            at.held_tension)) {
-      time_function(held_tension, "N", *at.held_tension);
-    }
-    if (present(drum, "a drum that a motor turns, at this clamp or pin, in place of feed: the length is an unknown",
-                at.drum)) {
-      number(drum + "/radius", "m", Range::positive(), "of the drum", at.drum->radius, {.required = true});
-      number(drum + "/inertia", "kg m^2", Range::non_negative(),
-             "moment of inertia about its axis, with what is wound up", at.drum->inertia, {.required = true});
-      time_function(drum + "/torque", "N m", at.drum->torque);
-    }
-  }
-  template <class Joint>
-  void joint_options(const std::string& at, bool massless, Joint& mass) {
-    const std::string friction = at + "/friction", at_support = at + "/at_support";
-    number(at + "/mass", "kg", massless ? Range::non_negative() : Range::positive(), "mass", mass.mass,
-           {.source = example1, .required = !massless});
-    number(at + "/position", "m", Range::positive(),
-           "material coordinate at t = 0, measured along the beam from its start", mass.position,
-           {.source = example1, .required = true});
-    number(at + "/velocity", "m/s", {}, "rate of the material coordinate at t = 0", mass.velocity);
-    choice(at + "/slopes",
-           "the beam's slopes before and behind the mass: one vector, one direction with two magnitudes, a kink with "
-           "one magnitude, or independent",
-           mass.slopes, {.source = "Ding & Ouyang 2022, Eq. 39-40"});
-    if (present(friction,
-                "Coulomb friction along the beam, mu N tanh(v/velocity); around a kink of a cable by Euler and "
-                "Eytelwein, tensions in the ratio e^(mu angle)",
-                mass.friction)) {
-      number(friction + "/coefficient", "-", Range::non_negative(),
-             "mu, friction over the contact force normal to the beam (of what is held, its reaction)",
-             mass.friction->coefficient, {.required = true});
-      number(friction + "/velocity", "m/s", Range::positive(), "relative velocity below which friction fades",
-             mass.friction->velocity);
-    }
-    number(at + "/separation_distance", "m", Range::positive(),
-           "distance from a free end where the mass leaves; 1e-3 of the beam's length if not given",
-           mass.separation_distance);
-    choice(at_support,
-           "what becomes of the mass at an end that it cannot leave: the run stops there, or it rests until the "
-           "contact force turns, or it rebounds",
-           mass.at_support);
-    number(at + "/restitution", "-", Range::closed(0, 1),
-           "of a rebound: speed along the beam after it over that before", mass.restitution,
-           {.when = only_if(at_support, mass.at_support, AtSupport::rebound)});
-  }
 
   void whole() {
     SceneSchema schema = SceneSchema::v1;
@@ -152,55 +70,6 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     section("/length_control", "how the mesh follows the sliding mass");
     section("/integrator", "integration in time");
     section("/output", "what is kept of the motion");
-  }
-
-  void supports() {
-    support("/supports/at=start", scene.start);
-    support("/supports/at=end", scene.end);
-    section("/supports", "what holds the ends of the beam; one that is not listed is free");
-  }
-
-  void joints() {
-    if (present("/sliding_mass", "a lumped mass that slides along the beam", scene.sliding_mass)) {
-      joint_options("/sliding_mass", false, *scene.sliding_mass);
-    }
-    list("/sliding_joints",
-         "what slides along the beam, in order from its start: masses, and rings and sleeves that are held in space",
-         scene.sliding_joints);
-    for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
-      auto& joint = scene.sliding_joints[i];
-      const std::string at = "/sliding_joints/" + std::to_string(i), held = at + "/support";
-      choice(held,
-             "free, with a mass; pin: a ring, held where the beam is at t = 0; clamp: a sleeve, which holds the beam's "
-             "direction, too",
-             joint.support, {.without = "slide", .standard = "free"});
-      const std::string motion = at + "/motion", direction = motion + "/direction";
-      if (present(motion,
-                  "displacement of a ring or a sleeve as a function of time, from where it is at t = 0 and from rest",
-                  joint.motion)) {
-        vector(direction, "-", "of the displacement; it need not have unit length", joint.motion->direction,
-               {.required = true});
-        time_function(motion, "m", joint.motion->displacement);
-      }
-      const bool guided = present(at + "/x",
-                                  "its way along the beam as a function of time, counted from where it is at t = 0: "
-                                  "what guides it does the work",
-                                  joint.x);
-      if (guided) time_function(at + "/x", "m", *joint.x);
-      number(at + "/pitch", "m", {},
-             "of a nut on a beam that spins: its way along the beam at one turn of the section, backwards at a "
-             "positive angle where the thread is right-handed, > 0; it does not turn itself",
-             joint.pitch);
-      const std::string pulley = at + "/pulley";
-      if (present(pulley, "of a ring that is a wheel, which the beam turns without slip", joint.pulley)) {
-        number(pulley + "/radius", "m", Range::positive(),
-               "of the wheel; the beam's path round it is not modelled: it bends at the ring", joint.pulley->radius,
-               {.required = true});
-        number(pulley + "/inertia", "kg m^2", Range::non_negative(), "moment of inertia of the wheel about its axis",
-               joint.pulley->inertia, {.required = true});
-      }
-      joint_options(at, guided || joint.support != SupportType::free, joint);
-    }
   }
 
   void contact() {

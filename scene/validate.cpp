@@ -18,6 +18,7 @@
 #include "scene/validate_flow.hpp"
 #include "scene/validate_frames.hpp"
 #include "scene/validate_joints.hpp"
+#include "scene/validate_loads.hpp"
 #include "scene/validate_nut.hpp"
 
 namespace vlbeam {
@@ -233,115 +234,6 @@ void check_support_motion(const Scene& scene) {
   }
 }
 
-void check_loads(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    const LoadSpec& load = scene.loads[i];
-    const std::string at = "/loads/" + std::to_string(i);
-    if (load.at == LoadPlace::node && load.node > scene.beam.elements) {
-      refuse(at + "/node", std::to_string(load.node),
-             "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
-    }
-    if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
-      refuse(at + "/at", quoted(load.at), "a follower is at a \"node\" or a \"point\"");
-    }
-    if (load.type == LoadType::moment) {
-      if (scene.dimension == 3) refuse(at + "/type", "\"moment\"", "it turns the tangent in a planar scene only");
-      if (load.at == LoadPlace::beam) {
-        refuse(at + "/at", quoted(load.at), "a moment is at a \"node\" or a \"point\"");
-      }
-    }
-    if (load.type == LoadType::force && load.direction == Point{}) {
-      refuse(at + "/direction", "a vector of zeros", "it must have a direction");
-    }
-    if (load.type == LoadType::torque && !scene.spin && !has_frames(scene)) {
-      refuse("/spin", InvalidInput::missing,
-             at + " is a torque, which turns the section about the axis: it needs this object, or /beam/space_law "
-                  "\"frames\"");
-    }
-    const TimeSpec& size = load.magnitude;
-    if (is_zero(size)) {
-      refuse(at + "/magnitude", "zero at all times", "give its value, rate, acceleration or amplitude");
-    }
-  }
-}
-
-/// Of a beam whose nodes rest, or all of which but one do.
-template <int D>
-void check_resting_parts(const Scene& scene) {
-  const BeamModel<D> model = build_model<D>(scene);
-  check_places<D>(model.loads.points, scene.duration, 1e-9 * standard_length(scene), beam_ends(scene));
-  if (!model.spin) return;
-  check_drives(model.spin->drives, scene.beam.elements);
-  for (const LoadSpec& load : scene.loads) {
-    const auto at_drive = [&load](const DrivenAngle& drive) { return drive.node == load.node; };
-    if (load.type != LoadType::torque || load.at != LoadPlace::node) continue;
-    if (std::ranges::any_of(model.spin->drives, at_drive)) {
-      refuse("/loads", "a torque at node " + std::to_string(load.node), "the angle there is prescribed already");
-    }
-  }
-}
-
-void check_fluid(const Scene& scene) {
-  if (!scene.fluid) return;
-  const FluidSpec& fluid = *scene.fluid;
-  if (fluid.velocity != Point{} && !scene.drag) {
-    refuse("/fluid/velocity", "this key", "without /drag it does nothing: give the coefficients, or leave it out");
-  }
-  if (fluid.velocity != Point{} && flows(scene)) {
-    refuse("/fluid/velocity", "this key", "it goes together with neither /flow nor rotary inertia");
-  }
-  if (fluid.velocity != Point{} && scene.analysis == Analysis::statics) {
-    refuse("/fluid/velocity", "this key", "statics knows no drag: leave it out");
-  }
-  const bool circle = scene.beam.section.type == Section::Type::circle;
-  if (circle && fluid.area) refuse("/fluid/area", "this key", "a circle has its own: leave it out");
-  if (!circle && fluid.density > 0 && !fluid.area) {
-    refuse("/fluid/area", InvalidInput::missing,
-           "with a density and a section of stiffnesses it must be given, > 0 [m^2]");
-  }
-  if (scene.dimension == 2 && fluid.velocity[2] != 0) {
-    refuse("/fluid/velocity/2", number_text(fluid.velocity[2]), "a planar scene has two components");
-  }
-}
-
-void check_ground(const Scene& scene) {
-  if (!scene.ground) return;
-  if (scene.gravity == Point{}) {
-    refuse("/ground", "this key", "gravity says which way is up: /gravity must not be zero");
-  }
-  if (flows(scene)) refuse("/ground", "this key", "it goes together with neither /flow nor rotary inertia");
-  if (scene.integrator.type == IntegratorType::energy_momentum) {
-    refuse("/integrator/type", quoted(scene.integrator.type), "it knows no /ground: take any other");
-  }
-}
-
-void check_point_masses(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
-    if (scene.point_masses[i].node <= scene.beam.elements) continue;
-    refuse("/point_masses/" + std::to_string(i) + "/node", std::to_string(scene.point_masses[i].node),
-           "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
-  }
-  if (scene.point_masses.empty()) return;
-  if (flows(scene)) refuse("/point_masses", "this key", "it goes together with neither /flow nor rotary inertia");
-  // joints with kinks cannot pass them, where they are knots
-  const auto joints = sliding_joints(scene);
-  const auto its_knots = knots(scene);
-  const auto stops = [&](const PointMassSpec& mass) {
-    const bool at_end = mass.node == 0 || mass.node == scene.beam.elements;
-    return at_end || std::ranges::find(its_knots, mass.node, &Knot::node) != its_knots.end();
-  };
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (joints[i].slopes == JointSlopes::continuous) continue;
-    const auto passed = std::ranges::find_if_not(scene.point_masses, stops);
-    if (passed == scene.point_masses.end()) continue;
-    refuse(joint_key(scene, i) + "/slopes", quoted(joints[i].slopes),
-           "a kink that passes over a mass, here that of /point_masses/" +
-               std::to_string(passed - scene.point_masses.begin()) +
-               ", is an impact: take \"continuous\", or give the mass a node where no joint is, all joints a kink, and "
-               "the scene an explicit integrator or \"generalized-alpha\"");
-  }
-}
-
 template <int D>
 void check_initial_velocity(const Scene& scene) {
   if (!scene.initial_velocity) return;
@@ -537,18 +429,16 @@ void check_all(const Scene& scene) {
   validate_joint_choices(scene);
   check_energy_momentum(scene);
   check_support_motion(scene);
-  check_fluid(scene);
-  check_ground(scene);
-  check_point_masses(scene);
+  validate_loads(scene);
   validate_feeds(scene);
   check_output(scene);
-  check_loads(scene);
+  validate_loads(scene);
   scene.dimension == 2 ? check_initial_velocity<2>(scene) : check_initial_velocity<3>(scene);
   check_equilibrium(scene);
   check_start(scene);
   check_statics(scene);
   if (flows(scene) || scene.spin) validate_flow(scene);
-  if (!flows(scene)) scene.dimension == 2 ? check_resting_parts<2>(scene) : check_resting_parts<3>(scene);
+  validate_resting_parts(scene);
 }
 
 }  // namespace

@@ -59,8 +59,8 @@ struct BeamModel {
   Loads<D> loads;
   Drag<D> drag;
   std::optional<SpinModel> spin;  ///< without it there is no angle at all, but of frames
-  /// In space, of a beam whose nodes rest: it bends about two axes, and twists. Without it bending knows the size of the
-  /// curvature alone.
+  /// In space, of a beam whose nodes rest: it bends about two axes, and twists. Without it bending knows the size of
+  /// the curvature alone.
   std::optional<FrameModel> frames = {};
   PointMasses<D> masses;
   std::vector<std::shared_ptr<const Part<D>>> parts = {};  ///< what else acts on the beam

@@ -110,7 +110,8 @@ class Path {
     return std::sqrt(inner(off, off)) <= most;
   }
 
-  /// Positions over the beam's length, slopes and angles, each per node, and the load factor: what makes a length of a path.
+  /// Positions over the beam's length, slopes and angles, each per node, and the load factor: what makes a length of a
+  /// path.
   double inner(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
     double sum = 0;
     const int nodes = system_.mesh().last() + 1;
