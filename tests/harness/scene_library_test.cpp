@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/files.hpp"
 #include "studies/harness/quantity.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -58,12 +57,6 @@ TEST(SceneLibrary, EverySceneHasAnAnswer) {
     EXPECT_NE(std::ranges::find(known, scene.name, &SceneAnswer::scene), known.end()) << scene.name;
     EXPECT_FALSE(scene.title.empty()) << scene.name;
   }
-}
-
-TEST(SceneLibrary, TheReadmeOpensWithOne) {
-  const std::string readme = read_text(source / "README.md");
-  EXPECT_NE(readme.find("```json\n" + library_scene_text(source / "scenes", "falling_beam") + "```"),
-            std::string::npos);
 }
 
 TEST(SceneLibrary, NamesTheNearest) {
