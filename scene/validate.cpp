@@ -429,7 +429,7 @@ void check_all(const Scene& scene) {
   validate_joint_choices(scene);
   check_energy_momentum(scene);
   check_support_motion(scene);
-  validate_loads(scene);
+  validate_surroundings(scene);
   validate_feeds(scene);
   check_output(scene);
   validate_loads(scene);
