@@ -258,7 +258,8 @@ void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& m
   } else {
     push = [pull = time_function(*end.held_tension)](double t) -> Prescribed { return {-pull(t).value, 0, 0}; };
   }
-  model.parts.push_back(std::make_shared<Drum<D>>(at_start, model.section.rhoA, std::move(push)));
+  model.parts.push_back(
+      std::make_shared<Drum<D>>(at_start, model.section.rhoA, std::move(push), model.loads.line_force));
 }
 
 template <int D>
@@ -308,14 +309,6 @@ BeamModel<D> build_model(const Scene& scene) {
   model.at_meeting = {contact.joints, contact.restitution};
   model.joints_rest = joints_may_rest(scene);
   model.contact_distance = contact.distance;
-  for (const bool at_start : {true, false}) {
-    if ((at_start ? scene.start : scene.end).pays_out()) add_winch(scene, at_start, axis.length(), model);
-  }
-  for (const Knot& knot : knots(scene)) {
-    ModelJoint<D>& joint = model.joints.emplace_back();
-    joint.law.slopes = knot.slopes;
-    joint.x = [x = placed.x[static_cast<std::size_t>(knot.node)]](double) -> Prescribed { return {x, 0, 0}; };
-  }
   model.masses.points = build_point_masses(scene, axis.breaks());
   const double of_mass = scene.beam.material.mass_damping * model.section.rhoA;
   const DragSpec drag = scene.drag.value_or(DragSpec{});
@@ -349,6 +342,14 @@ BeamModel<D> build_model(const Scene& scene) {
     spin.torques = std::move(torques);
   }
   model.loads = std::move(loads);
+  for (const bool at_start : {true, false}) {
+    if ((at_start ? scene.start : scene.end).pays_out()) add_winch(scene, at_start, axis.length(), model);
+  }
+  for (const Knot& knot : knots(scene)) {
+    ModelJoint<D>& joint = model.joints.emplace_back();
+    joint.law.slopes = knot.slopes;
+    joint.x = [x = placed.x[static_cast<std::size_t>(knot.node)]](double) -> Prescribed { return {x, 0, 0}; };
+  }
   if (flows(scene)) add_flow<D>(scene, axis.tangent(0).normalized(), model);
   return model;
 }

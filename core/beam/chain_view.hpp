@@ -78,13 +78,14 @@ struct ChainView {
     if (marks != nullptr) {
       return marks->back().rate * position<D>(q, mesh.last()) - marks->front().rate * position<D>(q, 0);
     }
-    for (const JointPlace& joint : joints) {
-      if (joint.node == 0) sum -= rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q);
-      if (joint.node == mesh.last()) {
-        sum += rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q + vector(joint.node - 1, 2));
-      }
-    }
+    for (const JointPlace& joint : joints) sum += inflow_at(joint);
     return sum;
+  }
+  /// What of it a joint at an end lets in; that of others is 0.
+  Vec<double, D> inflow_at(const JointPlace& joint) const {
+    if (joint.node == 0) return -rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q);
+    if (joint.node != mesh.last()) return Vec<double, D>::Zero();
+    return rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q + vector(joint.node - 1, 2));
   }
   /// Index of the element that holds the material point x; of the first or the last one beyond the ends.
   int element_at(double x) const {

@@ -117,10 +117,15 @@ class BeamSystem final : public EventedOde {
   Tally flow_power(const double* q, const double* rate, const double* a, double t);
   /// Power of the load along the beam [W].
   double line_power(const ChainView<D>& beam, double t) const;
-  /// What feeds do besides the work of their force along the beam, which takes the load for a potential: matter that
-  /// comes in brings none of it [W].
+  /// What feeds that are given do besides the work of their force along the beam, which takes the load for a potential:
+  /// matter that comes in brings none of it [W].
   double fed_line_power(const ChainView<D>& beam, double t) const {
-    return model_.loads.line_force ? model_.loads.line_force(t).dot(beam.inflow()) : 0;
+    if (!model_.loads.line_force) return 0;
+    Vector sum = Vector::Zero();
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (guides(i)) sum += beam.inflow_at(places_[i]);
+    }
+    return model_.loads.line_force(t).dot(sum);
   }
   Eigen::VectorXd initial_state() const { return initial_; }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
