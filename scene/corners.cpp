@@ -34,30 +34,35 @@ double snapped(const std::vector<double>& breaks, double x) {
   return x;
 }
 
+template <int D>
+std::vector<Vec<double, D>> points_of(const std::vector<Point>& from) {
+  std::vector<Vec<double, D>> points;
+  for (const Point& point : from) points.push_back(vector_of<D>(point));
+  return points;
+}
+
 }  // namespace
 
 bool is_rope(const BeamSpec& beam) { return beam.section.type == Section::Type::stiffness && beam.section.EI == 0; }
 
 template <int D>
+Nurbs<D> drawn_nurbs(const CurveSpec& curve) {
+  Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, points_of<D>(curve.control_points)};
+  if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
+  return nurbs;
+}
+
+template <int D>
 Axis<D> drawn_axis(const CurveSpec& curve) {
   constexpr double degree = std::numbers::pi / 180;
-  std::vector<Vec<double, D>> points;
-  const auto add_all = [&points](const std::vector<Point>& from) {
-    for (const Point& point : from) points.push_back(vector_of<D>(point));
-  };
   switch (curve.type) {
     case CurveType::arc:
       return Axis<D>::arc(vector_of<D>(curve.center), curve.radius, curve.from_degrees * degree,
                           curve.to_degrees * degree);
-    case CurveType::nurbs: {
-      add_all(curve.control_points);
-      Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, points};
-      if (nurbs.weights.empty()) nurbs.weights.assign(points.size(), 1);
-      return Axis<D>::nurbs(nurbs);
-    }
+    case CurveType::nurbs:
+      return Axis<D>::nurbs(drawn_nurbs<D>(curve));
     case CurveType::polyline:
-      add_all(curve.points);
-      return Axis<D>::polyline(points);
+      return Axis<D>::polyline(points_of<D>(curve.points));
     case CurveType::line:
       break;
   }
@@ -129,6 +134,7 @@ double position_on_axis(const CurveSpec& curve, const std::vector<double>& break
   return breaks[i - 1] + (x - drawn[i - 1]) * (breaks[i] - breaks[i - 1]) / (drawn[i] - drawn[i - 1]);
 }
 
+template Nurbs<3> drawn_nurbs(const CurveSpec&);
 template Axis<2> drawn_axis(const CurveSpec&);
 template Axis<3> drawn_axis(const CurveSpec&);
 

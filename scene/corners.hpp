@@ -12,6 +12,10 @@ bool is_rope(const BeamSpec& beam);
 template <int D>
 Axis<D> drawn_axis(const CurveSpec& curve);
 
+/// The NURBS curve of a scene, with its weights.
+template <int D>
+Nurbs<D> drawn_nurbs(const CurveSpec& curve);
+
 /// Whether a drawn axis can have corners at all.
 bool may_have_corners(const CurveSpec& curve);
 

@@ -119,8 +119,11 @@ AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 /// Whether a scene flows or has rotary inertia: the nodes of its beam then travel as prescribed, or stand still so.
 inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_inertia != BendingInertia::none; }
 
-/// Whether its samples have what FlowSample holds.
-inline bool has_flow_sample(const Scene& scene) { return flows(scene) || scene.spin || !scene.loads.empty(); }
+/// Whether its samples have what FlowSample holds: whatever works that is no support.
+inline bool has_flow_sample(const Scene& scene) {
+  const bool acts = !scene.loads.empty() || scene.fluid || scene.ground;
+  return flows(scene) || scene.spin || acts || scene.start.winds_freely() || scene.end.winds_freely();
+}
 
 /// What such a scene starts with where it does not say: the spin of its first drive [rad/s], and the velocity of the
 /// matter along the axis at which node 0 stands still [m/s].

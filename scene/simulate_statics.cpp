@@ -10,7 +10,8 @@ namespace vlbeam {
 namespace {
 
 template <int D>
-Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number, std::size_t joints) {
+Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number, const Scene& scene) {
+  const std::size_t joints = sliding_joints(scene).size();
   const auto seen = system.observe(at.y, at.factor, ledger_points, true);
   const ChainState<D> chain = system.chain(at.y, number);
   Sample sample;
@@ -40,7 +41,7 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
     }
     if (joints > 1) sample.joints.push_back(seen_there);
   }
-  if (!system.model().loads.present()) return sample;
+  if (!has_flow_sample(scene)) return sample;
   FlowSample flow;
   flow.mass = seen.mass;
   const ChainView<D> beam = system.view(at.y.data(), at.y.data() + system.coordinates());
@@ -56,13 +57,12 @@ template <int D>
 RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress) {
   BeamSystem<D> system(build_model<D>(scene), build_chain<D>(scene));
   const StaticsSpec& statics = scene.statics;
-  const std::size_t joints = sliding_joints(scene).size();
   RunResult result;
   std::optional<Equilibrium> last;
   const auto started = std::chrono::steady_clock::now();
   const auto on_point = [&](const Equilibrium& at) {
     const auto number = static_cast<double>(result.samples.size());
-    result.samples.push_back(static_sample(system, at, number, joints));
+    result.samples.push_back(static_sample(system, at, number, scene));
     result.configurations.push_back(configuration_of(system.chain(at.y, number), number, weight_transport(scene)));
     last = at;
     const bool goes_on = !progress || progress(at.factor);

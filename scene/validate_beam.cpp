@@ -88,10 +88,7 @@ std::string corner_key(const CurveSpec& curve, double at) {
   const auto breaks = drawn_axis<3>(curve).breaks();
   while (breaks[piece] < at) ++piece;
   if (curve.type == CurveType::polyline) return "/beam/curve/points/" + std::to_string(piece);
-  Nurbs<3> nurbs{curve.degree, curve.knots, curve.weights, {}};
-  for (const Point& point : curve.control_points) nurbs.points.push_back(vector_of<3>(point));
-  if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
-  return "/beam/curve/knots/" + std::to_string(rational_spans(nurbs)[piece].knot);
+  return "/beam/curve/knots/" + std::to_string(rational_spans(drawn_nurbs<3>(curve))[piece].knot);
 }
 
 /// A corner is for a joint, or on a rope.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parts/ground.hpp"
+#include "scene/energy_ledger.hpp"
 #include "tests/core/support/held_chain.hpp"
 #include "tests/core/support/scenes.hpp"
 
@@ -86,6 +87,7 @@ TEST(Mooring, AStreamTakesARodAlong) {
   EXPECT_NEAR(run.samples.back().momentum[0], mass * 0.3 * (1 - faded), 1e-8);
   EXPECT_NEAR(run.samples.back().momentum[1], mass * 0.4 * (1 - faded), 1e-8);
   EXPECT_LE(run.max_energy_drift, 1e-9) << "what the stream gives is booked";
+  EXPECT_LE(energy_ledger(run).largest_unexplained, 1e-9) << "in reports, too";
 }
 
 // It falls, bounces, and what the ground keeps is booked.
@@ -109,6 +111,7 @@ TEST(Mooring, ARodBouncesOffTheGroundAndTheLedgerCloses) {
     }
     const RunResult run = test::completed(now);
     EXPECT_LE(run.max_energy_drift, (implicit ? 1e-3 : 1e-6) * run.max_kinetic);
+    EXPECT_LE(energy_ledger(run).largest_unexplained, (implicit ? 1e-3 : 1e-5) * run.max_kinetic);
     EXPECT_GT(run.samples.back().energy.dissipated, 0.05);
     EXPECT_LT(run.samples.back().momentum[0], 0.45) << "it rubs";
     for (const Sample& sample : run.samples) EXPECT_GT(sample.end[1], 0) << "the floor holds";
