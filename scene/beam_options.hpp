@@ -83,7 +83,9 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     vector("/beam/section/orientation", "-",
            "a direction that is the section's axis y, as far as it is across the beam, all along it; needed where the "
            "two bending stiffnesses differ",
-           beam.section.orientation, {.components = 3});
+           beam.section.orientation,
+           {.components = 3,
+            .when = only_if(section_type, beam.section.type, Section::Type::stiffness, Section::Type::rectangle)});
   }
 
   void material() {

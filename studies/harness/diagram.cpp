@@ -112,8 +112,17 @@ std::string data_of(const Diagram& diagram) {
   return data;
 }
 
-/// Ranges of both axes that hold every point, with a margin; of a straight line, too.
-std::string ranges_of(const Diagram& diagram) {
+/// The least of 1, 2, 5, 10, ... that divides a range into at most `most` parts.
+double step_of(double range, double most) {
+  constexpr std::array factors{2.0, 2.5, 2.0};
+  double step = 1e-15;
+  for (std::size_t i = 0; step * most < range; ++i) step *= factors[i % factors.size()];
+  return step;
+}
+
+/// Ranges of both axes that hold every point, with a margin; of a straight line, too. In a column there is room for few
+/// numbers below the diagram, and for fewer where equal scales make it narrow.
+std::string ranges_of(const Diagram& diagram, const Look& look) {
   constexpr double margin = 0.05, infinite = std::numeric_limits<double>::infinity();
   std::array<double, 4> box{infinite, -infinite, infinite, -infinite};
   for (const Series& series : diagram.series) {
@@ -132,7 +141,11 @@ std::string ranges_of(const Diagram& diagram) {
     const double some = widen > 0 ? widen : std::max(1e-12, 0.05 * std::abs(high));
     return std::string("set ") + axis + "range [" + number_text(low - some) + ":" + number_text(high + some) + "]\n";
   };
-  return range("x", box[0], box[1]) + range("y", box[2], box[3]);
+  std::string script = range("x", box[0], box[1]) + range("y", box[2], box[3]);
+  if (!look.column) return script;
+  const double width = std::max(box[1] - box[0], diagram.equal_scales ? 0.8 * size : 0);
+  const double share = diagram.equal_scales ? std::min(1.0, width / (1.3 * (box[3] - box[2]))) : 1;
+  return script + "set xtics " + number_text(step_of(box[1] - box[0] > 0 ? width : 1, std::max(2.0, 5 * share))) + "\n";
 }
 
 constexpr const char* palette =
@@ -170,14 +183,16 @@ void draw_diagram(const Diagram& diagram, const Look& look, const std::filesyste
     return draw_figure_of(script + field_script(diagram.field, look), field_data(diagram.field), figure);
   }
   if (diagram.ordered_colours) script += palette;
-  if (!diagram.logarithmic) script += ranges_of(diagram);
+  if (!diagram.logarithmic) script += ranges_of(diagram, look);
   if (diagram.equal_scales) script += "set size ratio -1\n";
   if (diagram.series.size() == 1) script += "unset key\n";  // the axis says it
   const std::size_t each = (diagram.series.size() + longest_key - 1) / longest_key;
   for (std::size_t i = 0; i < diagram.series.size(); ++i) {
     script += (i == 0 ? "plot data" : ", \\\n  data") + std::string(" index ") + std::to_string(i) +
               " using 1:2 with " + style_of(diagram, i) +
-              (i % each == 0 ? " title " + text_of(key_of(diagram, look, i)) : std::string(" notitle"));
+              (i % each == 0 || diagram.series[i].style == Series::Style::points
+                   ? " title " + text_of(key_of(diagram, look, i))
+                   : std::string(" notitle"));
   }
   draw_figure_of(script + "\n", data_of(diagram), figure);
 }
@@ -189,7 +204,7 @@ void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, d
   const double shown = std::clamp(seconds, 2.0, 10.0);
   const auto delay = std::max(2, static_cast<int>(std::lround(100 * shown / static_cast<double>(frames))));
   std::string script = "delay = " + std::to_string(delay) + "\n" + frame_of(diagram, look, ending) + palette +
-                       ranges_of(diagram) + "unset key\n";
+                       ranges_of(diagram, look) + "unset key\n";
   if (diagram.equal_scales) script += "set size ratio -1\n";
   for (std::size_t i = 0; i < frames; ++i) {
     if (!look.bare) script += "set title " + text_of(diagram.title + ", t = " + diagram.series[i].title + " s") + "\n";
