@@ -324,14 +324,16 @@ def kite():
 
 
 def paid_out_line():
-    """Elastic catenary (Irvine 1981) of a line between two places of one height: pull at the supports, along the line."""
+    """Elastic catenary (Irvine 1981) of a line between two places of one height. A winch pulls in what is unstretched then:
+    by the tension T at the support, work of T (1 + e) - EA e^2/2 a metre, e = T/EA."""
     given = scene("paid_out_line")
     section, span = given["beam"]["section"], mp.mpf(given["beam"]["curve"]["end"][0])
     weight = mp.mpf(str(section["rhoA"])) * G
     length, EA = span + given["supports"][0]["feed"]["table"][-1][1], mp.mpf(section["EA"])
     reach = lambda h: 2 * h / weight * mp.asinh(weight * length / (2 * h)) + h * length / EA
     h = mp.findroot(lambda x: reach(x) - span, weight * length / 3)
-    return mp.hypot(h, weight * length / 2)
+    tension = mp.hypot(h, weight * length / 2)
+    return tension * (1 + tension / (2 * EA))
 
 
 def spinning_tether():
@@ -439,7 +441,7 @@ answer("block_and_tackle", "mass_position.y", block_and_tackle(), 2e-3, "indepen
        "scene's rope weighs 1e-3 of its loads and is up to 4e-4 longer")
 answer("kite", "end.y", kite()[1], 2e-2, "independent",
        "a point on a tether of given length, by Taylor series (reference/scenes.py); the scene's has 4e-3 of the kite's mass and is up to 2e-4 longer")
-answer("paid_out_line", "winch_start_tension", paid_out_line(), 1e-2, "exact",
+answer("paid_out_line", "winch_start_tension", paid_out_line(), 1e-3, "exact",
        "elastic catenary (Irvine 1981)")
 answer("spinning_tether", "end.x", spinning_tether(), 2e-3, "exact",
        "angular momentum of a weight on a straight tether of given length; the scene's swings as it starts unstretched")
