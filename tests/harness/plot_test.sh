@@ -46,6 +46,18 @@ print(int(frames == len(json.load(open(sys.argv[2]))["configurations"]) >= 31))
 PYTHON
 )"
 
+check "its frames are enough" 0 "$(says 'smooth')"
+check "an animation of few frames" 0 "$(plot r.json --what animation -o few.gif)"
+check "says how to get more" 1 "$(says 'smooth motion, run the scene with --frames')"
+if command -v ffmpeg > /dev/null; then
+  check "a film" 0 "$(plot frames.json --what animation -o a.mp4)"
+  check "that is one" ftyp "$(head -c 8 a.mp4 | tail -c 4)"
+fi
+mkdir tools && ln -s "$(command -v gnuplot)" tools/
+check "a film without ffmpeg" 2 "$(PATH=$folder/tools plot frames.json --what animation -o b.mp4)"
+check "says what does without" 1 "$(says 'ffmpeg, which is not installed .*; a .gif does without')"
+check "and leaves nothing" no "$(there b.mp4)"
+
 # In space a picture says which plane it shows.
 "$vlbeam" scene drill_stem | sed 's/"duration": [0-9.]*/"duration": 0.01/; s/"output": {[^}]*}/"output": {"configurations": [0, 0.01]}/' > stem.json
 "$vlbeam" run stem.json --report stem.out -q

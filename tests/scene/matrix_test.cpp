@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
+#include "tests/folders.hpp"
 
 namespace vlbeam {
 namespace {
@@ -288,7 +289,7 @@ std::string table_of_pairs() {
 
 /// Written anew with VLBEAM_WRITE_DOCS set.
 TEST(WhatGoesTogether, IsWhatTheDocsSay) {
-  const std::string file = VLBEAM_DOCS_DIR "/what_goes_together.md";
+  const std::string file = test::source_folder() / "docs/what_goes_together.md";
   const std::string text =
       "# What goes together\n\n"
       "Each cell is a scene of four elements, eight where joints meet, that the tests run: **yes**, it runs and the "
