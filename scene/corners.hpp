@@ -22,9 +22,9 @@ bool may_have_corners(const CurveSpec& curve);
 /// How near a joint stands to a corner that is its own, over the length of the beam.
 constexpr double at_corner = 1e-9;
 
-/// A node of a rope at which a lumped mass hangs, a force acts, or the drawn axis has a corner that no joint could
-/// reach: the rope has two slopes there, as at a joint that keeps its place. Where joints with kinks slide along a beam
-/// that bends, its lumped masses stop them so, too, but with one slope.
+/// A node of a rope with two slopes, as at a joint that keeps its place. A lumped mass hangs there, a force acts, or
+/// the drawn axis has a corner that no joint could reach. Where joints with kinks slide along a beam that bends, its
+/// lumped masses stop them in the same way, with one slope.
 struct Knot {
   int node;
   JointSlopes slopes;

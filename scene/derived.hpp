@@ -8,8 +8,8 @@ namespace vlbeam {
 
 // What follows from a scene where it does not say.
 
-/// A scene to which nothing but the setting is given. Options that depend on others stay open; what they stand for is
-/// said by the functions below.
+/// A scene of which only the setting is given. Options that depend on others stay open; the functions below say what
+/// they stand for.
 Scene scene_in(SceneSetting setting);
 
 /// Gauss points an element that a scene asks for, its element's default filled in.

@@ -98,15 +98,15 @@ class JointChain {
   void add_conditions(const JointMotion<D>& motion, JointSlopes slopes, Station& station);
   /// Gives a joint's material coordinate its acceleration.
   void guide(std::size_t station, double acceleration);
-  /// Remembers what the node of a held joint that rubs has for equations.
+  /// Keeps the rows of a held joint with friction, before hold() replaces them.
   void keep_rows(std::size_t station);
-  /// With what a guide acts on the material coordinate [N], less what it bears of friction.
+  /// The force of a guide on the material coordinate [N], without the friction that it bears.
   double guide_force(std::size_t station) const;
   bool factor();
   /// Solves in place of each station's `rhs`.
   void substitute();
   std::optional<double> add_friction(const std::vector<JointMotion<D>>& motion);
-  /// What acts on the node of a held joint that rubs, less what the accelerations in `rhs` take of it [N]; 0 elsewhere.
+  /// Forces on the node of a held joint with friction, less its inertia by the accelerations in `rhs` [N]; else 0.
   Vec<double, D> lacking(std::size_t station, bool with_forces) const;
   /// What holds the joint holds it: there, a = 0.
   void hold(std::size_t station);
