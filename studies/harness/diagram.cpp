@@ -38,8 +38,10 @@ std::string terminal(const Look& look, const std::string& ending) {
     return "set terminal gif animate delay delay loop 0 size " + std::string(look.column ? "450,330" : "900,620") +
            plain + "\n";
   }
+  // A PDF and a PNG have their letters in them; an SVG names a face, and only a generic one is on every machine.
+  const std::string face = ending == ".svg" ? "sans-serif" : "Helvetica";
   const auto set = [&](const char* kind, const char* size, const char* font, const char* lines) {
-    return std::string("set terminal ") + kind + " size " + size + " font 'Helvetica," + font + "'" + plain +
+    return std::string("set terminal ") + kind + " size " + size + " font '" + face + "," + font + "'" + plain +
            " linewidth " + lines + "\n";
   };
   if (ending == ".pdf") {

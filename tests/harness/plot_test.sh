@@ -12,6 +12,7 @@ check "frames change no digit" 0 "$(exit_of cmp plain.csv frames.csv)"
 
 check "a column in SVG" 0 "$(plot r.json --what energy --column --bare -o e.svg)"
 check "84 mm at 96 dpi" 1 "$(grep -c '^ width="318"' e.svg)"
+check "letters that every viewer has" 0 "$(grep 'font-family' e.svg | grep -vc 'font-family="sans-serif"')"
 check "no title" 0 "$(grep -c 'Falling beam' e.svg)"
 check "words in the key" 4 "$(grep -cE '>(kinetic|axial strain|bending|gravity)<' e.svg)"
 check "no keys in it" 0 "$(grep -c 'energy\.' e.svg)"
