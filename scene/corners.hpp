@@ -29,15 +29,15 @@ struct Knot {
   int node;
   JointSlopes slopes;
 };
-/// All of a scene's, in order. Elements, integrators and joints that do not go with them have none.
+/// All knots of a scene, in order. There are none with elements, integrators and joints that do not go with them.
 std::vector<Knot> knots(const Scene& scene);
 
-/// Which corners of the drawn axis become round: those of a rope at which neither a joint nor a knot stands [m]. The
-/// rope gets shorter by them.
+/// Which corners of the drawn axis are rounded off [m]: those of a rope at which neither a joint nor a knot stands.
+/// That shortens the rope.
 std::vector<double> rounded_corners(const Scene& scene, const Axis<3>& drawn);
 
-/// Where a joint stands on an axis with these breaks, the drawn one or that with round corners: its position is counted
-/// along the drawn one [m].
+/// Where a joint stands on an axis with these breaks [m]: on the drawn axis, or on the one with round corners. Its
+/// position is counted along the drawn axis.
 double position_on_axis(const CurveSpec& curve, const std::vector<double>& breaks, double position);
 
 }  // namespace vlbeam
