@@ -4,11 +4,11 @@
 
 namespace vlbeam {
 
-/// Longest step of "generalized-alpha" at an accuracy of 1e-4 [s]. It is the least of: 1/400 of a swing under gravity
-/// over the beam's length; 1/50 of ramps; 1/100 of the periods of loads, drives and motions; 1/5 of the time in which a
-/// driven or a thrown body passes an element; 1/10 of the time in which a body passes the velocity at which friction
-/// fades. If there is none of these, it is a hundred times a wave's time along the beam. Duration and output do not
-/// matter, nor do the beam's own vibrations: the error estimate finds those.
+/// Longest step of "generalized-alpha" at an accuracy of 1e-4 [s]. It is the least of these times, each over the number
+/// of steps that automatic_integrator.cpp states for it: a swing under gravity over the beam's length; ramps; periods
+/// of loads, drives and motions; the time in which a driven or a thrown body passes an element; the time in which its
+/// velocity passes the range where friction fades. If there is none of these, it is a hundred times a wave's time along
+/// the beam. Duration and output do not matter, nor do the beam's own vibrations: the error estimate finds those.
 double longest_implicit_step(const Scene& scene);
 
 /// What `"integrator": "auto"` stands for: of "generalized-alpha" and "dopri5", as far as the scene allows both, the
