@@ -1,4 +1,4 @@
-# What all figures of this study share. Needs `output`; `width` and `height` in pixels.
+# What all figures share. Needs `output`; `width` and `height` in pixels.
 set terminal svg size width,height font "sans-serif,15" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
