@@ -26,9 +26,9 @@ struct JointPower {
 };
 
 /// M a = f of a chain with sliding joints. Runs of resting elements are eliminated with factors of their own, then the
-/// open nodes beside the joints: to them, a component is like another. What is left are the joints, a block tridiagonal
-/// system of one block each: position and slope, the slope behind it if it has one, the material coordinate, and what
-/// ties the slopes. The mass is positive definite and what ties the slopes comes last, so that L D L^T needs no pivots.
+/// open nodes beside the joints, whose components are all alike. The joints are left: a block tridiagonal system of one
+/// block each. A block holds position, slope, the slope behind the joint if it has one, the material coordinate, and
+/// the multipliers of slopes. The mass is positive definite and multipliers come last, so that L D L^T needs no pivots.
 /// Cost: one sweep over the resting elements, and one small dense block a joint.
 template <int D>
 class JointChain {
