@@ -254,6 +254,97 @@ def spin_up():
     return mp.sin(turn) * (10 + at_6[0]) + mp.cos(turn) * at_6[1]
 
 
+def block_and_tackle():
+    """Lagrange's equations of the block (x, y), whose sheaves are 0.2 m apart, on an inextensible rope without mass: the
+    counterweight is S(x, y) - L below the last ring, S the length of the four falls."""
+    given = scene("block_and_tackle")
+    points = [mp.matrix([mp.mpf(str(c)) for c in point]) for point in given["beam"]["curve"]["points"]]
+    block, weight = mp.mpf(given["blocks"][0]["mass"]), mp.mpf(given["point_masses"][0]["mass"])
+    falls = [(points[0], 0), (points[2], 0), (points[2], mp.mpf("0.2")), (points[4], mp.mpf("0.2"))]
+
+    def rates(_, at):
+        x, y, vx, vy = at
+        slope, turn = [mp.mpf(0)] * 2, mp.mpf(0)  # of S, and v.S''v
+        for ring, shift in falls:
+            dx, dy = x + shift - ring[0], y - ring[1]
+            l = mp.hypot(dx, dy)
+            along = (dx * vx + dy * vy) / l
+            slope = [slope[0] + dx / l, slope[1] + dy / l]
+            turn += (vx**2 + vy**2 - along**2) / l
+        # (M 1 + m S' S'^T) a = -M g e_y - m (g + v.S''v) S'
+        sx, sy = slope
+        a = mp.matrix([[block + weight * sx**2, weight * sx * sy], [weight * sx * sy, block + weight * sy**2]])
+        push = weight * (G + turn)
+        ax, ay = mp.lu_solve(a, mp.matrix([-push * sx, -block * G - push * sy]))
+        return [vx, vy, ax, ay]
+    start = [points[1][0], points[1][1], mp.mpf(0), mp.mpf(0)]
+    return mp.odefun(rates, 0, start)(mp.mpf(str(given["duration"])))[1]
+
+
+def table(given, t):
+    """A monotone cubic through the pairs of a time and a value, at rest at its ends: value, rate and acceleration."""
+    times, values = [[mp.mpf(str(pair[i])) for pair in given["table"]] for i in (0, 1)]
+    steps = [b - a for a, b in zip(times, times[1:])]
+    chords = [(b - a) / h for a, b, h in zip(values, values[1:], steps)]
+    slopes = [mp.mpf(0)] * len(times)
+    for i in range(1, len(times) - 1):  # Fritsch & Butland 1984
+        if chords[i - 1] * chords[i] > 0:
+            near, far = 2 * steps[i] + steps[i - 1], steps[i] + 2 * steps[i - 1]
+            slopes[i] = (near + far) / (near / chords[i - 1] + far / chords[i])
+    for i, h in enumerate(steps):
+        if t <= times[i + 1]:
+            s = (t - times[i]) / h
+            rise = chords[i] - slopes[i], slopes[i + 1] - chords[i]
+            a, b = slopes[i], 2 * rise[0] - rise[1]
+            c = rise[1] - rise[0]
+            return (values[i] + h * s * (a + s * (b + c * s)), a + s * (2 * b + 3 * c * s), (2 * b + 6 * c * s) / h)
+    return values[-1], mp.mpf(0), mp.mpf(0)
+
+
+def kite():
+    """A point on a tether of given length under a constant force upwards, in space: m r'' = F - T r/l, l = l(t)."""
+    given = scene("kite")
+    mass = mp.mpf(given["point_masses"][0]["mass"])
+    lift = mp.mpf(str(given["loads"][0]["magnitude"]["value"])) / mass - G
+    start, turning = [mp.mpf(c) for c in given["beam"]["curve"]["end"]], mp.mpf(str(given["initial_velocity"]["rotation"]))
+    rest = mp.sqrt(mp.fsum(c**2 for c in start))
+
+    def rates(t, at):
+        r, v = at[:3], at[3:]
+        fed, rate, growth = table(given["supports"][0]["feed"], t)
+        length, speed2 = rest + fed, mp.fsum(c**2 for c in v)
+        # (r.r)'' = 2 (v.v + r.r'') = 2 (l'^2 + l l'')
+        pull = (speed2 + lift * r[2] - rate**2 - length * growth) / length**2
+        return v + [-pull * r[0], -pull * r[1], lift - pull * r[2]]
+    at = start + [-turning * start[1], turning * start[0], mp.mpf(0)]
+    times = [mp.mpf(pair[0]) for pair in given["supports"][0]["feed"]["table"]]
+    for begin, until in zip(times, times[1:]):  # its acceleration jumps between them
+        at = list(mp.odefun(rates, begin, at)(until))
+    return at
+
+
+def paid_out_line():
+    """Elastic catenary (Irvine 1981) of a line between two places of one height: pull at the supports, along the line."""
+    given = scene("paid_out_line")
+    section, span = given["beam"]["section"], mp.mpf(given["beam"]["curve"]["end"][0])
+    weight = mp.mpf(str(section["rhoA"])) * G
+    length, EA = span + given["supports"][0]["feed"]["table"][-1][1], mp.mpf(section["EA"])
+    reach = lambda h: 2 * h / weight * mp.asinh(weight * length / (2 * h)) + h * length / EA
+    h = mp.findroot(lambda x: reach(x) - span, weight * length / 3)
+    return mp.hypot(h, weight * length / 2)
+
+
+def spinning_tether():
+    """Angular momentum of a weight on a tether of given length, straight and without mass: m l^2 a' is constant."""
+    given = scene("spinning_tether")
+    feed, first = given["supports"][0]["feed"], mp.mpf(given["beam"]["curve"]["end"][0])
+    turning, duration = mp.mpf(given["initial_velocity"]["rotation"]), mp.mpf(given["duration"])
+    length = lambda t: first + table(feed, t)[0]
+    last = mp.mpf(feed["table"][-1][0])
+    angle = turning * first**2 * mp.quad(lambda t: 1 / length(t) ** 2, mp.linspace(0, last, 6) + [duration])
+    return length(duration) * mp.cos(angle)
+
+
 answers = []
 
 
@@ -331,6 +422,16 @@ answer("zipline", "mass_position.x", zipline()[0], 2e-3, "independent",
 answer("container_crane", "end.x", container_crane()[0], 2e-3, "independent",
        "pendulum of given length and pivot, by Taylor series (reference/scenes.py); the scene's rope has 1e-3 of the load's "
        "mass")
+
+answer("block_and_tackle", "mass_position.y", block_and_tackle(), 2e-3, "independent",
+       "Lagrange's equations of a block on an inextensible rope without mass, by Taylor series (reference/scenes.py); the "
+       "scene's rope weighs 1e-3 of its loads and is up to 4e-4 longer")
+answer("kite", "end.y", kite()[1], 2e-2, "independent",
+       "a point on a tether of given length, by Taylor series (reference/scenes.py); the scene's has 4e-3 of the kite's mass")
+answer("paid_out_line", "winch_start_tension", paid_out_line(), 1e-2, "exact",
+       "elastic catenary (Irvine 1981)")
+answer("spinning_tether", "end.x", spinning_tether(), 2e-2, "exact",
+       "angular momentum of a weight on a tether of given length; the scene's has up to 8e-3 of its mass")
 
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (

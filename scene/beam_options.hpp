@@ -121,6 +121,11 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     choice("/beam/rest_shape", "where strains are measured from: the initial shape, or a straight beam",
            beam.rest_shape);
     choice("/beam/strain_law", "how stretch and curvature are measured", beam.strain_law);
+    choice("/beam/compression",
+           "whether a rope (EI = 0) bears compression: as it bears tension, or not, and goes slack", beam.compression);
+    number("/beam/slack_over", "-", {.low = 0, .high = 1, .low_open = true},
+           "Green or engineering strain: beyond it a rope pulls in full, below minus that not at all", beam.slack_over,
+           {.when = only_if("/beam/compression", beam.compression, Compression::none)});
     choice("/beam/rotary_inertia",
            "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,
            {.source = "Katz 2001"});

@@ -7,10 +7,10 @@
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
-#include "core/parts/drum.hpp"
 #include "core/parts/ground.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_loads.hpp"
+#include "scene/build_winch.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
 #include "scene/time_function.hpp"
@@ -149,15 +149,6 @@ std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<
   return masses;
 }
 
-/// A joint's material coordinate, from its way along the beam.
-TimeFunction travelling(double from, const TimeFunction& way) {
-  return [way, shift = from - way(0).value](double t) {
-    Prescribed x = way(t);
-    x.value += shift;
-    return x;
-  };
-}
-
 /// How sections stand at the nodes: as the scene says, or else turned by nothing from one node to the next.
 std::vector<SectionState> sections_along(const Scene& scene, const ChainState<3>& chain) {
   const Vec<double, 3> given = vector_of<3>(scene.beam.section.orientation);
@@ -236,32 +227,6 @@ std::shared_ptr<const Part<D>> build_ground(const Scene& scene, const BeamModel<
                                      model.quadrature_points);
 }
 
-/// Makes a joint of an end of the beam through which it is fed.
-template <int D>
-void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& model) {
-  const SupportSpec& end = at_start ? scene.start : scene.end;
-  ModelJoint<D>& joint = model.joints.emplace_back();
-  if (end.feed) {
-    const double sign = at_start ? -1 : 1;
-    joint.x = travelling(at_start ? 0 : length, [sign, in = time_function(*end.feed)](double t) -> Prescribed {
-      const Prescribed way = in(t);
-      return {sign * way.value, sign * way.rate, sign * way.acceleration};
-    });
-    return;
-  }
-  TimeFunction push;
-  if (end.drum) {
-    joint.law.turning = end.drum->inertia / (end.drum->radius * end.drum->radius);
-    push = [torque = time_function(end.drum->torque), radius = end.drum->radius](double t) -> Prescribed {
-      return {torque(t).value / radius, 0, 0};
-    };
-  } else {
-    push = [pull = time_function(*end.held_tension)](double t) -> Prescribed { return {-pull(t).value, 0, 0}; };
-  }
-  model.parts.push_back(
-      std::make_shared<Drum<D>>(at_start, model.section.rhoA, std::move(push), model.loads.line_force));
-}
-
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
@@ -304,6 +269,12 @@ BeamModel<D> build_model(const Scene& scene) {
     joint.at_support = {spec.at_support, spec.restitution};
     if (spec.x) joint.x = travelling(x, acting(*spec.x, scene.analysis));
     joint.pitch = spec.pitch.value_or(0);
+  }
+  for (const BlockSpec& block : scene.blocks) {
+    model.blocks.push_back(block.joints);  // the block only shifts: any of its joints may have its mass
+    for (const int tied : block.joints) {
+      model.joints[static_cast<std::size_t>(tied)].law.mass += block.mass / static_cast<double>(block.joints.size());
+    }
   }
   const ContactSpec contact = scene.contact.value_or(ContactSpec{});
   model.at_meeting = {contact.joints, contact.restitution};

@@ -55,6 +55,7 @@ BeamSection build_section(const BeamSpec& beam) {
   }
   section.stiffness.EI = bending.EI_y;
   section.stiffness.law = beam.strain_law;
+  if (beam.compression == Compression::none) section.stiffness.slack_over = beam.slack_over;
   section.damping = beam.material.damping;
   section.curvature_regularization = beam.material.curvature_regularization;
   return section;

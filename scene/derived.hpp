@@ -76,6 +76,13 @@ inline bool threaded(const Scene& scene) {
 inline bool fed(const Scene& scene) { return scene.start.pays_out() || scene.end.pays_out(); }
 /// Whether there are more nodes that can move along the beam than that of one sliding joint.
 bool has_several_joints(const Scene& scene);
+/// Whether a block holds that one of the sliding joints.
+inline bool in_block(const Scene& scene, std::size_t joint) {
+  return std::ranges::any_of(scene.blocks, [joint](const BlockSpec& block) {
+    return std::ranges::find(block.joints, static_cast<int>(joint)) != block.joints.end();
+  });
+}
+
 inline std::string joint_key(const Scene& scene, std::size_t which = 0) {
   return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/" + std::to_string(which);
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "scene/derived.hpp"
 #include "scene/option_lines.hpp"
 
 namespace vlbeam {
@@ -65,6 +66,16 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
              "moment of inertia about its axis, with what is wound up", at.drum->inertia, {.required = true});
       time_function(drum + "/torque", "N m", at.drum->torque);
     }
+    const std::string stop = entry + "/end_stop";
+    if (present(stop, "what stops a winch with a drum or a held_tension, smoothly, on either side", at.end_stop)) {
+      number(stop + "/least", "m", {}, "that may have been paid out since t = 0", at.end_stop->least);
+      number(stop + "/most", "m", {}, "that may have been paid out", at.end_stop->most);
+      number(stop + "/stiffness", "N/m", Range::positive(), "beyond one of them", at.end_stop->stiffness,
+             {.required = true});
+      number(stop + "/depth", "m", Range::positive(), "beyond it over which the stiffness sets in", at.end_stop->depth,
+             {.required = true});
+      number(stop + "/damping", "N s/m", Range::non_negative(), "there", at.end_stop->damping);
+    }
   }
   template <class Joint>
   void joint_options(const std::string& at, bool massless, Joint& mass) {
@@ -111,6 +122,15 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
     if (present("/sliding_mass", "a lumped mass that slides along the beam", scene.sliding_mass)) {
       joint_options("/sliding_mass", false, *scene.sliding_mass);
     }
+    list("/blocks", "joints that keep their distances in space, as sheaves of a block that does not turn",
+         scene.blocks);
+    for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+      const std::string at = "/blocks/" + std::to_string(i), tied = at + "/joints";
+      number(tied, "-", Range::closed(0, 1e6), "which of sliding_joints, from 0: free ones", scene.blocks[i].joints,
+             {.required = true});
+      number(at + "/mass", "kg", Range::positive(), "of the block, beside those of its joints", scene.blocks[i].mass,
+             {.required = true});
+    }
     list("/sliding_joints",
          "what slides along the beam, in order from its start: masses, and rings and sleeves that are held in space",
          scene.sliding_joints);
@@ -146,7 +166,7 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
         number(pulley + "/inertia", "kg m^2", Range::non_negative(), "moment of inertia of the wheel about its axis",
                joint.pulley->inertia, {.required = true});
       }
-      joint_options(at, guided || joint.support != SupportType::free, joint);
+      joint_options(at, guided || joint.support != SupportType::free || in_block(scene, i), joint);
     }
   }
 };

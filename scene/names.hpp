@@ -43,6 +43,9 @@ constexpr auto names(BendingInertia) {
 constexpr auto names(StrainLaw) {
   return std::to_array<Named<StrainLaw>>({{StrainLaw::green, "green"}, {StrainLaw::engineering, "engineering"}});
 }
+constexpr auto names(Compression) {
+  return std::to_array<Named<Compression>>({{Compression::full, "full"}, {Compression::none, "none"}});
+}
 constexpr auto names(OutOfPlane) { return std::to_array<Named<OutOfPlane>>({{OutOfPlane::none, "none"}}); }
 constexpr auto names(SpaceLaw) {
   return std::to_array<Named<SpaceLaw>>({{SpaceLaw::frames, "frames"}, {SpaceLaw::scalar, "scalar"}});

@@ -127,6 +127,8 @@ std::string allowed_text(const Option& option) {
     return "an array of " + std::to_string(option.components) + " numbers" + unit;
   } else if constexpr (std::same_as<T, std::array<double, 4>>) {
     return "an array of 4 numbers" + option.range.text() + unit;
+  } else if constexpr (std::same_as<T, std::vector<int>>) {
+    return "an array of whole numbers" + option.range.text();
   } else if constexpr (std::same_as<T, std::vector<double>>) {
     return "an array of numbers" + option.range.text() + unit;
   } else if constexpr (std::same_as<T, std::vector<Point>>) {

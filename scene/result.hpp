@@ -68,10 +68,12 @@ struct SlidingSample {
   std::optional<JointSample> on_beam;
 };
 
-/// What a winch has done whose length is an unknown.
+/// What a winch has done.
 struct WinchSample {
-  double length;  ///< paid out since t = 0 [m]
-  double rate;    ///< [m/s]
+  double length;   ///< paid out since t = 0 [m]
+  double rate;     ///< [m/s]
+  double tension;  ///< with which the beam pulls at it [N]
+  double power;    ///< of its push, without the energy that the beam brings along [W]
 };
 
 /// The observed quantities at one instant.

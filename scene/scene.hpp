@@ -113,6 +113,12 @@ enum class BendingInertia {
   gyroscopic,  ///< and that spin: valid for small slopes against the initial axis and an even spin
 };
 
+/// Whether a rope bears compression.
+enum class Compression {
+  full,  ///< as it bears tension
+  none,  ///< it goes slack
+};
+
 /// What resists loads across the plane of a beam that is curved at rest, in space.
 enum class OutOfPlane {
   none,  ///< nothing but the change of the curvature's magnitude, which is of second order
@@ -134,6 +140,8 @@ struct BeamSpec {
   std::optional<AxisForm> axis = {};  ///< used with a curved axis; see axis_form()
   RestShape rest_shape = RestShape::as_built;
   StrainLaw strain_law = StrainLaw::green;
+  Compression compression = Compression::full;
+  double slack_over = 1e-5;  ///< strain over which a rope goes slack
   BendingInertia rotary_inertia = BendingInertia::none;
   std::optional<SpaceLaw> space_law = {};        ///< in space; see has_frames()
   std::optional<OutOfPlane> out_of_plane = {};   ///< to be said of a curved beam in space whose law is scalar
@@ -156,6 +164,14 @@ struct DrumSpec {
   TimeSpec torque = {};  ///< of the motor, paying out where it is > 0 [N m]
 };
 
+/// What stops a winch whose length is an unknown, smoothly.
+struct EndStopSpec {
+  std::optional<double> least = {}, most = {};  ///< paid out since t = 0 [m]
+  double stiffness = 0;                         ///< [N/m]
+  double depth = 0;                             ///< over which it sets in [m]
+  double damping = 0;                           ///< [N s/m]
+};
+
 /// The support of one end.
 struct SupportSpec {
   SupportType type = SupportType::free;
@@ -164,6 +180,7 @@ struct SupportSpec {
   std::optional<TimeSpec> feed = {};  ///< length of beam that has come in through this end since t = 0: a winch [m]
   std::optional<TimeSpec> held_tension = {};  ///< with which a winch without inertia pulls, in place of it [N]
   std::optional<DrumSpec> drum = {};          ///< in place of both
+  std::optional<EndStopSpec> end_stop = {};   ///< of the latter two
 
   /// Whether beam comes in or leaves there; whether as much as it wants.
   bool pays_out() const { return feed || held_tension || drum; }
@@ -198,6 +215,12 @@ struct SlidingJointSpec : SlidingMassSpec {
   std::optional<TimeSpec> x;    ///< way of the joint along the beam as a function of time, counted from `position` [m]
   std::optional<double> pitch;  ///< of a nut on a beam that spins [m a turn], right-handed where > 0
   std::optional<PulleySpec> pulley = {};  ///< of a ring that is a wheel
+};
+
+/// Joints that keep their distances in space, as the sheaves of a block do that does not turn.
+struct BlockSpec {
+  std::vector<int> joints = {};  ///< of /sliding_joints, from 0
+  double mass = 0;               ///< of the block [kg], beside those of its joints
 };
 
 /// How several joints touch: each other, and the supports that they strike.
@@ -394,7 +417,8 @@ struct Scene {
   SupportSpec end;
   std::optional<SlidingMassSpec> sliding_mass;        ///< short for one sliding joint that is free
   std::vector<SlidingJointSpec> sliding_joints = {};  ///< in order along the beam; none beside a sliding mass
-  std::optional<ContactSpec> contact = {};            ///< of several joints
+  std::vector<BlockSpec> blocks = {};
+  std::optional<ContactSpec> contact = {};  ///< of several joints
   std::optional<SpinSpec> spin;
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};

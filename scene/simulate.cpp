@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/system/steady_flow.hpp"
 #include "scene/build.hpp"
+#include "scene/build_winch.hpp"
 #include "scene/energy_ledger.hpp"
 #include "scene/initial_equilibrium.hpp"
 #include "scene/model_errors.hpp"
@@ -155,10 +156,11 @@ class Run {
       }
       if (count > 1) sample.joints.push_back(joint);
     }
-    if (scene_.start.winds_freely()) sample.winches[0] = {-chain.mesh.x.front(), -chain.joints.front().rate};
-    if (scene_.end.winds_freely()) {
-      sample.winches[1] = {chain.mesh.x.back() - beam_length(scene_), chain.joints.back().rate};
-    }
+    const auto winch = [&](bool at_start) {
+      return look_at_winch<D>(scene_, at_start, system_.model(), chain, forces, system_.gravity(sample.t), sample.t);
+    };
+    if (scene_.start.pays_out()) sample.winches[0] = winch(true);
+    if (scene_.end.pays_out()) sample.winches[1] = winch(false);
     const ConstraintResidual slopes = system_.slope_residual(y);
     result_.slopes.position = std::max(result_.slopes.position, slopes.position);
     result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);

@@ -14,6 +14,7 @@
 #include "scene/scene_options.hpp"
 #include "scene/time_function.hpp"
 #include "scene/validate_beam.hpp"
+#include "scene/validate_blocks.hpp"
 #include "scene/validate_feed.hpp"
 #include "scene/validate_flow.hpp"
 #include "scene/validate_frames.hpp"
@@ -118,6 +119,10 @@ void check_energy_momentum(const Scene& scene) {
   if (scene.drag || scene.beam.material.mass_damping > 0) {
     refuse("/integrator/type", quoted(scene.integrator.type),
            "it keeps an energy that /drag and mass_damping take: take any other integrator");
+  }
+  if (scene.beam.compression == Compression::none) {
+    refuse("/integrator/type", quoted(scene.integrator.type),
+           "it knows no rope that goes slack (/beam/compression \"none\"): take any other integrator");
   }
   if (!scene.point_masses.empty()) {
     refuse("/integrator/type", quoted(scene.integrator.type), "it knows no /point_masses: take any other integrator");
@@ -423,6 +428,7 @@ void check_all(const Scene& scene) {
   validate_beam(scene);
   validate_frames(scene);
   validate_joints(scene);
+  validate_blocks(scene);
   validate_nut(scene);
   validate_length_control(scene);
   check_integrator(scene);

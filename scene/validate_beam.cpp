@@ -196,6 +196,9 @@ void check_beam(const Scene& scene) {
   }
 
   const bool bends = build_section(beam).bends();
+  if (beam.compression == Compression::none && bends) {
+    refuse("/beam/compression", quoted(beam.compression), "only a rope goes slack, \"EI\": 0: take \"full\"");
+  }
   const bool curved_in_space = scene.dimension == 3 && bends && has_rest_shape(scene) && is_curved(scene);
   const bool frames = has_frames(scene);
   if (curved_in_space && !frames && !beam.out_of_plane) {

@@ -67,13 +67,29 @@ void check_winding(const Scene& scene, const std::string& at) {
   }
 }
 
+void check_end_stop(const SupportSpec& end, const std::string& at) {
+  const EndStopSpec& stop = *end.end_stop;
+  if (!end.winds_freely()) refuse(at, "this key", "it stops a winch with a \"drum\" or a \"held_tension\"");
+  if (!stop.least && !stop.most) refuse(at, "neither least nor most", "give one of them, or both [m]");
+  if (stop.least && *stop.least > 0) {
+    refuse(at + "/least", number_text(*stop.least), "at t = 0 nothing is paid out: it must be at most 0 [m]");
+  }
+  if (stop.most && *stop.most < 0) {
+    refuse(at + "/most", number_text(*stop.most), "at t = 0 nothing is paid out: it must be at least 0 [m]");
+  }
+}
+
 /// One end.
 void check_end(const Scene& scene, const std::string& support, const SupportSpec& end) {
-  if (!end.pays_out()) return;
+  if (!end.pays_out()) {
+    if (end.end_stop) refuse(support + "/end_stop", "this key", "there is no winch there: leave it out");
+    return;
+  }
   const std::string at = support + (end.feed ? "/feed" : end.drum ? "/drum" : "/held_tension");
   if ((end.feed ? 1 : 0) + (end.drum ? 1 : 0) + (end.held_tension ? 1 : 0) > 1) {
     refuse(at, "this key", "\"feed\", \"held_tension\" and \"drum\" say the same thing: give one of them");
   }
+  if (end.end_stop) check_end_stop(end, support + "/end_stop");
   if (end.type != SupportType::clamp && end.type != SupportType::pin) {
     refuse(support + "/type", quoted(end.type), "beam is fed through a \"clamp\" or a \"pin\"");
   }

@@ -95,7 +95,7 @@ void check_held_joint(const Scene& scene, std::size_t which) {
   const SlidingJointSpec& joint = scene.sliding_joints[which];
   const std::string support = quoted(joint.support);
   if (joint.support == SupportType::free) {
-    if (!(joint.mass > 0) && !joint.x) {
+    if (!(joint.mass > 0) && !joint.x && !in_block(scene, which)) {
       refuse(key + "/mass", number_text(joint.mass),
              "nothing holds this joint: without a mass it has no motion of its own");
     }

@@ -212,6 +212,10 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
       if (turns_) hold_angles(k, keep, support.free_angle);
     }
     for (auto& b : border) {
+      if (b.far == node) {
+        b.far_column = keep * b.far_column;
+        b.far_row = keep * b.far_row;
+      }
       const int reached = node - b.first;
       if (reached < 0 || reached >= Base::reach) continue;
       auto& column = b.column[static_cast<std::size_t>(reached)];

@@ -66,6 +66,7 @@ void BorderedBlockTridiagonal<B>::fix(int unknown, double size) {
   Border& fixed = border[static_cast<std::size_t>(unknown)];
   fixed.column.fill(Vector::Zero());
   fixed.row.fill(Vector::Zero());
+  fixed.far = -1;
   corner.row(unknown).setZero();
   corner.col(unknown).setZero();
   corner(unknown, unknown) = size;
@@ -92,7 +93,8 @@ bool BorderedBlockTridiagonal<B>::factor() {
     double* column = columns_.data() + stride * static_cast<std::size_t>(j);
     for (int i = 0; i < reached(from); ++i)
       node_part<B>(column, from.first + i) = from.column[static_cast<std::size_t>(i)];
-    substitute(column, static_cast<std::size_t>(from.first));
+    if (from.far >= 0) node_part<B>(column, from.far) += from.far_column;
+    substitute(column, static_cast<std::size_t>(from.far < 0 ? from.first : std::min(from.first, from.far)));
     for (int i = 0; i < borders(); ++i) rest_(i, j) -= row_times(border[static_cast<std::size_t>(i)], column);
   }
   set_scales(rest_, corner_scale_);
@@ -157,6 +159,9 @@ void BorderedBlockTridiagonal<B>::expand(Eigen::MatrixXd& dense) const {
       dense.block<B, 1>(at, B * n + j) = b.column[static_cast<std::size_t>(i)];
       dense.block<1, B>(B * n + j, at) = b.row[static_cast<std::size_t>(i)].transpose();
     }
+    if (b.far < 0) continue;
+    dense.block<B, 1>(B * b.far, B * n + j) += b.far_column;
+    dense.block<1, B>(B * n + j, B * b.far) += b.far_row.transpose();
   }
   if (borders() > 0) {
     dense.block(B * n, B * n, borders(), borders()) = corner.topLeftCorner(borders(), borders());
@@ -167,6 +172,7 @@ template <int B>
 double BorderedBlockTridiagonal<B>::row_times(const Border& b, const double* x) const {
   double sum = 0;
   for (int i = 0; i < reached(b); ++i) sum += b.row[static_cast<std::size_t>(i)].dot(node_part<B>(x, b.first + i));
+  if (b.far >= 0) sum += b.far_row.dot(node_part<B>(x, b.far));
   return sum;
 }
 

@@ -10,8 +10,9 @@
 namespace vlbeam {
 
 /// A block tridiagonal matrix with blocks of `B` unknowns, one a node, and a few more unknowns, the border, each of
-/// which couples to a few neighbouring nodes only: what a chain of elements with a moving node and constraints makes of
-/// a Newton iteration. Factored once, solved many times; cost and memory are proportional to the number of nodes.
+/// which couples to a few neighbouring nodes and, where it ties two places, to a far one: what a chain of elements with
+/// a moving node and constraints makes of a Newton iteration. Factored once, solved many times; cost and memory are
+/// proportional to the number of nodes.
 template <int B>
 class BorderedBlockTridiagonal {
  public:
@@ -19,10 +20,12 @@ class BorderedBlockTridiagonal {
   using Vector = Eigen::Matrix<double, B, 1>;
   static constexpr int reach = 3;  ///< nodes that one unknown of the border couples to
 
-  /// An unknown of the border: its coupling to the nodes from `first` on.
+  /// An unknown of the border: its coupling to the nodes from `first` on, and to one more, `far`, where it is not -1.
   struct Border {
     int first = 0;
     std::array<Vector, reach> column, row;
+    int far = -1;
+    Vector far_column = Vector::Zero(), far_row = Vector::Zero();
   };
 
   /// A zero matrix of `nodes` blocks without border.

@@ -71,7 +71,7 @@ template <Kernel K>
 BeamSection known(BeamSection section) {
   if constexpr (K != Kernel::general) {
     section.stiffness.law = K == Kernel::green ? StrainLaw::green : StrainLaw::engineering;
-    section.damping = 0;
+    section.damping = section.stiffness.slack_over = 0;
     if (!section.bends()) __builtin_unreachable();
   }
   return section;

@@ -319,7 +319,9 @@ class GeneralizedAlpha final : public Stepper {
     system_.contract(q_, v_, y);
     end_.power = system_.supplied_power(q_, v_, acceleration_, t + h);
     end_.power.dissipated = dissipation;
-    system_.tallies().add(0.5 * h * (start_.power + end_.power), y);
+    Tally given = 0.5 * h * (start_.power + end_.power);
+    if (const auto lost = system_.power_lost_between(base_q_, q_, h, t)) given.dissipated = h * *lost;
+    system_.tallies().add(given, y);
     end_.true_acceleration = acceleration_;
     end_.a = next_a_;
     end_.h = h;

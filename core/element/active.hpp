@@ -63,6 +63,9 @@ class Active {
   friend bool operator>(const Active& a, const Active& b) { return a.value_ > b.value_; }
   friend bool operator==(const Active& a, const Active& b) { return a.value_ == b.value_; }
 
+  friend Active clamped(const Active& a, double low, double high) {
+    return a.value_ < low ? Active(low) : a.value_ > high ? Active(high) : a;
+  }
   friend Active sqrt(const Active& a) {
     const double root = std::sqrt(a.value_);
     return chain(root, a, 0.5 / root);

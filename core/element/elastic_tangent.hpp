@@ -23,10 +23,20 @@ struct ElasticTangent {
     if (k.green()) {
       by_g = Real(0.25 * k.EA) * (g - Real(1));
       by_gg = Real(0.25 * k.EA);
+      if (k.slackens()) {  // 2 dW/dg = EA psi'
+        const SlackLaw<Real> rope(Real(0.5) * (g - Real(1)), k.slack_over);
+        by_g = Real(0.5 * k.EA) * rope.pull;
+        by_gg = Real(0.25 * k.EA) * rope.stiffness;
+      }
     } else {
       const Real inverse_stretch = Real(1) / sqrt(g);
       by_g = Real(0.5 * k.EA) * (Real(1) - inverse_stretch);
       by_gg = Real(0.25 * k.EA) * inverse_stretch * inverse_stretch * inverse_stretch;
+      if (k.slackens()) {  // 2 stretch dW/dg = EA psi'
+        const SlackLaw<Real> rope(g * inverse_stretch - Real(1), k.slack_over);
+        by_g = Real(0.5 * k.EA) * inverse_stretch * rope.pull;
+        by_gg = Real(0.25 * k.EA) * inverse_stretch * inverse_stretch * (rope.stiffness - rope.pull * inverse_stretch);
+      }
     }
     if (!k.bends()) {
       pp = rank_one(Real(Real(4) * by_gg), rx, rx);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace vlbeam {
@@ -46,6 +47,10 @@ class Pack {
   friend Pack operator-(Pack a) {
     for (int i = 0; i < parts; ++i) a.parts_[i] = -a.parts_[i];
     return a;
+  }
+  friend Pack clamped(const Pack& a, double low, double high) {
+    return {std::clamp(a[0], low, high), std::clamp(a[1], low, high), std::clamp(a[2], low, high),
+            std::clamp(a[3], low, high)};
   }
   friend Pack sqrt(const Pack& a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 

@@ -97,7 +97,8 @@ RestStrain<double> rest_strain(const Vec<double, D>& r_x, const Vec<double, D>& 
 
 /// Stress of a beam with the rest strains eps_0 and kappa_0: tension EA (eps - eps_0), moment EI (kappa - kappa_0), the
 /// energies per length EA (eps - eps_0)^2/2 and EI (kappa - kappa_0)^2/2, and what is added to the p and m of
-/// ElasticStress, - EA eps_0 deps - EI kappa_0 dkappa. In space both curvatures are regularized.
+/// ElasticStress, - EA eps_0 deps - EI kappa_0 dkappa. In space both curvatures are regularized. A rope that goes slack
+/// pulls with EA psi'(eps - eps_0) (SlackLaw).
 template <class Real, int D>
 struct RestStress {
   Vec<Real, D> p, m;
@@ -113,7 +114,14 @@ struct RestStress {
     moment = Real(k.EI) * kappa;
     axial = Real(0.5) * tension * eps;
     bending = Real(0.5) * moment * kappa;
-    p = strain.axial_by_slope * Real(Real(-k.EA) * rest.axial);
+    Real missing_pull = Real(-k.EA) * rest.axial;
+    if (k.slackens()) {
+      const SlackLaw<Real> rope(eps, k.slack_over);
+      tension = Real(k.EA) * rope.pull;
+      axial = Real(k.EA) * rope.energy;
+      missing_pull = tension - Real(k.EA) * SlackLaw<Real>(strain.axial, k.slack_over).pull;
+    }
+    p = strain.axial_by_slope * missing_pull;
     m.setZero();
     if (!section.bends()) return;
     const Real missing = Real(-k.EI) * rest.curvature;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/element/slack_law.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/geometry/vec.hpp"
 
@@ -37,13 +38,16 @@ struct Stiffness {
   double EA;
   double EI;
   StrainLaw law = StrainLaw::green;
+  double slack_over = 0;  ///< strain over which a rope goes slack [-]; 0: it bears compression as tension
 
+  bool slackens() const { return slack_over != 0; }
   bool bends() const { return EI != 0; }
   bool green() const { return law == StrainLaw::green; }
   double curvature_power() const { return vlbeam::curvature_power(law); }
 };
 
-/// Strain energy per length W = EA eps^2/2 + EI kappa^2/2 [J/m] and its gradients, the generalized stresses
+/// Strain energy per length W = EA eps^2/2 + EI kappa^2/2 [J/m], or EA psi(eps) of a rope that goes slack (SlackLaw),
+/// and its gradients, the generalized stresses
 /// p = dW/dr_x [N] and m = dW/dr_xx [N m] (Ding & Ouyang 2022, Eq. 17-19).
 /// Curvature enters as kappa dkappa only, which is smooth where the beam is straight. EI = 0 is a cable.
 template <class Real, int D>
@@ -59,11 +63,13 @@ struct ElasticStress {
       const Real eps = Real(0.5) * (g - Real(1));
       axial = Real(0.5 * k.EA) * eps * eps;
       along = Real(k.EA) * eps;
+      if (k.slackens()) slacken(eps, Real(1), k, along);
     } else {
       const Real stretch = sqrt(g);
       const Real eps = stretch - Real(1);
       axial = Real(0.5 * k.EA) * eps * eps;
       along = Real(k.EA) * (Real(1) - Real(1) / stretch);
+      if (k.slackens()) slacken(eps, stretch, k, along);
     }
     if (k.bends()) {
       // kappa^2 = F.F / g^n, n = 3 (green) or 2 (engineering)
@@ -80,6 +86,13 @@ struct ElasticStress {
       p = rx * along;
       m.setZero();
     }
+  }
+
+ private:
+  void slacken(const Real& eps, const Real& stretch, const Stiffness& k, Real& along) {
+    const SlackLaw<Real> rope(eps, k.slack_over);
+    axial = Real(k.EA) * rope.energy;
+    along = Real(k.EA) * rope.pull / stretch;
   }
 };
 

@@ -7,7 +7,7 @@ Tally Ground<D>::add_force(const Motion<D>& motion, double* force) const {
   Tally power;
   add_line_force<D>(motion.beam, points_, law_, force,
                     [&](int /*element*/, const PointMotion<double, D>& at, const Vec<double, D>& f, double weight) {
-                      const double given = law_.pressing(law_.level - law_.up.dot(at.r)) * law_.up.dot(at.v);
+                      const double given = law_.spring().push(law_.level - law_.up.dot(at.r)) * law_.up.dot(at.v);
                       power.loads += weight * given;
                       power.dissipated += weight * (given - f.dot(at.v));
                     });

@@ -5,13 +5,13 @@
 #include "core/geometry/elementary.hpp"
 #include "core/joint/axial_friction.hpp"
 #include "core/parts/line_force.hpp"
+#include "core/parts/one_sided.hpp"
 #include "core/parts/part.hpp"
 
 namespace vlbeam {
 
-/// A floor that bears the beam from below. At a depth p under its level it pushes with
-///   N = k S(p),  S = p^2/(2 d) for 0 < p < d,  p - d/2 from there on,
-/// per unstretched length; it damps the velocity along `up` by c S'(p) and rubs against the one across it, v_t, with
+/// A floor that bears the beam from below. At a depth p under its level it pushes with N = k S(p), OneSided, per
+/// unstretched length; it damps the velocity along `up` by c S'(p) and rubs against the one across it, v_t, with
 /// mu N v_t/sqrt(v_t^2 + v_0^2). N is the derivative of a potential, what it stores is booked as work of loads.
 template <int D>
 struct FloorLaw {
@@ -22,27 +22,22 @@ struct FloorLaw {
   double damping = 0;                           ///< c [N s/m^2]
   std::optional<AxialFriction> friction = {};   ///< mu, and v_0 below which it fades
 
+  OneSided spring() const { return {stiffness, depth}; }
   bool acts(const Vec<double, D>& r) const { return up.dot(r) < level; }
 
   template <class Real>
   Vec<Real, D> force(const LinePoint<Real, D>& at) const {
     const Vec<Real, D> along = up.template cast<Real>();
     const Real p = Real(level) - at.r.dot(along), speed = at.v.dot(along);
-    const Real push = pressing(p);
-    const Real share = p < Real(depth) ? Real(p / Real(depth)) : Real(1);
-    Vec<Real, D> f = along * Real(push - Real(damping) * share * speed);
+    const OneSided floor = spring();
+    const Real push = floor.push(p);
+    Vec<Real, D> f = along * Real(push - Real(damping) * floor.share(p) * speed);
     if (friction) {
       const Vec<Real, D> across = at.v - along * speed;
       const Real size2 = across.squaredNorm() + Real(friction->velocity * friction->velocity);
       f -= across * Real(Real(friction->coefficient) * push / sqrt(size2));
     }
     return f;
-  }
-  /// N of a depth [N/m].
-  template <class Real>
-  Real pressing(const Real& p) const {
-    if (p < Real(depth)) return p * p * Real(stiffness / (2 * depth));
-    return (p - Real(depth / 2)) * Real(stiffness);
   }
 };
 

@@ -69,6 +69,8 @@ struct BeamModel {
   double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
   /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
   std::vector<ModelJoint<D>> joints;
+  /// Of these, which keep the distances in space that they have at t = 0: each row is a block that does not turn.
+  std::vector<std::vector<int>> blocks = {};
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
   /// How all the nodes travel along the beam, where they do: there are no joints then and no length control. Every

@@ -45,6 +45,7 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
                  spin_->section(initial_.data() + angles(), initial_.data() + coordinates() + angles(), x).at.angle);
   }
   held_.anchor(initial_.data());
+  tie_blocks(initial_.data());
   impose(initial_, 0);
   ramp_ = RampWork<D>(model.gravity, model.gravity_ramp);
 }
@@ -407,14 +408,14 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     power = power + spin_->power(q + angles, rate + angles, force + angles, t, by_nut);
   }
   if (driven && !moving_) power.supports += pull->power(force);
-  if (!resting_.empty()) {
+  if (!links_.empty()) {
     const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
-    const auto forces = press(resting_, elements_, q, bending_in(rate), force);
+    const auto forces = press(links_, elements_, q, bending_in(rate), force);
     if (!forces) return invalid();
-    resting_forces_ = *forces;
+    link_forces_ = *forces;
     if (driven) {
       const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(force, coordinates()) - apart;
-      power.supports += work_of_prescribed(resting_, *forces, elements_, q, rate, change);
+      power.supports += work_of_prescribed(links_, *forces, elements_, q, rate, change);
     }
   }
   layout_.tallies.add(power, dydt);

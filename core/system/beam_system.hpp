@@ -238,10 +238,11 @@ class BeamSystem final : public EventedOde {
   /// Those between joints.
   const std::vector<SpanBetween<D>>& between() const { return between_; }
   using Contact = NodeContact<D>;
-  /// What rests against each other.
-  const std::vector<Contact>& resting() const { return resting_; }
-  /// With what its nodes push each other apart, by the accelerations that rhs() has given last [N].
-  const Eigen::VectorXd& resting_forces() const { return resting_forces_; }
+  using Link = NodeLink<D>;
+  /// Nodes that keep a distance: those of blocks, then what rests against each other.
+  const std::vector<Link>& links() const { return links_; }
+  /// With what they push each other apart, by the accelerations that rhs() has given last [N].
+  const Eigen::VectorXd& link_forces() const { return link_forces_; }
   /// What holds nodes in space.
   const Held<D>& holding() const { return held_; }
   /// Whether a guide prescribes a joint's material coordinate.
@@ -337,7 +338,10 @@ class BeamSystem final : public EventedOde {
   /// From now on its nodes rest against each other, or no longer.
   void close_contact(const Contact& contact, const Eigen::VectorXd& y);
   void open_contact(const Contact& contact, const Eigen::VectorXd& y);
+  /// What rests, and with it the links.
   void find_resting();
+  /// The distances that joints of a block have there, an array like q, are those that they keep.
+  void tie_blocks(const double* q);
   /// All that touch and come nearer strike each other at once, and what rests bears it: new velocities, and what rests
   /// then. Throws ComputationFailed where it cannot.
   void strike(Eigen::VectorXd& y, double t);
@@ -345,20 +349,20 @@ class BeamSystem final : public EventedOde {
   [[noreturn]] void comes_to_rest(const Contact& contact, double t) const;
   /// Velocities after an impact of these.
   void collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t);
-  /// Adds what forces (or momenta) along the lines of contacts do to the accelerations (or velocities) `a` of a beam
+  /// Adds what forces (or momenta) along the lines of links do to the accelerations (or velocities) `a` of a beam
   /// without them, so that L . (a_ahead - a_behind) is as `wanted` on each line L. Returns them, positive where they
   /// push; nothing where the mass matrix is singular.
-  std::optional<Eigen::VectorXd> press(const std::vector<Contact>& contacts, const JointElements& elements,
-                                       const double* q, const Eigen::VectorXd& wanted, double* a) const;
+  std::optional<Eigen::VectorXd> press(const std::vector<Link>& links, const JointElements& elements, const double* q,
+                                       const Eigen::VectorXd& wanted, double* a) const;
   /// Of what prescribes parts of the state: what it does as such forces change accelerations (or momenta velocities) by
   /// `change`.
-  double work_of_prescribed(const std::vector<Contact>& contacts, const Eigen::VectorXd& forces,
+  double work_of_prescribed(const std::vector<Link>& links, const Eigen::VectorXd& forces,
                             const JointElements& elements, const double* q, const double* rate,
                             const Eigen::VectorXd& change) const;
-  /// What press() is to give the accelerations of what rests, by C'' = 0.
+  /// What press() is to give the accelerations of links, by C'' = 0.
   Eigen::VectorXd bending_in(const double* rate) const;
-  /// Forces between what rests, at a state [N].
-  Eigen::VectorXd forces_at_contacts(const Eigen::VectorXd& y, double t) const;
+  /// Forces of links, at a state [N].
+  Eigen::VectorXd forces_of_links(const Eigen::VectorXd& y, double t) const;
   /// The mass hits a support: new velocities, and whether it is then held. Throws ComputationFailed where the run is to
   /// stop.
   void hit(ChainState<D>& chain, Eigen::VectorXd& y, double t);
@@ -422,8 +426,15 @@ class BeamSystem final : public EventedOde {
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain
   std::vector<int> index_;          ///< which of the model's they are
   std::vector<std::array<typename ChainState<D>::Touch, 2>> touches_;  ///< of the joints on the beam
+  /// Two of the model's joints that are tied to each other, and the way from the one to the other [m].
+  struct Tie {
+    int behind, ahead;
+    Vector apart;
+  };
+  std::vector<Tie> ties_;
   std::vector<Contact> resting_;
-  Eigen::VectorXd resting_forces_;
+  std::vector<Link> links_;
+  Eigen::VectorXd link_forces_;
   std::vector<int> departed_;  ///< the same of masses that have left
   std::vector<int> passed_;    ///< of the model's joints: how many point masses are behind it
   mutable std::optional<Riding> rider_;

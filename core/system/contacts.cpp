@@ -25,7 +25,7 @@ std::vector<typename BeamSystem<D>::Contact> BeamSystem<D>::contacts() const {
     const auto add = [&](int behind, int support, const Impact& impact) {
       const auto& touch = touches_[i][support < 0 ? 0 : 1];
       found.push_back(
-          {behind, behind + 1, i, support, impact, touch.distance > 0 ? touch.distance : touching(), touch.rests});
+          {{behind, behind + 1, touch.distance > 0 ? touch.distance : touching()}, i, support, impact, touch.rests});
     };
     const Impact& at_support = joint(i).at_support;
     const bool strikes = at_support.law != AtSupport::stop && model_.length_control.end_merge == 0;
@@ -47,7 +47,31 @@ template <int D>
 void BeamSystem<D>::find_resting() {
   resting_ = contacts();
   std::erase_if(resting_, [](const Contact& contact) { return !contact.rests; });
-  resting_forces_.setZero(static_cast<Eigen::Index>(resting_.size()));
+  links_.clear();
+  for (const Tie& tie : ties_) {
+    const auto node = [&](int joint) {
+      return places_[static_cast<std::size_t>(std::ranges::find(index_, joint) - index_.begin())].node;
+    };
+    for (int c = 0; c < D; ++c) {
+      links_.push_back({node(tie.behind), node(tie.ahead), tie.apart[c], Vector(Vector::Unit(c))});
+    }
+  }
+  links_.insert(links_.end(), resting_.begin(), resting_.end());
+  link_forces_.setZero(static_cast<Eigen::Index>(links_.size()));
+}
+
+template <int D>
+void BeamSystem<D>::tie_blocks(const double* q) {
+  for (const std::vector<int>& block : model_.blocks) {
+    for (std::size_t k = 1; k < block.size(); ++k) {
+      const auto place = [&](int joint) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(index_, joint) - index_.begin());
+        return Vector(position<D>(q, places_[at].node));
+      };
+      ties_.push_back({block[0], block[k], place(block[k]) - place(block[0])});
+    }
+  }
+  find_resting();
 }
 
 template <int D>
@@ -64,22 +88,22 @@ void BeamSystem<D>::close_contact(const Contact& contact, const Eigen::VectorXd&
 }
 
 template <int D>
-std::optional<Eigen::VectorXd> BeamSystem<D>::press(const std::vector<Contact>& contacts, const JointElements& elements,
+std::optional<Eigen::VectorXd> BeamSystem<D>::press(const std::vector<Link>& links, const JointElements& elements,
                                                     const double* q, const Eigen::VectorXd& wanted, double* a) const {
-  const auto count = static_cast<Eigen::Index>(contacts.size());
+  const auto count = static_cast<Eigen::Index>(links.size());
   Eigen::MatrixXd answers = Eigen::MatrixXd::Zero(coordinates(), count), by(count, count);  // M^-1 L, L^T M^-1 L
   Eigen::VectorXd lacking = wanted;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Contact& contact = contacts[static_cast<std::size_t>(i)];
-    const Vector line = contact.line(q);
-    position<D>(answers.col(i).data(), contact.behind) = -line;
-    position<D>(answers.col(i).data(), contact.ahead) = line;
+    const Link& link = links[static_cast<std::size_t>(i)];
+    const Vector line = link.line(q);
+    position<D>(answers.col(i).data(), link.behind) = -line;
+    position<D>(answers.col(i).data(), link.ahead) = line;
     if (!solve_mass_apart(elements, q, answers.col(i).data())) return std::nullopt;
-    lacking[i] -= line.dot(contact.difference(a));
+    lacking[i] -= line.dot(link.difference(a));
   }
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Contact& contact = contacts[static_cast<std::size_t>(i)];
-    for (Eigen::Index k = 0; k < count; ++k) by(i, k) = contact.line(q).dot(contact.difference(answers.col(k).data()));
+    const Link& link = links[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < count; ++k) by(i, k) = link.line(q).dot(link.difference(answers.col(k).data()));
   }
   const Eigen::VectorXd forces = solve_pivoting(by, lacking);
   Eigen::Map<Eigen::VectorXd>(a, coordinates()) += answers * forces;
@@ -87,24 +111,22 @@ std::optional<Eigen::VectorXd> BeamSystem<D>::press(const std::vector<Contact>& 
 }
 
 template <int D>
-double BeamSystem<D>::work_of_prescribed(const std::vector<Contact>& contacts, const Eigen::VectorXd& forces,
+double BeamSystem<D>::work_of_prescribed(const std::vector<Link>& links, const Eigen::VectorXd& forces,
                                          const JointElements& elements, const double* q, const double* rate,
                                          const Eigen::VectorXd& change) const {
   Eigen::VectorXd all(coordinates());
   multiply_mass(elements, q, change.data(), all.data());
   double work = all.dot(Eigen::Map<const Eigen::VectorXd>(rate, coordinates()));
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    work -= forces[static_cast<Eigen::Index>(i)] * contacts[i].line(q).dot(contacts[i].difference(rate));
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    work -= forces[static_cast<Eigen::Index>(i)] * links[i].line(q).dot(links[i].difference(rate));
   }
   return work;
 }
 
 template <int D>
 Eigen::VectorXd BeamSystem<D>::bending_in(const double* rate) const {
-  Eigen::VectorXd wanted(static_cast<Eigen::Index>(resting_.size()));
-  for (std::size_t i = 0; i < resting_.size(); ++i) {
-    wanted[static_cast<Eigen::Index>(i)] = -resting_[i].difference(rate).squaredNorm() / resting_[i].distance;
-  }
+  Eigen::VectorXd wanted(static_cast<Eigen::Index>(links_.size()));
+  for (std::size_t i = 0; i < links_.size(); ++i) wanted[static_cast<Eigen::Index>(i)] = -links_[i].turning(rate);
   return wanted;
 }
 
@@ -122,17 +144,20 @@ void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorX
   const JointElements elements = elements_at(y, t);
   auto rate = y.segment(coordinates(), coordinates());
   std::vector<Contact> bearing = contacts;  // what rests pushes, but does not pull
+  const auto tied = static_cast<std::ptrdiff_t>(links_.size() - resting_.size());  // blocks push and pull
   while (!bearing.empty()) {
-    Eigen::VectorXd wanted(static_cast<Eigen::Index>(bearing.size())), after = rate;
+    std::vector<Link> links(links_.begin(), links_.begin() + tied);
+    links.insert(links.end(), bearing.begin(), bearing.end());
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(links.size())), after = rate;
     for (std::size_t i = 0; i < bearing.size(); ++i) {
       const double restitution = bearing[i].rests ? 0 : bearing[i].impact.restitution;
-      wanted[static_cast<Eigen::Index>(i)] = -restitution * gap(bearing[i], y).rate;
+      wanted[tied + static_cast<Eigen::Index>(i)] = -restitution * gap(bearing[i], y).rate;
     }
-    const auto momenta = press(bearing, elements, y.data(), wanted, after.data());
+    const auto momenta = press(links, elements, y.data(), wanted, after.data());
     if (!momenta) throw ComputationFailed("joints strike each other that have no inertia", t);
     const double pull = -rounding * momenta->cwiseAbs().maxCoeff();
     const auto pulls = [&](std::size_t i) {
-      return bearing[i].rests && (*momenta)[static_cast<Eigen::Index>(i)] < pull;
+      return bearing[i].rests && (*momenta)[tied + static_cast<Eigen::Index>(i)] < pull;
     };
     std::size_t pulled = 0;
     while (pulled < bearing.size() && !pulls(pulled)) ++pulled;
@@ -141,7 +166,7 @@ void BeamSystem<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorX
       bearing.erase(bearing.begin() + static_cast<std::ptrdiff_t>(pulled));
       continue;
     }
-    const double work = work_of_prescribed(bearing, *momenta, elements, y.data(), rate.data(), after - rate);
+    const double work = work_of_prescribed(links, *momenta, elements, y.data(), rate.data(), after - rate);
     layout_.tallies.add({.supports = work}, y);
     rate = after;
     return;
@@ -189,7 +214,7 @@ void BeamSystem<D>::strike(Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
-Eigen::VectorXd BeamSystem<D>::forces_at_contacts(const Eigen::VectorXd& y, double t) const {
+Eigen::VectorXd BeamSystem<D>::forces_of_links(const Eigen::VectorXd& y, double t) const {
   Eigen::VectorXd exact = y;
   impose(exact, t);
   orient(t);
@@ -204,22 +229,23 @@ Eigen::VectorXd BeamSystem<D>::forces_at_contacts(const Eigen::VectorXd& y, doub
   std::optional<Eigen::VectorXd> forces;
   if (solve_joints(elements, motions, a.data())) {
     if (pull) pull->complete(a.data());
-    forces = press(resting_, elements, q, bending_in(rate), a.data());
+    forces = press(links_, elements, q, bending_in(rate), a.data());
   }
-  return forces.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(resting_.size())));
+  return forces.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(links_.size())));
 }
 
 template std::vector<BeamSystem<2>::Contact> BeamSystem<2>::contacts() const;
 template BeamSystem<2>::Gap BeamSystem<2>::gap(const Contact&, const Eigen::VectorXd&) const;
 template void BeamSystem<2>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<2>::find_resting();
+template void BeamSystem<2>::tie_blocks(const double*);
 template void BeamSystem<2>::comes_to_rest(const Contact&, double) const;
 template void BeamSystem<2>::open_contact(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<2>::close_contact(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<2>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
-template std::optional<Eigen::VectorXd> BeamSystem<2>::press(const std::vector<Contact>&, const JointElements&,
+template std::optional<Eigen::VectorXd> BeamSystem<2>::press(const std::vector<Link>&, const JointElements&,
                                                              const double*, const Eigen::VectorXd&, double*) const;
-template double BeamSystem<2>::work_of_prescribed(const std::vector<Contact>&, const Eigen::VectorXd&,
+template double BeamSystem<2>::work_of_prescribed(const std::vector<Link>&, const Eigen::VectorXd&,
                                                   const JointElements&, const double*, const double*,
                                                   const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<2>::bending_in(const double*) const;
@@ -227,17 +253,18 @@ template std::vector<BeamSystem<3>::Contact> BeamSystem<3>::contacts() const;
 template BeamSystem<3>::Gap BeamSystem<3>::gap(const Contact&, const Eigen::VectorXd&) const;
 template void BeamSystem<3>::strike(Eigen::VectorXd&, double);
 template void BeamSystem<3>::find_resting();
+template void BeamSystem<3>::tie_blocks(const double*);
 template void BeamSystem<3>::comes_to_rest(const Contact&, double) const;
 template void BeamSystem<3>::open_contact(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<3>::close_contact(const Contact&, const Eigen::VectorXd&);
 template void BeamSystem<3>::collide(const std::vector<Contact>&, Eigen::VectorXd&, double);
-template std::optional<Eigen::VectorXd> BeamSystem<3>::press(const std::vector<Contact>&, const JointElements&,
+template std::optional<Eigen::VectorXd> BeamSystem<3>::press(const std::vector<Link>&, const JointElements&,
                                                              const double*, const Eigen::VectorXd&, double*) const;
-template double BeamSystem<3>::work_of_prescribed(const std::vector<Contact>&, const Eigen::VectorXd&,
+template double BeamSystem<3>::work_of_prescribed(const std::vector<Link>&, const Eigen::VectorXd&,
                                                   const JointElements&, const double*, const double*,
                                                   const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<3>::bending_in(const double*) const;
-template Eigen::VectorXd BeamSystem<2>::forces_at_contacts(const Eigen::VectorXd&, double) const;
-template Eigen::VectorXd BeamSystem<3>::forces_at_contacts(const Eigen::VectorXd&, double) const;
+template Eigen::VectorXd BeamSystem<2>::forces_of_links(const Eigen::VectorXd&, double) const;
+template Eigen::VectorXd BeamSystem<3>::forces_of_links(const Eigen::VectorXd&, double) const;
 
 }  // namespace vlbeam

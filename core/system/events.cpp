@@ -93,6 +93,12 @@ void BeamSystem<D>::check_leaving(const PendingEvent& due, double t) const {
   if (!(forward ? model_.end_releases : model_.start_releases)) {
     throw ran_into_support(joint(due.which).support.has_value(), due.direction, t);
   }
+  for (const Tie& tie : ties_) {
+    if (tie.behind != index_[due.which] && tie.ahead != index_[due.which]) continue;
+    throw ComputationFailed("the joint " + std::to_string(index_[due.which]) +
+                                ", which a block holds, comes to a free end: take a longer beam, or a shorter duration",
+                            t);
+  }
 }
 
 template <int D>

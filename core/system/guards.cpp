@@ -95,8 +95,8 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
   }
   const std::vector<Contact> contacts = this->contacts();
   Eigen::VectorXd forces;
-  if (!resting_.empty()) forces = forces_at_contacts(y, t);
-  Eigen::Index rests = 0;
+  if (!resting_.empty()) forces = forces_of_links(y, t);
+  auto rests = static_cast<Eigen::Index>(links_.size() - resting_.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const int part = static_cast<int>(i);
     if (contacts[i].rests) {

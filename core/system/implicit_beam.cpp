@@ -16,8 +16,8 @@ void ImplicitBeam<D>::rebuild() const {
   supports_.clear();
   if (with_multipliers()) supports_.adopt(holding().nodes());
   kinks_.adopt(system_, !with_multipliers());
-  contacts_.adopt(system_.resting());
-  layout_.multipliers = supports_.count() + kinks_.count() + contacts_.count();
+  links_.adopt(system_.links());
+  layout_.multipliers = supports_.count() + kinks_.count() + links_.count();
 }
 
 template <int D>
@@ -25,8 +25,7 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   std::vector<FieldRun> runs = layout().fields(system_.spin());
   supports_.add_fields(layout().multiplier(), runs);
   if (kinks_.count() > 0) runs.push_back({Field::slope_multiplier, first_kink_multiplier(), kinks_.count()});
-  for (Eigen::Index i = 0; i < contacts_.count(); ++i)
-    runs.push_back({Field::multiplier, first_contact_multiplier() + i});
+  for (Eigen::Index i = 0; i < links_.count(); ++i) runs.push_back({Field::multiplier, first_link_multiplier() + i});
   return runs;
 }
 
@@ -49,7 +48,7 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   a.setZero(q.size());
   a.head(own) = dydt_.segment(own, own);
   if (multipliers() == 0) return;
-  a.tail(contacts_.count()) = -system_.resting_forces() / reference_mass_;
+  a.tail(links_.count()) = -system_.link_forces() / reference_mass_;
   // what the equations of motion lack is what the constraints give
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
@@ -59,12 +58,12 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   a.segment(first_kink_multiplier(), kinks_.count()) = -kinks_.nearest(q.data(), free_.data(), reference_mass_);
 }
 
-/// With what rests against each other, and without what holds.
+/// With what links do, and without what holds.
 template <int D>
 double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                       double t, Eigen::VectorXd& r) const {
   const double lost = equations_.residual(q, v, a, t, r);
-  contacts_.add_forces(q.data(), a.data() + first_contact_multiplier(), reference_mass_, r.data());
+  links_.add_forces(q.data(), a.data() + first_link_multiplier(), reference_mass_, r.data());
   return lost;
 }
 
@@ -94,7 +93,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   if (const Spin* spin = system_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
   const Eigen::Index first = layout().multiplier();
   supports_.add_residual(held, q.data(), a.data() + first, reference_mass_, r.data(), r.data() + first);
-  contacts_.write_values(q.data(), r.data() + first_contact_multiplier());
+  links_.write_values(q.data(), r.data() + first_link_multiplier());
   return dissipation;
 }
 
@@ -109,7 +108,7 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
   };
   add(supports_.residual(holding().at(t), q.data(), v.data()));
   add(kinks_.residual(q.data(), v.data()));
-  add(contacts_.residual(q.data(), v.data()));
+  add(links_.residual(q.data(), v.data()));
   return largest;
 }
 
@@ -166,6 +165,20 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
 }
 
 template <int D>
+std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
+                                                          double h, double t) {
+  // spin and nodes that travel remember what they were told last
+  if (!system_.model().section.damped() || system_.spin() != nullptr || system_.moving_mesh() != nullptr) {
+    return std::nullopt;
+  }
+  y_ = 0.5 * (q0 + q1);
+  dydt_ = (q1 - q0) / h;
+  free_.setZero(q0.size());
+  a_.resize(q0.size());
+  return equations_.residual(y_, dydt_, free_, t + h / 2, a_);
+}
+
+template <int D>
 double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
                                             const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
                                             Eigen::VectorXd& r) {
@@ -208,7 +221,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   equations_.assemble(q, v, a, t, by, tangent_);
   constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
   add_constraints(q, a, t, constraint_scale_);
-  contacts_.add_tangent(q.data(), a.data() + first_contact_multiplier(), reference_mass_, constraint_scale_, tangent_);
+  links_.add_tangent(q.data(), a.data() + first_link_multiplier(), reference_mass_, constraint_scale_, tangent_);
   if (!with_multipliers()) holding().project(tangent_);
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
   const auto nut = system_.nut_place();
@@ -377,6 +390,7 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   const auto& joints = system_.model().joints;
   forces.on_masses.assign(joints.size(), Vec<double, D>::Zero());
   forces.guiding.assign(joints.size(), 0);
+  for (const JointPlace& place : places()) forces.mark_accelerations.push_back(a[place.mark]);
   at_guides([&](std::size_t i) {
     forces.guiding[static_cast<std::size_t>(system_.joint_index(i))] = free_[places()[i].mark];
   });
@@ -396,13 +410,13 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     if (system_.held(i) != nullptr)
       on_mass -= position<D>(free_.data(), places()[i].node);  // what holds it does the rest
   }
-  for (std::size_t c = 0; c < contacts_.all().size(); ++c) {  // and so does what it rests against
-    const auto& contact = contacts_.all()[c];
-    const Vec<double, D> push = system_.resting_forces()[static_cast<Eigen::Index>(c)] * contact.line(y.data());
+  for (std::size_t c = 0; c < links_.all().size(); ++c) {  // and so does what it is linked to
+    const auto& link = links_.all()[c];
+    const Vec<double, D> push = system_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
     for (std::size_t i = 0; i < places().size(); ++i) {
       auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
-      if (places()[i].node == contact.ahead) on_mass -= push;
-      if (places()[i].node == contact.behind) on_mass += push;
+      if (places()[i].node == link.ahead) on_mass -= push;
+      if (places()[i].node == link.behind) on_mass += push;
     }
   }
   return forces;

@@ -8,7 +8,7 @@
 #include "core/system/beam_system.hpp"
 #include "core/system/conserving_step.hpp"
 #include "core/system/equations.hpp"
-#include "core/system/node_contact.hpp"
+#include "core/system/node_link.hpp"
 #include "core/system/support_constraints.hpp"
 #include "core/tangent_weights.hpp"
 
@@ -20,9 +20,9 @@ namespace vlbeam {
 /// included).
 ///
 /// Its coordinates are those of BeamSystem's state, and behind them multipliers: with Constraints::multipliers those of
-/// supports, whose reactions they are; always those of conditions on the slopes of kinked joints, and of what rests
-/// against each other. The border of the tangent holds the joints' material coordinates, the slopes behind kinks, the
-/// positions of masses that have left, and the multipliers.
+/// supports, whose reactions they are; always those of conditions on the slopes of kinked joints, and of links:
+/// blocks, and what rests against each other. The border of the tangent holds the joints' material coordinates, the
+/// slopes behind kinks, the positions of masses that have left, and the multipliers.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
@@ -48,6 +48,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   Tallies tallies() const override { return system_.model().tallies(); }
   Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
+  std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, double h,
+                                           double t) override;
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                  const TangentWeights& by) override;
   void solve(Eigen::VectorXd& r) const override;
@@ -85,9 +87,9 @@ class ImplicitBeam final : public SecondOrderSystem {
     if (revision_ != system_.revision()) rebuild();
   }
   void rebuild() const;
-  /// Where the multipliers of the conditions on slopes and of contacts stand, behind those of supports.
+  /// Where the multipliers of the conditions on slopes and of links stand, behind those of supports.
   Eigen::Index first_kink_multiplier() const { return layout().multiplier() + supports_.count(); }
-  Eigen::Index first_contact_multiplier() const { return first_kink_multiplier() + kinks_.count(); }
+  Eigen::Index first_link_multiplier() const { return first_kink_multiplier() + kinks_.count(); }
   bool with_multipliers() const { return system_.model().constraints == Constraints::multipliers; }
   const std::vector<JointPlace>& places() const { return system_.places(); }
   const Held<D>& holding() const { return system_.holding(); }
@@ -136,7 +138,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   mutable Layout<D> layout_;
   mutable SupportConstraints<D> supports_;  ///< none where they are eliminated
   mutable Kinks<D> kinks_;
-  mutable RestingContacts<D> contacts_;
+  mutable NodeLinks<D> links_;
   mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
   double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
   BeamMatrix<D> tangent_;

@@ -50,8 +50,9 @@ struct OuterForces {
   std::vector<OnNode> guides;                                      ///< on inner nodes that supports hold
   /// With which the beam acts on the sliding masses [N], one of the model's joints each; zero off the beam.
   std::vector<Vec<double, D>> on_masses;
-  std::vector<double> guiding;  ///< of what guides the model's joints, on their material coordinates [N]
-  std::vector<double> drives;   ///< about the axis, of what drives angles on the beam [N m]
+  std::vector<double> guiding;             ///< of what guides the model's joints, on their material coordinates [N]
+  std::vector<double> mark_accelerations;  ///< of the joints on the beam, in the order of the chain [m/s^2]
+  std::vector<double> drives;              ///< about the axis, of what drives angles on the beam [N m]
 };
 
 /// Sums energies, momenta and length of a beam's axis, element by element, by a rule of one's own.

@@ -45,7 +45,9 @@ struct StrainExtremes {
     const double from_rest = eps - (rest != nullptr ? rest->axial : 0);
     strain.add(from_rest);
     // what is conjugate to Green's strain acts on the length before, the force on the length after
-    force.add(section.stiffness.EA * (from_rest + section.damping * rate) * (green ? stretch : 1));
+    const auto& k = section.stiffness;
+    const double pull = k.slackens() ? SlackLaw<double>(from_rest, k.slack_over).pull : from_rest;
+    force.add(k.EA * (pull + section.damping * rate) * (green ? stretch : 1));
   }
   template <int D>
   static double curvature_of(const BeamSection& section, const PointMotion<double, D>& at) {

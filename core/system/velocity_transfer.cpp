@@ -18,8 +18,8 @@ constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 template <int D>
 bool BeamSystem<D>::solve_mass(const JointElements& elements, const double* q, double* p) const {
   if (!solve_mass_apart(elements, q, p)) return false;
-  const auto count = static_cast<Eigen::Index>(resting_.size());
-  return count == 0 || press(resting_, elements, q, Eigen::VectorXd::Zero(count), p);
+  const auto count = static_cast<Eigen::Index>(links_.size());
+  return count == 0 || press(links_, elements, q, Eigen::VectorXd::Zero(count), p);
 }
 
 template <int D>

@@ -26,11 +26,17 @@ std::string point_text(const Point& point, int dimension) {
 std::string beam_text(const Scene& scene) {
   std::string text = std::to_string(scene.beam.elements) + " elements " + std::string(to_string(scene.beam.element)) +
                      ", " + std::string(to_string(scene.formulation)) + ", " + six_digits(beam_length(scene)) + " m";
-  for (const SlidingJointSpec& joint : sliding_joints(scene)) {
+  const auto joints = sliding_joints(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const SlidingJointSpec& joint = joints[i];
+    if (in_block(scene, i)) continue;
     text += joint.support == SupportType::pin     ? "; runs through a ring"
             : joint.support == SupportType::clamp ? "; runs through a sleeve"
             : joint.x                             ? "; " + six_digits(joint.mass) + " kg is guided along it"
                                                   : "; " + six_digits(joint.mass) + " kg slides on it";
+  }
+  for (const BlockSpec& block : scene.blocks) {
+    text += "; a block of " + six_digits(block.mass) + " kg with " + std::to_string(block.joints.size()) + " sheaves";
   }
   if (scene.spin) text += "; spins";
   if (scene.flow) text += "; flows";

@@ -290,12 +290,17 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
            [](const Sample& s) { return s.beam_length_rate; });
   add_energy(q, scene);
   for (const std::size_t end : {0U, 1U}) {
-    if (!(end == 0 ? scene.start : scene.end).winds_freely()) continue;
+    if (!(end == 0 ? scene.start : scene.end).pays_out()) continue;
     const std::string name = end == 0 ? "start" : "end";
     q.number("winches/" + name + "_length", "winch_" + name + "_length", "m", "beam that the winch there has paid out",
              [end](const Sample& s) { return s.winches[end]->length; });
     q.number("winches/" + name + "_rate", "winch_" + name + "_rate", "m/s", "its rate",
              [end](const Sample& s) { return s.winches[end]->rate; });
+    q.number("winches/" + name + "_tension", "winch_" + name + "_tension", "N", "with which the beam pulls at it",
+             [end](const Sample& s) { return s.winches[end]->tension; });
+    q.number("winches/" + name + "_power", "winch_" + name + "_power", "W",
+             "of its push on the beam, without the energy that the beam brings along",
+             [end](const Sample& s) { return s.winches[end]->power; });
   }
   q.vector("momentum", "momentum", "kg m/s", "linear momentum of beam and mass",
            [](const Sample& s) -> Point { return s.momentum; });

@@ -244,6 +244,13 @@ class Reader {
       if (!option.range.contains(number)) return false;
       member = static_cast<int>(number);
       return true;
+    } else if constexpr (std::same_as<T, std::vector<int>>) {
+      if (!value.is_array()) return false;
+      member.assign(value.size(), 0);
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!read(value[i], option, member[i])) return false;
+      }
+      return true;
     } else if constexpr (std::same_as<T, std::vector<double>>) {
       if (!value.is_array() || !all_numbers(value)) return false;
       member = value.get<std::vector<double>>();
@@ -361,7 +368,9 @@ Scene scene_with_every_part() {
     support->feed.emplace();
     support->held_tension.emplace();
     support->drum.emplace();
+    support->end_stop.emplace();
   }
+  scene.blocks.emplace_back();
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();

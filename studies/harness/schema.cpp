@@ -180,6 +180,8 @@ class SceneSchemaBuilder {
       return {{"type", "array"}, {"items", number("number", option.range)}, {"minItems", 2}, {"maxItems", 3}};
     } else if constexpr (std::same_as<T, std::array<double, 4>>) {
       return {{"type", "array"}, {"items", number("number", option.range)}, {"minItems", 4}, {"maxItems", 4}};
+    } else if constexpr (std::same_as<T, std::vector<int>>) {
+      return array_of(number("integer", option.range));
     } else if constexpr (std::same_as<T, std::vector<double>>) {
       return {{"type", "array"}, {"items", number("number", option.range)}};
     } else if constexpr (std::same_as<T, std::vector<Point>>) {

@@ -121,9 +121,9 @@ TEST(Mooring, ARodBouncesOffTheGroundAndTheLedgerCloses) {
 TEST(Mooring, TheGroundPushesOneWayAndSetsInSmoothly) {
   FloorLaw<2> floor{.level = 1, .stiffness = 50, .depth = 0.1};
   EXPECT_FALSE(floor.acts({3, 1}));
-  EXPECT_EQ(floor.pressing(0.1), 50 * 0.05);
-  EXPECT_NEAR((floor.pressing(0.1 + 1e-6) - floor.pressing(0.1 - 1e-6)) / 2e-6, 50, 1e-3);
-  EXPECT_EQ(floor.pressing(1.05), 50.0);
+  EXPECT_EQ(floor.spring().push(0.1), 50 * 0.05);
+  EXPECT_NEAR((floor.spring().push(0.1 + 1e-6) - floor.spring().push(0.1 - 1e-6)) / 2e-6, 50, 1e-3);
+  EXPECT_EQ(floor.spring().push(1.05), 50.0);
   const Vec<double, 2> f = floor.force(LinePoint<double, 2>{{0, 0.5}, {1, 0}, {0, 0}});
   EXPECT_EQ(f[0], 0);
   EXPECT_EQ(f[1], 50 * 0.45);

@@ -33,6 +33,9 @@ struct Dual {
   }
   friend Dual operator-(const Dual& a) { return {-a.value, -a.rate}; }
   friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
+  friend Dual clamped(const Dual& a, double low, double high) {
+    return a.value < low ? Dual(low) : Real(high) < a.value ? Dual(high) : a;
+  }
   friend Dual sqrt(const Dual& a) {
     using std::sqrt;
     const Real root = sqrt(a.value);

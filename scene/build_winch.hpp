@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/system/beam_model.hpp"
+#include "core/system/observation.hpp"
+#include "scene/result.hpp"
+#include "scene/scene.hpp"
+
+namespace vlbeam {
+
+/// A joint's material coordinate, from its way along the beam.
+TimeFunction travelling(double from, const TimeFunction& way);
+
+/// Makes a joint of an end of the beam through which it is fed; `length` [m] is the beam's at t = 0.
+template <int D>
+void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& model);
+
+/// What the winch there does at an instant, by the accelerations and forces that belong to it.
+template <int D>
+WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>& model, const ChainState<D>& chain,
+                          const OuterForces<D>& forces, const Vec<double, D>& gravity, double t);
+
+}  // namespace vlbeam
