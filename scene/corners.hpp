@@ -22,22 +22,22 @@ bool may_have_corners(const CurveSpec& curve);
 /// How near a joint stands to a corner that is its own, over the length of the beam.
 constexpr double at_corner = 1e-9;
 
-/// A node of a rope at which a lumped mass hangs, a force acts, or the drawn axis has a corner that no joint could
-/// reach: the rope has two slopes there, as at a joint that keeps its place. Where joints with kinks slide along a beam
-/// that bends, its lumped masses stop them so, too, but with one slope.
+/// A node of a rope with two slopes, as at a joint that keeps its place. A lumped mass hangs there, a force acts, or
+/// the drawn axis has a corner that no joint could reach. Where joints with kinks slide along a beam that bends, its
+/// lumped masses stop them in the same way, with one slope.
 struct Knot {
   int node;
   JointSlopes slopes;
 };
-/// All of a scene's, in order. Elements, integrators and joints that do not go with them have none.
+/// All knots of a scene, in order. There are none with elements, integrators and joints that do not go with them.
 std::vector<Knot> knots(const Scene& scene);
 
-/// Which corners of the drawn axis become round: those of a rope at which neither a joint nor a knot stands [m]. The
-/// rope gets shorter by them.
+/// Which corners of the drawn axis are rounded off [m]: those of a rope at which neither a joint nor a knot stands.
+/// That shortens the rope.
 std::vector<double> rounded_corners(const Scene& scene, const Axis<3>& drawn);
 
-/// Where a joint stands on an axis with these breaks, the drawn one or that with round corners: its position is counted
-/// along the drawn one [m].
+/// Where a joint stands on an axis with these breaks [m]: on the drawn axis, or on the one with round corners. Its
+/// position is counted along the drawn axis.
 double position_on_axis(const CurveSpec& curve, const std::vector<double>& breaks, double position);
 
 }  // namespace vlbeam

@@ -8,43 +8,43 @@ namespace vlbeam {
 
 // What follows from a scene where it does not say.
 
-/// A scene to which nothing but the setting is given. Options that depend on others stay open; what they stand for is
-/// said by the functions below.
+/// A scene of which only the setting is given. Options that depend on others stay open; the functions below say what
+/// they stand for.
 Scene scene_in(SceneSetting setting);
 
-/// Gauss points an element that a scene asks for, its element's default filled in.
+/// Gauss points an element: those that the scene asks for, or its element's default.
 int quadrature_points(const Scene& scene);
 
-/// Where the axial strain of the scene's elements is summed: if it does not say so at nodes and middle where EA l^2/EI
-/// of an element of standard length is above 100, else at all points; of ropes, EI = 0, at all points, too.
+/// Where the axial strain of the scene's elements is summed. By default: at nodes and middle if EA l^2/EI of an element
+/// of standard length is above 100, else at all points; at all points of ropes (EI = 0), too.
 AxialStrain axial_strain(const Scene& scene);
 
 /// Length of the beam [m] and standard element length L_std [m].
 double beam_length(const Scene& scene);
 double standard_length(const Scene& scene);
 
-/// Whether the beam's axis is curved: corners do not count, where joints and knots stand.
+/// Whether the beam's axis is curved. Corners at joints and knots do not count.
 bool is_curved(const Scene& scene);
 
 /// Whether strains are measured from a shape other than a straight, unstrained one.
 bool has_rest_shape(const Scene& scene);
 
-/// Whether sections have frames, so that the beam bends about two axes and twists. If the scene does not say so they
-/// have in space where the beam is curved at rest and bends, unless it says that nothing leaves its plane, and where
-/// its two bending stiffnesses differ.
+/// Whether sections have frames, so that the beam bends about two axes and twists. By default they have, in space, if
+/// the two bending stiffnesses differ, or if the beam is curved at rest and bends, unless the scene says that nothing
+/// leaves its plane.
 bool has_frames(const Scene& scene);
 
-/// How the elements of the scene follow a curved axis: evenly; in the paper's setting exactly, where its elements can
-/// and no mass slides along a beam that is curved at rest.
+/// How the elements of the scene follow a curved axis: evenly. In the paper's setting exactly, if its elements can, and
+/// if no mass slides along a beam that is curved at rest.
 AxisForm axis_form(const Scene& scene);
 
-/// Where a cut's new node is, and how the scene's elements are merged: if it does not say so, both relaxed with sampled
-/// axial strain. Else cuts are exact, and merges are by the paper's fit, or, where the beam is curved at rest, with the
-/// weights of the arc.
+/// Where a cut's new node is, and how the scene's elements are merged. By default both are relaxed with sampled axial
+/// strain. Without it cuts are exact; merges are by the paper's fit, or with the weights of the arc if the beam is
+/// curved at rest.
 CutPolicy cut_policy(const Scene& scene);
 MergePolicy merge_policy(const Scene& scene);
 
-/// Whether an element's weights are 1, and stay so.
+/// Whether an element's weights are 1 and stay 1.
 inline bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }
 
 /// What slides along the beam, in order; a sliding mass is one that is free.
@@ -87,8 +87,8 @@ inline std::string joint_key(const Scene& scene, std::size_t which = 0) {
   return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/" + std::to_string(which);
 }
 
-/// What the beam's slopes do at it: in statics a sleeve has one on each side of it, in its direction, so that the
-/// stretch may jump there as the tension does.
+/// What the beam's slopes do at the joint. In statics a beam has a slope on each side of a sleeve, both in its
+/// direction, so that the stretch may jump there as the tension does.
 inline JointSlopes joint_slopes(const Scene& scene, const SlidingJointSpec& joint) {
   const bool sleeve = scene.analysis == Analysis::statics && joint.support == SupportType::clamp;
   return sleeve ? JointSlopes::tangent : joint.slopes;
@@ -105,13 +105,13 @@ inline StaticJoints static_joints(const Scene& scene) {
                                                                            : StaticJoints::held);
 }
 
-/// How weights follow the ends of the scene's elements: if it does not say so they are frozen, but transported where
-/// the beam is curved at rest.
+/// How weights follow the ends of the scene's elements: by default they are frozen, but transported if the beam is
+/// curved at rest.
 WeightTransport weight_transport(const Scene& scene);
 
 /// Whether several joints may come to rest against supports and each other.
 bool joints_may_rest(const Scene& scene);
-/// Between the nodes of joints that touch, or of one and a support that it strikes, over the length of an element.
+/// Distance of the nodes of joints that touch, or of a joint and the support that it strikes, over an element's length.
 inline double contact_distance(const Scene& scene) { return scene.contact.value_or(ContactSpec{}).distance; }
 /// Distance from a free end at which a joint of the scene leaves [m].
 double separation_distance(const Scene& scene, const SlidingMassSpec& joint);
@@ -126,14 +126,14 @@ AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 /// Whether a scene flows or has rotary inertia: the nodes of its beam then travel as prescribed, or stand still so.
 inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_inertia != BendingInertia::none; }
 
-/// Whether its samples have what FlowSample holds: whatever works that is no support.
+/// Whether its samples have a FlowSample: anything but supports works on the beam.
 inline bool has_flow_sample(const Scene& scene) {
   const bool acts = !scene.loads.empty() || scene.fluid || scene.ground;
   return flows(scene) || scene.spin || acts || scene.start.winds_freely() || scene.end.winds_freely();
 }
 
-/// What such a scene starts with where it does not say: the spin of its first drive [rad/s], and the velocity of the
-/// matter along the axis at which node 0 stands still [m/s].
+/// What such a scene starts with by default: the spin of its first drive [rad/s], and the velocity of the matter along
+/// the axis with which node 0 stands still [m/s].
 double initial_spin(const Scene& scene);
 double initial_velocity(const Scene& scene);
 

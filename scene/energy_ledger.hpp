@@ -7,8 +7,8 @@
 
 namespace vlbeam {
 
-/// Where the energy of a run came from and went [J]: change = supplied + at_events + at_contacts + unexplained, of the
-/// total that counts what is dissipated as still there. By a 25-point rule, independent of the model's own points.
+/// Where the energy of a run came from and went [J]: change = supplied + at_events + at_contacts + unexplained. The
+/// total includes what is dissipated. It is summed by a 25-point rule, independent of the model's own points.
 struct EnergyLedger {
   double change = 0;       ///< of the total, from the first sample to the last
   double supplied = 0;     ///< by supports that move, gravity that grows, loads, and through the ends
@@ -24,17 +24,17 @@ struct EnergyLedger {
 };
 EnergyLedger energy_ledger(const RunResult& result);
 
-/// All the energy there is at a sample [J]: stored (of gravity what has changed since the `first` one), dissipated and
-/// supplied, in magnitude.
+/// All energy at a sample [J], by magnitudes: stored (that of gravity since the sample `first`), dissipated and
+/// supplied.
 double energy_there_is(const Sample& first, const Sample& now);
 
-/// Ends a run that gains more than half of the energy there is, at the instant when it is most, from nowhere: an
-/// unstable computation. `gain` is that of the model's own energy between events at `t`, over what is supplied [J].
-/// Throws ComputationFailed.
+/// Ends an unstable computation: a run that gains more than half of all its energy, at the instant when that is most,
+/// from nowhere. `gain` is what the model's own energy has gained between events until `t`, beyond what was supplied
+/// [J]. Throws ComputationFailed.
 void check_source_of_energy(const Scene& scene, double most, double gain, double t);
 
-/// A warning for each of: energy at events, energy between them, energy that nothing explains, that is more than 1 % of
-/// the largest kinetic energy; and for events that should have kept the energy and could not.
+/// A warning for each of these that exceeds 1 % of the largest kinetic energy: energy at events, energy between them,
+/// energy that nothing explains. And one for events that should have kept the energy and could not.
 std::vector<Warning> energy_warnings(const Scene& scene, const RunResult& result);
 
 }  // namespace vlbeam

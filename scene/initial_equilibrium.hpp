@@ -24,9 +24,9 @@ struct InitialEquilibrium {
   StaticSample seen;
 };
 
-/// The equilibrium of a scene under what acts at t = 0: gravity and loads as they are then, supports and joints where
-/// they are. Calls `goes_on` at every equilibrium on the way; nothing is returned where it says false. Throws
-/// ComputationFailed where there is no equilibrium.
+/// The equilibrium of a scene under gravity and loads as they are at t = 0, with supports and joints where they are
+/// then. Calls `goes_on` at every equilibrium on the way, and returns nothing if it says false. Throws
+/// ComputationFailed if there is no equilibrium.
 template <int D>
 std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, const std::function<bool()>& goes_on);
 

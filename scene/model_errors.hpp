@@ -32,7 +32,7 @@ inline std::string pointer_to(const std::string& field) {
   return field;
 }
 
-/// What `function` makes of a scene. Where a room below finds fault with the model, the error names the key.
+/// Calls `function`, which works on a scene. If the core finds fault with the model, the error names the scene's key.
 template <class Function>
 auto of_scene(const Function& function) {
   try {

@@ -7,7 +7,7 @@
 
 namespace vlbeam {
 
-/// What in a scene, or in what came of it, is hardly meant: it names the key whose unit or value to look at.
+/// Warns of numbers in a scene, or in its result, that look wrong. Each names the key whose unit or value to check.
 std::vector<Warning> implausible(const Scene& scene, const RunResult& result);
 
 }  // namespace vlbeam

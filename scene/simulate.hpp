@@ -15,8 +15,8 @@ using ProgressCallback = std::function<bool(double t)>;
 /// Throws InvalidInput for a scene that cannot be modelled; a computation that breaks down is reported in the
 /// result's status, with everything computed until then.
 ///
-/// `checkpoints`, where it is not null, says from which checkpoint of the same scene the run goes on, with the digits
-/// of one that was never interrupted, and when it leaves some: see integrate(). Not in statics.
+/// `checkpoints`, if not null, says from which checkpoint of the same scene the run goes on, and when it leaves some:
+/// see integrate(). The digits are those of a run that was never interrupted. Not in statics.
 RunResult simulate(const Scene& scene, const ProgressCallback& progress = {}, const Checkpoints* checkpoints = nullptr);
 
 }  // namespace vlbeam

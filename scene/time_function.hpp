@@ -20,21 +20,21 @@ inline bool is_zero(const TimeSpec& f) {
   return f.value == 0 && f.rate == 0 && f.acceleration == 0 && f.amplitude == 0 && no_table;
 }
 
-/// What the rate of a function of time may be at t = 0, but for its ramp: a cosine, of phase 90 degrees, has a rate of
-/// rounding.
+/// Bound of the rate of a function of time at t = 0, without its ramp. A rate far below it is rounding: that of a
+/// cosine (a phase of 90 degrees) is not quite 0.
 inline double largest_rate(const TimeSpec& f) { return std::abs(f.rate) + std::abs(f.amplitude * f.frequency); }
 
-/// Of the rates between the entries of its table [1/s], and the shortest time between two [s]; 0 without one.
+/// The steepest rate between two entries of its table [1/s], and the shortest time between two [s]; 0 without a table.
 double steepest(const TimeSpec& f);
 double shortest_interval(const TimeSpec& f);
 
-/// What a scene's load, or a displacement of its support, is as time goes on; in statics, where time is the load
-/// factor, what is there after all ramps, times that.
+/// A load of a scene, or a displacement of a support, as a function of time. In statics time is the load factor: it is
+/// the value after all ramps, times the factor.
 inline TimeFunction acting(const TimeSpec& spec, Analysis analysis) {
   return analysis == Analysis::statics ? steadily(0, spec.value) : time_function(spec);
 }
 
-/// What of it does not grow with the load factor: directions and places.
+/// The same for directions and places, which do not grow with the load factor.
 inline TimeFunction beside_loads(const TimeSpec& spec, Analysis analysis) {
   return analysis == Analysis::statics ? steadily(spec.value, 0) : time_function(spec);
 }

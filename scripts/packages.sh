@@ -24,7 +24,7 @@ if [[ ${1:-build} == theory ]]; then
   packages+=(chromium fonts-stix fonts-dejavu-core)
 fi
 if [[ ${1:-build} == ci ]]; then
-  packages+=(ccache dpkg-dev pkg-config help2man python3-pytest python3-matplotlib python3-pandas mypy chromium)
+  packages+=(ccache dpkg-dev file procps pkg-config help2man python3-pytest python3-matplotlib python3-pandas mypy chromium)
   packages+=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 python3-jsonschema python3-meshio)
 fi
 

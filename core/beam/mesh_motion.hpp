@@ -8,8 +8,8 @@
 
 namespace vlbeam {
 
-/// Index of the element between nodes at `marks` that holds the material point x; of the first or the last one beyond
-/// the ends.
+/// Index of the element, between nodes at `marks`, that holds the material point x. Beyond the ends it is that of the
+/// first or the last element.
 inline int element_at(const std::vector<Prescribed>& marks, double x) {
   const auto next = std::upper_bound(marks.begin() + 1, marks.end() - 1, x,
                                      [](double at, const Prescribed& node) { return at < node.value; });

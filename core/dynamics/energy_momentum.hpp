@@ -17,8 +17,8 @@ struct EnergyMomentumOptions {
 /// momentum by the discrete gradient of the Lagrangian (SecondOrderSystem::conserving_residual). Second order,
 /// symmetric in time; steps of fixed length unless Newton stalls.
 ///
-/// What is left of an iteration goes straight into the energy, so that Newton's iteration runs until rounding stops it:
-/// on velocities, for the rounding of q_1 - q_0 is no error of energy then. Its matrix is the tangent of the equations
+/// An iteration that stops early would change the energy. So Newton's iteration runs until rounding stops it. Its
+/// unknowns are velocities, so that rounding of q_1 - q_0 changes no energy. Its matrix is the tangent of the equations
 /// of motion in the middle of the step, which differs from the residual's derivative by terms of first order in the
 /// step's change of shape; it is kept from step to step while the iteration contracts.
 /// `system` is the stepper's own: it keeps a factored matrix in it.

@@ -23,8 +23,8 @@ struct SectionState {
   double spin = 0;
 };
 
-/// What a node's angle is counted from: a direction d across a tangent t, which the smallest rotation takes along with
-/// the tangent. The section there has the direction d(s, phi), across the slope s, turned about it by phi.
+/// The direction from which a node's angle counts: d, across a tangent t. When the tangent turns, the smallest rotation
+/// turns d with it. The section there has the direction d(s, phi), across the slope s, turned about it by phi.
 ///
 /// As it turns by dphi and its slope by ds, its spin about the tangent is dphi + A.ds,
 ///   A = -(t x s)/(|s| (|s| + t.s)),

@@ -26,9 +26,9 @@ struct JointPower {
 };
 
 /// M a = f of a chain with sliding joints. Runs of resting elements are eliminated with factors of their own, then the
-/// open nodes beside the joints: to them, a component is like another. What is left are the joints, a block tridiagonal
-/// system of one block each: position and slope, the slope behind it if it has one, the material coordinate, and what
-/// ties the slopes. The mass is positive definite and what ties the slopes comes last, so that L D L^T needs no pivots.
+/// open nodes beside the joints, whose components are all alike. The joints are left: a block tridiagonal system of one
+/// block each. A block holds position, slope, the slope behind the joint if it has one, the material coordinate, and
+/// the multipliers of slopes. The mass is positive definite and multipliers come last, so that L D L^T needs no pivots.
 /// Cost: one sweep over the resting elements, and one small dense block a joint.
 template <int D>
 class JointChain {
@@ -98,15 +98,15 @@ class JointChain {
   void add_conditions(const JointMotion<D>& motion, JointSlopes slopes, Station& station);
   /// Gives a joint's material coordinate its acceleration.
   void guide(std::size_t station, double acceleration);
-  /// Remembers what the node of a held joint that rubs has for equations.
+  /// Keeps the rows of a held joint with friction, before hold() replaces them.
   void keep_rows(std::size_t station);
-  /// With what a guide acts on the material coordinate [N], less what it bears of friction.
+  /// The force of a guide on the material coordinate [N], without the friction that it bears.
   double guide_force(std::size_t station) const;
   bool factor();
   /// Solves in place of each station's `rhs`.
   void substitute();
   std::optional<double> add_friction(const std::vector<JointMotion<D>>& motion);
-  /// What acts on the node of a held joint that rubs, less what the accelerations in `rhs` take of it [N]; 0 elsewhere.
+  /// Forces on the node of a held joint with friction, less its inertia by the accelerations in `rhs` [N]; else 0.
   Vec<double, D> lacking(std::size_t station, bool with_forces) const;
   /// What holds the joint holds it: there, a = 0.
   void hold(std::size_t station);

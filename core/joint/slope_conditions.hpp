@@ -19,8 +19,8 @@ class SlopeConditions {
   using Form = Eigen::Matrix<double, 2 * D, 2 * D>;
 
   SlopeConditions() = default;
-  /// In space two components of r_x- x r_x+ say all: the one along axis `omitted` is left out, along which r_x- must
-  /// not vanish.
+  /// In space two components of r_x- x r_x+ = 0 imply the third. So the component along axis `omitted` is left out;
+  /// r_x- must not vanish along that axis.
   SlopeConditions(JointSlopes slopes, int omitted) {
     if (slopes == JointSlopes::equal_stretch) {
       Form& form = add();

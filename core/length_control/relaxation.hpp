@@ -15,11 +15,11 @@ struct GivingNode {
   bool position, slope;
 };
 
-/// Moves what gives way, while all other nodes stay, until `excess` [J] of the strain energy by `rule` is gone or the
-/// least is reached, by Newton's iteration. Slopes behind kinks stay. Returns the iterations taken.
-/// What it is for: a published cut keeps the curve, and a merge the outer nodes, but where the axial strain is sampled,
-/// or locks, the energy of that curve in other elements is another one, the larger the stiffer the beam. No more than
-/// what the event has created is taken away: a beam in motion is not at its least energy.
+/// Moves what gives way, by Newton's iteration, until `excess` [J] of the strain energy by `rule` is gone or the least
+/// is reached. All other nodes and slopes behind kinks stay. Returns the iterations taken. Why: a published cut keeps
+/// the curve, and a merge the outer nodes. Where the axial strain is sampled, or locks, new elements store another
+/// energy in that curve, the more the stiffer the beam. Only what the event has created is taken away, because a beam
+/// in motion is not at its least energy.
 template <int D>
 int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRule& rule, const MovingLaw<D>& law,
           double excess = std::numeric_limits<double>::infinity());

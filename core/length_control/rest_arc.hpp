@@ -7,11 +7,11 @@
 
 namespace vlbeam {
 
-/// Weights of MergePolicy::rest_arc for element k of `chain`, which lies along `curve` at rest: those of the evenly run
-/// arc that turns as much as the curve does there; beside a joint, over the `longest` stretch that the element will
-/// cover before it is cut. Weights that are not symmetric about the element's middle displace its matter along the
-/// curve, all of it to one side, by theta^4 of its length; transported ones are symmetric at one length only: where it
-/// matters most.
+/// Weights of MergePolicy::rest_arc for element k of `chain`, which lies along `curve` at rest. They are those of an
+/// arc with even parametrization that turns as much as the curve does there; beside a joint, as much as over the
+/// `longest` length that the element reaches before it is cut. Why the longest: weights that are not symmetric about
+/// the element's middle displace all its matter to one side, by theta^4 of its length. Transported weights are
+/// symmetric at one length only; there it matters most.
 template <int D>
 WeightFunction rest_arc(const Axis<D>& curve, const ChainState<D>& chain, int k, double longest) {
   const auto i = static_cast<std::size_t>(k);

@@ -5,10 +5,10 @@
 
 namespace vlbeam {
 
-/// An element cut in two at the material coordinate `x`: curve and parametrization stay what they were
-/// (Ding & Ouyang 2022, Eq. 21-28); the new node is fixed and moves with the material point it sits on. Of a beam that
-/// is curved at rest, it follows the rest curve: what the element's rest shape is off that curve the beam's node is
-/// moved by too, turned as the beam is there, so that strains stay what they were.
+/// An element cut in two at the material coordinate `x`. Curve and parametrization stay (Ding & Ouyang 2022, Eq.
+/// 21-28); the new node is fixed to its material point. If the beam is curved at rest, the new node stands on the rest
+/// curve in the rest shape. The old rest shape was a little off that curve; the node of the beam is moved by the same
+/// distance, turned as the beam is, so that strains stay.
 template <int D>
 struct Segmentation {
   double x;
@@ -18,7 +18,7 @@ struct Segmentation {
   Vec<double, D> rest_r, rest_r_x;  ///< the new node in the rest shape, where there is one
 };
 
-/// The rotation that takes the rest shape of element k to where it is, as well as one rotation can.
+/// The rotation that brings the rest shape of element k nearest to its present shape.
 template <int D>
 Eigen::Matrix<double, D, D> rotation_from_rest(const ChainState<D>& chain, int k) {
   const auto q = chain.coordinates(k);
@@ -31,7 +31,7 @@ Eigen::Matrix<double, D, D> rotation_from_rest(const ChainState<D>& chain, int k
   return best_rotation<D>(points(chain.rest_nodes(k)), points(q.e));
 }
 
-/// Cuts element k of `chain` at `x`; beyond its ends, where its curve and its motion go on to.
+/// Cuts element k of `chain` at `x`. Beyond its ends, its curve and its motion are continued to there.
 template <int D>
 Segmentation<D> segment(const ChainState<D>& chain, int k, double x, WeightTransport transport) {
   const auto q = chain.coordinates(k), rate = chain.rates(k);

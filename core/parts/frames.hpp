@@ -48,10 +48,10 @@ class Frames final : public Part<3> {
 
   /// Says of each node whether its angle is held.
   void hold(const std::vector<bool>& held) { held_ = held; }
-  /// Of an array of forces: leaves on slopes what the axis alone answers to, and changes torques for the rates of the
-  /// spins that they make: none where the angle is `held`.
+  /// In an array of forces: keeps on slopes the part that moves the axis, and replaces torques by the accelerations of
+  /// spin that they cause, 0 where the angle is `held`.
   void solve_spins(const double* q, const double* rate, double* force) const;
-  /// From these, and the accelerations of slopes, those of the angles, in place.
+  /// In place: makes of these, and of the accelerations of slopes, those of the angles.
   void complete(const double* q, const double* rate, double* a) const;
 
   /// How far tangents have turned from what angles are counted from: positive where that is due to follow.

@@ -56,7 +56,7 @@ class Spin {
   Eigen::Index coordinates() const { return chain_.coordinates(); }
   /// Where the angle of a node stands among them.
   Eigen::Index angle(int node) const { return Eigen::Index{chain_.per_node()} * node; }
-  /// What they are, the first of them at `first`.
+  /// The runs of angles and twists among a state whose coordinates begin at `first`.
   std::vector<FieldRun> fields(Eigen::Index first) const;
   /// Angles and their rates at t = 0.
   void start(double* q, double* rate) const;

@@ -82,7 +82,7 @@ class SpinTangent {
   BorderedBlockTridiagonal<2> band;
 
   void assemble(const SpinChain& chain, const SpinChain::Nodes& nodes, const TangentWeights& by);
-  /// Rows of driven angles become those of unit matrices times `by_a`. Returns false where it is singular.
+  /// Replaces the row of each driven angle by that of the unit matrix, times `by_a`. False if the matrix is singular.
   bool factor(const SpinChain& chain, double by_a);
   /// Solves in place.
   void solve(double* angles) const;

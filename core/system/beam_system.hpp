@@ -302,7 +302,7 @@ class BeamSystem final : public EventedOde {
     Remeshing remeshing;  ///< of the mesh at a joint
   };
   PendingEvent due(const Guard& guard, const Eigen::VectorXd& y) const;
-  /// That, and whatever else of the mesh is due at the same instant, the first one first.
+  /// That event, and all others of the mesh that are due at the same instant, in their order.
   std::vector<PendingEvent> all_due(int index, const Eigen::VectorXd& y, double t) const;
   /// Neighbouring joints ask for the same cut or the same merge: one of them does it.
   void drop_doubles(std::vector<PendingEvent>& dues) const;

@@ -412,7 +412,13 @@ int plot_command(const PlotArguments& arguments) {
     throw InvalidInput("--quantity", "this option", "it draws against time by itself: leave out --what");
   }
   const std::string what = arguments.what.empty() && arguments.quantities.empty() ? "shape" : arguments.what;
-  plot_run(read_run_file(arguments.report), what, arguments.quantities, arguments.look, arguments.figure);
+  const RunFile run = read_run_file(arguments.report);
+  plot_run(run, what, arguments.quantities, arguments.look, arguments.figure);
+  constexpr std::size_t smooth = 25;  // frames
+  if (const std::size_t frames = run.configurations().size(); what == "animation" && frames < smooth) {
+    std::cerr << frames << (frames == 1 ? " frame" : " frames")
+              << ": for a smooth motion, run the scene with --frames 100\n";
+  }
   return done;
 }
 

@@ -162,9 +162,11 @@ int dispatch(int argc, char** argv) {
   plot->add_option("report", plot_arguments.report, "Report file")->required();
   plot->add_option("--what", plot_arguments.what,
                    "shape (default), energy, tip, joint, strain, tension, curvature; strain-field, tension-field, "
-                   "curvature-field, over the beam and time; or animation (GIF)");
+                   "curvature-field, over the beam and time; or animation");
   plot->add_option("--quantity", plot_arguments.quantities, "Draw quantities of one unit against time instead");
-  plot->add_option("-o,--out", plot_arguments.figure, "Figure: a name ending in .svg, .png, .pdf, or .gif")->required();
+  plot->add_option("-o,--out", plot_arguments.figure,
+                   "Figure: a name ending in .svg, .png or .pdf; an animation .gif or .mp4")
+      ->required();
   plot->add_flag("--column", plot_arguments.look.column, "As wide as a journal's column, 84 mm, with letters of 8 pt");
   plot->add_flag("--bare", plot_arguments.look.bare, "No title");
 

@@ -1,6 +1,6 @@
 # Semicircle: distance from the circle and spurious energy against the number of elements.
 width = 1100; height = 470
-load folder . "/style.gp"
+load folder . "/../style.gp"
 set multiplot layout 1,2 title "Semicircle of radius 2 m" margins 0.09,0.97,0.14,0.84 spacing 0.12,0.1
 set logscale xy
 set format y "10^{%T}"

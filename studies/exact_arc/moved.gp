@@ -1,6 +1,6 @@
 # Distance from the circle while the joint between two arcs slides along it.
 width = 1300; height = 470
-load folder . "/style.gp"
+load folder . "/../style.gp"
 angles = "20 40 60"
 set multiplot layout 1,3 title "Two arc elements, the joint between them moved along the circle" margins 0.08,0.8,0.15,0.82 spacing 0.06,0.1
 set logscale y

@@ -42,6 +42,15 @@ AxisPoint in_sleeve(const KnownAxis& on, const KnownAxis& back, const Vector& or
   return {from(origin, p.r, -1), {p.r_x[0], -p.r_x[1]}};
 }
 
+/// A rod of unit bending stiffness through a sleeve at its material point `at`.
+Scene through_sleeve(int elements, double EA, const Point& end, double at) {
+  Scene scene = beam_at_rest(elements, EA, 1, end, AxialStrain::lobatto);
+  SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
+  joint.support = SupportType::clamp;
+  joint.position = at;
+  return scene;
+}
+
 }  // namespace
 
 Problems roll_ups(const FamilyData& data) {
@@ -121,28 +130,24 @@ Problems arm_scales(const FamilyData& data) {
         Piece{.EI = 1, .pull = {0, -P}, .angle = -incline, .moment = P * low_end[0], .length = arm});
     const auto on = std::make_shared<KnownAxis>(
         Piece{.EI = 1, .pull = {0, -1}, .angle = incline, .moment = -high_end[0], .length = length - arm});
-    Balance balance{
-        .scene =
-            [=](int n, double EA) {
-              Scene scene = beam_at_rest(n, EA, 1, {length * along[0], length * along[1], 0}, AxialStrain::lobatto);
-              SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
-              joint.support = SupportType::clamp;
-              joint.position = arm;
-              scene.loads = {force_at(0, P, {0, -1, 0}), force_at(n, 1, {0, -1, 0})};
-              return scene;
-            },
-        .values =
-            [sleeve](const Scene&, const RunResult& result) {
-              const Point &start = result.configurations.back().r.front(), &end = result.samples.back().end;
-              return std::vector<double>{*result.samples.back().joint_position, start[0] - sleeve[0],
-                                         start[1] - sleeve[1], end[0] - sleeve[0], end[1] - sleeve[1]};
-            },
-        .axis =
-            [=](const Scene&, const RunResult& result, double x, std::size_t element) {
-              return in_sleeve(*on, *back, sleeve, arm, x, before_joint(result, element));
-            },
-        .EA = data.number("inextensible"),
-        .inextensible = true};
+    Balance balance{.scene =
+                        [=](int n, double EA) {
+                          Scene scene = through_sleeve(n, EA, {length * along[0], length * along[1], 0}, arm);
+                          scene.loads = {force_at(0, P, {0, -1, 0}), force_at(n, 1, {0, -1, 0})};
+                          return scene;
+                        },
+                    .values =
+                        [sleeve](const Scene&, const RunResult& result) {
+                          const Point &start = result.configurations.back().r.front(), &end = result.samples.back().end;
+                          return std::vector<double>{*result.samples.back().joint_position, start[0] - sleeve[0],
+                                                     start[1] - sleeve[1], end[0] - sleeve[0], end[1] - sleeve[1]};
+                        },
+                    .axis =
+                        [=](const Scene&, const RunResult& result, double x, std::size_t element) {
+                          return in_sleeve(*on, *back, sleeve, arm, x, before_joint(result, element));
+                        },
+                    .EA = data.number("inextensible"),
+                    .inextensible = true};
     Problem problem =
         on_meshes(data, "arm scale", low + " N and 1 N",
                   data.exact.known(reference, {"low_arm", "low_end", "high_end"}), std::move(balance), length);
@@ -164,28 +169,24 @@ Problems rods_in_sleeves(const FamilyData& data) {
     const auto on = std::make_shared<KnownAxis>(
         Piece{.EI = 1, .pull = {0, -1}, .angle = incline, .moment = -end[0], .length = outside});
     const auto back = std::make_shared<KnownAxis>(Piece{.EI = 1, .angle = -incline, .length = inside});
-    Balance balance{
-        .scene =
-            [=](int n, double EA) {
-              Scene scene = beam_at_rest(n, EA, 1, {length * along[0], length * along[1], 0}, AxialStrain::lobatto);
-              SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
-              joint.support = SupportType::clamp;
-              joint.position = inside;
-              scene.loads = {force_at(n, 1, {0, -1, 0})};
-              return scene;
-            },
-        .values =
-            [=](const Scene&, const RunResult& result) {
-              const Point& tip = result.samples.back().end;
-              return std::vector<double>{length - *result.samples.back().joint_position, tip[0] - sleeve[0],
-                                         tip[1] - sleeve[1]};
-            },
-        .axis =
-            [=](const Scene&, const RunResult& result, double x, std::size_t element) {
-              return in_sleeve(*on, *back, sleeve, inside, x, before_joint(result, element));
-            },
-        .EA = data.number("inextensible"),
-        .inextensible = true};
+    Balance balance{.scene =
+                        [=](int n, double EA) {
+                          Scene scene = through_sleeve(n, EA, {length * along[0], length * along[1], 0}, inside);
+                          scene.loads = {force_at(n, 1, {0, -1, 0})};
+                          return scene;
+                        },
+                    .values =
+                        [=](const Scene&, const RunResult& result) {
+                          const Point& tip = result.samples.back().end;
+                          return std::vector<double>{length - *result.samples.back().joint_position, tip[0] - sleeve[0],
+                                                     tip[1] - sleeve[1]};
+                        },
+                    .axis =
+                        [=](const Scene&, const RunResult& result, double x, std::size_t element) {
+                          return in_sleeve(*on, *back, sleeve, inside, x, before_joint(result, element));
+                        },
+                    .EA = data.number("inextensible"),
+                    .inextensible = true};
     problems.push_back(on_meshes(data, "rod in a sleeve", degrees + " degrees",
                                  data.exact.known(reference, {"length", "end"}), std::move(balance), length));
   }

@@ -60,11 +60,8 @@ Problems moving_forces(const FamilyData& data) {
       }
       return found;
     };
-    problem.steps = true;
-    problem.order = data.number("order");
     problem.at_least = true;
-    problem.floor = data.number("floor");
-    problem.cost = 100;
+    judge_in_motion(problem, data, 100);
     problems.push_back(std::move(problem));
   }
   return problems;
@@ -104,11 +101,8 @@ Problems moving_masses(const FamilyData& data) {
       }
       return found;
     };
-    problem.steps = true;
-    problem.order = data.number("order");
     problem.at_least = true;
-    problem.floor = data.number("floor");
-    problem.cost = 100;
+    judge_in_motion(problem, data, 100);
     problems.push_back(std::move(problem));
   }
   return problems;
@@ -163,11 +157,8 @@ Problems rotating_loads(const FamilyData& data) {
       }
       return found;
     };
-    problem.steps = true;
-    problem.order = data.number("order");
     problem.at_least = true;
-    problem.floor = data.number("floor");
-    problem.cost = 300;
+    judge_in_motion(problem, data, 300);
     problems.push_back(std::move(problem));
   }
   return problems;

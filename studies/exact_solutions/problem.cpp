@@ -29,4 +29,11 @@ Known References::known(const std::string& name, const std::vector<std::string>&
   return known;
 }
 
+void judge_in_motion(Problem& problem, const FamilyData& data, double cost) {
+  problem.steps = true;
+  problem.order = data.number("order");
+  problem.floor = data.number("floor");
+  problem.cost = cost;
+}
+
 }  // namespace vlbeam::exact_solutions

@@ -72,6 +72,9 @@ struct FamilyData {
   double number(const char* key) const { return config.at(key); }
 };
 
+/// Judges a problem in motion by the order and the floor that its family states. Its steps are refined with its levels.
+void judge_in_motion(Problem& problem, const FamilyData& data, double cost);
+
 /// 2 b - a: where a and b hold at a stiffness and at its double, what falls as 1/stiffness is gone.
 inline double beyond(double a, double b) { return 2 * b - a; }
 

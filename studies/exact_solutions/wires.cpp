@@ -30,10 +30,7 @@ Problems straight_wires(const FamilyData& data) {
     for (const double t : times) found.values.push_back(*sample_near(result, t).joint_position);
     return found;
   };
-  problem.steps = true;
-  problem.order = data.number("order");
-  problem.floor = data.number("floor");
-  problem.cost = 10;
+  judge_in_motion(problem, data, 10);
   return {problem};
 }
 
@@ -70,10 +67,7 @@ Problems circular_wires(const FamilyData& data) {
     };
     problem.scale = pi;  // of the whole wire
     problem.at_least = true;
-    problem.steps = true;
-    problem.order = data.number("order");
-    problem.floor = data.number("floor");
-    problem.cost = 100;
+    judge_in_motion(problem, data, 100);
     problems.push_back(std::move(problem));
   }
   return problems;
@@ -104,10 +98,7 @@ Problems rotating_wires(const FamilyData& data) {
       scene.output.interval = until / 4;
       return Found{.values = {*StudyContext::simulate_to_the_end(scene).samples.back().joint_position}};
     };
-    problem.steps = true;
-    problem.order = data.number("order");
-    problem.floor = data.number("floor");
-    problem.cost = 10;
+    judge_in_motion(problem, data, 10);
     problems.push_back(std::move(problem));
   }
   return problems;

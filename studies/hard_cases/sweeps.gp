@@ -1,5 +1,5 @@
 # What makes a case hard against condition number, temporal error and energy error, a panel each.
-set terminal svg size 1200,440 font "Helvetica,13" enhanced background rgb "white" linewidth 1.2
+set terminal svg size 1200,440 font "sans-serif,13" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
 set datafile separator comma

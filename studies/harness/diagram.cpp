@@ -38,8 +38,10 @@ std::string terminal(const Look& look, const std::string& ending) {
     return "set terminal gif animate delay delay loop 0 size " + std::string(look.column ? "450,330" : "900,620") +
            plain + "\n";
   }
+  // A PDF and a PNG have their letters in them; an SVG names a face, and only a generic one is on every machine.
+  const std::string face = ending == ".svg" ? "sans-serif" : "Helvetica";
   const auto set = [&](const char* kind, const char* size, const char* font, const char* lines) {
-    return std::string("set terminal ") + kind + " size " + size + " font 'Helvetica," + font + "'" + plain +
+    return std::string("set terminal ") + kind + " size " + size + " font '" + face + "," + font + "'" + plain +
            " linewidth " + lines + "\n";
   };
   if (ending == ".pdf") {
@@ -199,11 +201,11 @@ void draw_diagram(const Diagram& diagram, const Look& look, const std::filesyste
 
 void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, double seconds,
                  const std::filesystem::path& figure) {
-  const std::string ending = ending_of(figure, {".gif"});
+  const bool film = ending_of(figure, {".gif", ".mp4"}) == ".mp4";
   // As long as the motion, between 2 and 10 s; a hundredth of a second is the unit of a GIF.
   const double shown = std::clamp(seconds, 2.0, 10.0);
   const auto delay = std::max(2, static_cast<int>(std::lround(100 * shown / static_cast<double>(frames))));
-  std::string script = "delay = " + std::to_string(delay) + "\n" + frame_of(diagram, look, ending) + palette +
+  std::string script = "delay = " + std::to_string(delay) + "\n" + frame_of(diagram, look, ".gif") + palette +
                        ranges_of(diagram, look) + "unset key\n";
   if (diagram.equal_scales) script += "set size ratio -1\n";
   for (std::size_t i = 0; i < frames; ++i) {
@@ -217,6 +219,7 @@ void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, d
     }
     script += "\n";
   }
+  if (film) return draw_film_of(script, data_of(diagram), figure);
   draw_figure_of(script, data_of(diagram), figure);
 }
 

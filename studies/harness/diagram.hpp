@@ -44,7 +44,8 @@ struct Look {
 /// fails.
 void draw_diagram(const Diagram& diagram, const Look& look, const std::filesystem::path& figure);
 
-/// Draws a GIF, a frame for each of the first `frames` series, with the points of the others that belong to it.
+/// Draws a GIF, or by ffmpeg an MP4: a frame for each of the first `frames` series, with the points of the others that
+/// belong to it. `seconds` is how long the motion lasts.
 void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, double seconds,
                  const std::filesystem::path& figure);
 

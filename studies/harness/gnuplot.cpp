@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/subprocess.hpp"
 
@@ -93,6 +94,21 @@ void draw_figure_of(const std::string& script, const std::string& data, const st
   write_text(folder.path() / "data", data);
   variables["data"] = (folder.path() / "data").string();
   draw_figure(folder.path() / "figure.gp", figure, std::move(variables));
+}
+
+void draw_film_of(const std::string& script, const std::string& data, const std::filesystem::path& film) {
+  if (run_process({"ffmpeg", "-version"}).exit_code != 0) {
+    throw InvalidInput("-o", "\"" + film.string() + "\"",
+                       "an .mp4 takes ffmpeg, which is not installed (apt install ffmpeg); a .gif does without");
+  }
+  const ScratchFolder folder;
+  const std::string frames = folder.path() / "frames.gif", made = folder.path() / "film.mp4";
+  draw_figure_of(script, data, frames);
+  // These pixels and the index in front are what browsers and slides play.
+  const ProcessResult ffmpeg =
+      run_process({"ffmpeg", "-v", "error", "-i", frames, "-pix_fmt", "yuv420p", "-movflags", "+faststart", made});
+  if (ffmpeg.exit_code != 0) throw std::runtime_error("ffmpeg could not make " + film.string() + ":\n" + ffmpeg.error);
+  write_text(film, read_text(made));
 }
 
 }  // namespace vlbeam

@@ -14,7 +14,7 @@ namespace vlbeam {
 std::vector<std::string> plot_kinds();
 
 /// Draws the report of a run: `what` is one of plot_kinds(), or empty where `names` of quantities are drawn against
-/// time. An animation is a .gif, a frame a shape. Throws InvalidInput where the report has nothing of it.
+/// time. An animation is a .gif or an .mp4, a frame a shape. Throws InvalidInput where the report has nothing of it.
 void plot_run(const RunFile& run, const std::string& what, const std::vector<std::string>& names, const Look& look,
               const std::filesystem::path& figure);
 

@@ -1,6 +1,6 @@
 # Error against the number of Gauss points: one element's energy, and the motion of the falling beam.
 width = 1400; height = 470
-load folder . "/style.gp"
+load folder . "/../style.gp"
 set multiplot layout 1,3 title "Gauss points an element" margins 0.07,0.8,0.14,0.82 spacing 0.09,0.1
 set logscale y
 set format y "10^{%T}"

@@ -1,6 +1,6 @@
 # Error, jumps of kinetic energy and number of events against the trigger, hysteresis 1e-3.
 width = 1200; height = 800
-load folder . "/style.gp"
+load folder . "/../style.gp"
 set multiplot layout 2,3 title "Length-control trigger, hysteresis 10^{-3}" margins 0.08,0.98,0.09,0.89 spacing 0.08,0.18
 kinds = "ALE-RANCF ALE-ANCF"
 colour(i) = i == 1 ? "#08519c" : "#a63603"

@@ -1,5 +1,5 @@
 # Total error of the falling beam against time; the line is the Pareto front.
-set terminal svg size 860,560 font "Helvetica,14" enhanced background rgb "white" linewidth 1.2
+set terminal svg size 860,560 font "sans-serif,14" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
 set datafile separator comma

@@ -1,5 +1,5 @@
 # Temporal error of one problem against `work`: evaluations or seconds. One colour a family of integrators.
-set terminal svg size 1100,560 font "Helvetica,14" enhanced background rgb "white" linewidth 1.2
+set terminal svg size 1100,560 font "sans-serif,14" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
 set datafile separator comma

@@ -10,11 +10,12 @@
 #include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_library.hpp"
+#include "tests/folders.hpp"
 
 namespace vlbeam {
 namespace {
 
-const std::filesystem::path source = VLBEAM_SOURCE_DIR;
+const std::filesystem::path source = test::source_folder();
 
 Scene library_scene(const std::string& name) { return read_scene(source / "scenes" / (name + ".json")); }
 

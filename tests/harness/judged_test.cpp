@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "tests/folders.hpp"
 
 namespace vlbeam::test {
 namespace {
 
-const std::filesystem::path studies = std::filesystem::path(VLBEAM_SOURCE_DIR) / "studies";
+const std::filesystem::path studies = source_folder() / "studies";
 
 TEST(Judged, IsZeroWhereTheJudgeIsAndGrowsWithTheDistance) {
   const Judged judged = judged_at(studies, "falling_beam");

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "tests/folders.hpp"
 #include "tests/harness/program_of_runs.hpp"
 #include "tests/harness/report_of.hpp"
 #include "tests/harness/temporary_folder.hpp"
@@ -83,7 +84,7 @@ TEST_F(KeptRunsTest, StartAnewWhereNothingIsKept) {
 class RunsApart : public KeptRunsTest {
  protected:
   static Scene of_library(const std::string& name, double longest) {
-    Scene scene = read_scene(std::filesystem::path(VLBEAM_SOURCE_DIR) / "scenes" / (name + ".json"));
+    Scene scene = read_scene(test::source_folder() / "scenes" / (name + ".json"));
     scene.duration = std::min(scene.duration, longest);
     scene.output.interval = std::min(scene.output.interval, longest / 2);
     std::erase_if(scene.output.configurations, [&](double t) { return t > scene.duration; });

@@ -12,6 +12,7 @@ check "frames change no digit" 0 "$(exit_of cmp plain.csv frames.csv)"
 
 check "a column in SVG" 0 "$(plot r.json --what energy --column --bare -o e.svg)"
 check "84 mm at 96 dpi" 1 "$(grep -c '^ width="318"' e.svg)"
+check "letters that every viewer has" 0 "$(grep 'font-family' e.svg | grep -vc 'font-family="sans-serif"')"
 check "no title" 0 "$(grep -c 'Falling beam' e.svg)"
 check "words in the key" 4 "$(grep -cE '>(kinetic|axial strain|bending|gravity)<' e.svg)"
 check "no keys in it" 0 "$(grep -c 'energy\.' e.svg)"
@@ -45,6 +46,18 @@ frames = open(sys.argv[1], "rb").read().count(b"\x21\xf9\x04")
 print(int(frames == len(json.load(open(sys.argv[2]))["configurations"]) >= 31))
 PYTHON
 )"
+
+check "its frames are enough" 0 "$(says 'smooth')"
+check "an animation of few frames" 0 "$(plot r.json --what animation -o few.gif)"
+check "says how to get more" 1 "$(says 'smooth motion, run the scene with --frames')"
+if command -v ffmpeg > /dev/null; then
+  check "a film" 0 "$(plot frames.json --what animation -o a.mp4)"
+  check "that is one" ftyp "$(head -c 8 a.mp4 | tail -c 4)"
+fi
+mkdir tools && ln -s "$(command -v gnuplot)" tools/
+check "a film without ffmpeg" 2 "$(PATH=$folder/tools plot frames.json --what animation -o b.mp4)"
+check "says what does without" 1 "$(says 'ffmpeg, which is not installed .*; a .gif does without')"
+check "and leaves nothing" no "$(there b.mp4)"
 
 # In space a picture says which plane it shows.
 "$vlbeam" scene drill_stem | sed 's/"duration": [0-9.]*/"duration": 0.01/; s/"output": {[^}]*}/"output": {"configurations": [0, 0.01]}/' > stem.json

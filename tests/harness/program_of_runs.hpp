@@ -4,12 +4,13 @@
 #include <fstream>
 #include <string>
 
+#include "tests/folders.hpp"
 #include "tests/harness/temporary_folder.hpp"
 
 namespace vlbeam {
 
 /// The program that runs a scene in a process of its own, of the build that is tested.
-inline const std::string program_of_runs = VLBEAM_PROGRAM;
+inline const std::string program_of_runs = test::program();
 
 /// One that `signal` ends where a scene's text holds `what`, and is the same otherwise.
 inline std::string crashing_program(const TemporaryFolder& folder, const std::string& what, const std::string& signal) {

@@ -11,6 +11,7 @@
 #include "scene/simulate.hpp"
 #include "studies/harness/quantity.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "tests/folders.hpp"
 
 namespace vlbeam {
 
@@ -21,7 +22,7 @@ static void PrintTo(const SceneAnswer& answer, std::ostream* out) {
 
 namespace {
 
-const std::filesystem::path source = VLBEAM_SOURCE_DIR;
+const std::filesystem::path source = test::source_folder();
 
 // What a scene's own setting promises, for all scenes alike.
 constexpr double promised = 1e-3;

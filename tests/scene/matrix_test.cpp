@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
+#include "tests/folders.hpp"
 
 namespace vlbeam {
 namespace {
@@ -288,16 +289,16 @@ std::string table_of_pairs() {
 
 /// Written anew with VLBEAM_WRITE_DOCS set.
 TEST(WhatGoesTogether, IsWhatTheDocsSay) {
-  const std::string file = VLBEAM_DOCS_DIR "/what_goes_together.md";
+  const std::string file = test::source_folder() / "docs/what_goes_together.md";
   const std::string text =
-      "# What goes together\n\n"
-      "Each cell is a scene of four elements, eight where joints meet, that the tests run: **yes**, it runs and the "
-      "work of all that acts on it "
-      "accounts for its energy, to 1e-9\n"
-      "by explicit methods (`fehlberg78` here) and `energy-momentum` (1e-6 where gravity grows within 40 steps), to "
-      "their "
-      "order by the others; **-**,\n"
-      "it is refused by a message that names the key. Made by `tests/scene/matrix_test.cpp`.\n\n"
+      "# Feature compatibility\n\n"
+      "Each cell is a scene that the tests run: of four elements, or of eight where joints meet. **yes**: it runs, and "
+      "the work of all that acts on\n"
+      "the beam accounts for its energy. Explicit methods (`fehlberg78` here) and `energy-momentum` do so to 1e-9, the "
+      "latter to 1e-6 where gravity\n"
+      "grows within 40 steps; other methods do so to their order. **-**: it is refused, and the message names the key. "
+      "Made by\n"
+      "`tests/scene/matrix_test.cpp`.\n\n"
       "## Features and integrators\n\n" +
       table_of_methods() + "\n## Features in pairs, explicit\n\n" + table_of_pairs();
   if (std::getenv("VLBEAM_WRITE_DOCS") != nullptr) std::ofstream(file) << text;

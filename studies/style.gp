@@ -1,5 +1,5 @@
-# What all figures of this study share. Needs `output`; `width` and `height` in pixels.
-set terminal svg size width,height font "Helvetica,15" enhanced background rgb "white" linewidth 1.2
+# What all figures share. Needs `output`; `width` and `height` in pixels.
+set terminal svg size width,height font "sans-serif,15" enhanced background rgb "white" linewidth 1.2
 set encoding utf8
 set output output
 set datafile separator comma
