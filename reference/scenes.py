@@ -358,6 +358,27 @@ def spinning_tether():
     return state(duration)[0] * mp.cos(angle)
 
 
+def spring():
+    """Castigliano: where a small force F along z takes the end of an inextensible helix, by the moment (r_end - r) x F: a
+    share along the tangent twists it, the rest bends it."""
+    given = scene("spring")
+    curve, material = given["beam"]["curve"], given["beam"]["material"]
+    number = lambda part, key: mp.mpf(str(part[key]))
+    radius, rise = number(curve, "radius"), number(curve, "pitch") / (2 * mp.pi)
+    turn, wire = mp.radians(number(curve, "to_degrees")), number(given["beam"]["section"], "radius")
+    E = number(material, "youngs_modulus")
+    EI = E * mp.pi * wire**4 / 4
+    GJ = EI / (1 + number(material, "poisson_ratio"))
+    slope = mp.sqrt(radius**2 + rise**2)  # arc length a radian
+
+    def energy(at):
+        arm = radius * (mp.cos(turn) - mp.cos(at)), radius * (mp.sin(turn) - mp.sin(at))
+        moment = arm[1], -arm[0]  # (r_end - r) x e_z
+        twist = (-moment[0] * radius * mp.sin(at) + moment[1] * radius * mp.cos(at)) / slope
+        return (twist**2 / GJ + (moment[0] ** 2 + moment[1] ** 2 - twist**2) / EI) * slope
+    return rise * turn + given["loads"][0]["magnitude"]["value"] * mp.quad(energy, mp.linspace(0, turn, 21))
+
+
 answers = []
 
 
@@ -445,6 +466,9 @@ answer("paid_out_line", "winch_start_tension", paid_out_line(), 1e-3, "exact",
        "elastic catenary (Irvine 1981)")
 answer("spinning_tether", "end.x", spinning_tether(), 2e-3, "exact",
        "angular momentum of a weight on a straight tether of given length; the scene's swings as it starts unstretched")
+
+answer("spring", "load0_z", spring(), 2e-5, "exact",
+       "Castigliano's theorem on an inextensible helix, for a small force; the scene's moves by a twentieth of its height", 1)
 
 judged = "vlbeam converge on meshes and steps finer than the scene's: its answer and uncertainty"
 for name, quantity, value, uncertainty, t in (

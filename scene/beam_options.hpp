@@ -37,6 +37,8 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
            beam.curve.from_degrees, {.when = arc, .required = true});
     number("/beam/curve/to_degrees", "degrees", {}, "where the beam ends", beam.curve.to_degrees,
            {.when = arc, .required = true});
+    number("/beam/curve/pitch", "m", {}, "in space: by which the axis rises in a turn, along the third axis: a helix",
+           beam.curve.pitch, {.when = arc});
     number("/beam/curve/degree", "-", Range::closed(1, 3), "degree of the NURBS curve", beam.curve.degree,
            {.when = nurbs, .required = true});
     number("/beam/curve/knots", "-", {}, "knots, not decreasing: as many as control points, degree and 1 together",

@@ -58,7 +58,7 @@ Axis<D> drawn_axis(const CurveSpec& curve) {
   switch (curve.type) {
     case CurveType::arc:
       return Axis<D>::arc(vector_of<D>(curve.center), curve.radius, curve.from_degrees * degree,
-                          curve.to_degrees * degree);
+                          curve.to_degrees * degree, curve.pitch);
     case CurveType::nurbs:
       return Axis<D>::nurbs(drawn_nurbs<D>(curve));
     case CurveType::polyline:

@@ -77,7 +77,8 @@ double standard_length(const Scene& scene) { return beam_length(scene) / scene.b
 
 AxisForm axis_form(const Scene& scene) {
   const bool curved = is_curved(scene);
-  const bool can_be_exact = !is_polynomial(scene.beam.element) && !(has_rest_shape(scene) && sliding_joint(scene));
+  const bool can_be_exact = !is_polynomial(scene.beam.element) && scene.beam.curve.pitch == 0 &&
+                            !(has_rest_shape(scene) && sliding_joint(scene));
   const bool exact = scene.setting == SceneSetting::ding_ouyang_2022 && curved && can_be_exact;
   return scene.beam.axis.value_or(exact ? AxisForm::exact : AxisForm::even);
 }

@@ -59,6 +59,7 @@ struct CurveSpec {
   Point end{1, 0, 0};                            ///< line [m]
   Point center{};                                ///< arc [m]
   double radius = 1;                             ///< arc [m]
+  double pitch = 0;                              ///< arc in space: by which a helix rises in a turn [m]
   double from_degrees = 0, to_degrees = 180;     ///< arc, in the plane of the first two axes
   int degree = 3;                                ///< nurbs
   std::vector<double> knots = {}, weights = {};  ///< nurbs; no weights are equal weights

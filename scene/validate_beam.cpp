@@ -145,6 +145,13 @@ void check_curve(const Scene& scene) {
         refuse("/beam/curve/to_degrees", number_text(curve.to_degrees),
                "it must not be /beam/curve/from_degrees: the beam needs a length > 0 [m]");
       }
+      if (curve.pitch != 0 && scene.dimension == 2) {
+        refuse("/beam/curve/pitch", number_text(curve.pitch),
+               "a helix needs \"dimension\": 3: in the plane it must be 0");
+      }
+      if (curve.pitch != 0 && axis_form(scene) == AxisForm::exact) {
+        refuse("/beam/axis", "\"exact\"", "no rational cubic is a helix: with a pitch it must be \"even\"");
+      }
       const double turn = std::abs(curve.to_degrees - curve.from_degrees);
       if (!(turn / scene.beam.elements < 180)) {
         refuse("/beam/elements", std::to_string(scene.beam.elements),

@@ -64,9 +64,14 @@ Axis<D> Axis<D>::line(const Vector& start, const Vector& end) {
 }
 
 template <int D>
-Axis<D> Axis<D>::arc(const Vector& center, double radius, double from, double to) {
-  const double length = radius * std::abs(to - from);
-  return {Arc{center, radius, from, (to - from) / length}, {0, length}};
+Axis<D> Axis<D>::arc(const Vector& center, double radius, double from, double to, double pitch) {
+  if (pitch == 0) {
+    const double length = radius * std::abs(to - from);
+    return {Arc{center, radius, from, (to - from) / length}, {0, length}};
+  }
+  const double rise = pitch / (2 * std::numbers::pi);  // a radian
+  const double length = std::sqrt(radius * radius + rise * rise) * std::abs(to - from);
+  return {Arc{center, radius, from, (to - from) / length, rise * std::abs(to - from) / length}, {0, length}};
 }
 
 template <int D>
@@ -196,7 +201,7 @@ Vec<double, D> Axis<D>::tangent_before(double x) const {
 template <int D>
 bool Axis<D>::in_one_piece(double x_a, double x_b) const {
   if (const auto* shape = std::get_if<Arc>(&shape_)) {
-    return std::abs((x_b - x_a) * shape->turn_per_length) < std::numbers::pi;
+    return shape->rise_per_length == 0 && std::abs((x_b - x_a) * shape->turn_per_length) < std::numbers::pi;
   }
   const auto* chain = std::get_if<Spans>(&shape_);
   return !chain || std::ranges::none_of(chain->bounds, [&](double at) { return x_a < at && at < x_b; });
@@ -212,6 +217,14 @@ std::array<Vec<double, D>, 4> Axis<D>::derivatives(double x) const {
     Vector out = none, along = none;
     out.template head<2>() << portable::cos(angle), portable::sin(angle);
     along.template head<2>() << -sign * out[1], sign * out[0];
+    if constexpr (D == 3) {
+      if (shape->rise_per_length != 0) {
+        const Vector up = shape->rise_per_length * Vector::UnitZ();
+        const double turn = std::abs(shape->turn_per_length), across = shape->radius * turn;
+        return {shape->center + shape->radius * out + x * up, across * along + up, -across * turn * out,
+                -across * turn * turn * along};
+      }
+    }
     const double curvature = 1 / shape->radius;
     return {shape->center + shape->radius * out, along, -curvature * out, -curvature * curvature * along};
   }

@@ -9,16 +9,17 @@
 
 namespace vlbeam {
 
-/// The initial axis of a beam by its arc length x in [0, length()]: a straight line, an arc of a circle, or a chain of
-/// rational cubics.
+/// The initial axis of a beam by its arc length x in [0, length()]: a straight line, an arc of a circle, a helix, or a
+/// chain of rational cubics.
 template <int D>
 class Axis {
  public:
   using Vector = Vec<double, D>;
 
   static Axis line(const Vector& start, const Vector& end);
-  /// From the angle `from` to the angle `to` [rad], in the plane of the first two axes.
-  static Axis arc(const Vector& center, double radius, double from, double to);
+  /// From the angle `from` to the angle `to` [rad], in the plane of the first two axes; in space with a pitch a helix,
+  /// which rises by it along the third axis in a turn [m].
+  static Axis arc(const Vector& center, double radius, double from, double to, double pitch = 0);
   /// May have kinks. Throws NurbsError.
   static Axis nurbs(const Nurbs<D>& curve);
   /// Straight from point to point, of which no two neighbours are one.
@@ -39,7 +40,8 @@ class Axis {
   /// there: by arcs of circles between straight pieces. It gets shorter. The middle of a rounding stays a break.
   Axis rounded(const std::vector<double>& kinks, double reach) const;
 
-  /// Whether one rational cubic can be the axis from x_a to x_b: no break between them, and no arc of pi or more.
+  /// Whether one rational cubic can be the axis from x_a to x_b: no break between them, no helix, and no arc of pi or
+  /// more.
   bool in_one_piece(double x_a, double x_b) const;
 
   Vector position(double x) const { return derivatives(x)[0]; }
@@ -60,6 +62,7 @@ class Axis {
   struct Arc {
     Vector center;
     double radius, from, turn_per_length;
+    double rise_per_length = 0;  ///< of a helix
   };
   struct Spans {
     std::vector<RationalCubic<double, D>> spans;

@@ -49,6 +49,11 @@ const Rule ranges[] = {
     {"/gravity_ramp", [](Scene& s) { s.gravity_ramp = -1; }},
     {"/beam/curve/end/0", [](Scene& s) { s.beam.curve.end[0] = inf; }},
     {"/beam/curve/start/2", [](Scene& s) { s.beam.curve.start[2] = 0.5; }},
+    {"/beam/curve/pitch",
+     [](Scene& s) {
+       s.beam.curve.type = CurveType::arc;
+       s.beam.curve.pitch = 0.1;
+     }},
     {"/beam/section/radius", [](Scene& s) { s.beam.section.radius = 0; }},
     {"/beam/section/EA",
      [](Scene& s) {

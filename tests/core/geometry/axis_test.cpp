@@ -97,6 +97,20 @@ Nurbs<2> nurbs_circle() {
           {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}}};
 }
 
+TEST(Axis, AHelixRisesByItsPitchInATurn) {
+  const double R = 0.3, pitch = 0.2;
+  for (const double to : {4 * pi, -4 * pi}) {
+    const auto axis = Axis<3>::arc({1, 2, 3}, R, 0, to, pitch);
+    EXPECT_NEAR(axis.length(), 2 * std::hypot(2 * pi * R, pitch), 1e-14);
+    EXPECT_LE((axis.position(axis.length()) - Eigen::Vector3d(1 + R, 2, 3 + 2 * pitch)).norm(), 1e-14);
+    const double x = 0.37 * axis.length(), h = 1e-5;
+    const auto at = axis.derivatives(x), before = axis.derivatives(x - h), behind = axis.derivatives(x + h);
+    EXPECT_NEAR(at[1].norm(), 1, 1e-15);
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_LE(((behind[n] - before[n]) / (2 * h) - at[n + 1]).norm(), 1e-8) << n;
+    EXPECT_FALSE(axis.in_one_piece(x, x + h)) << "no rational cubic is a helix";
+  }
+}
+
 TEST(Axis, ANurbsCircleIsExactWithNodesBetweenItsKnots) {
   const auto axis = Axis<2>::nurbs(nurbs_circle());
   EXPECT_NEAR(axis.length(), 2 * pi, 1e-13);
