@@ -167,15 +167,14 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
 template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                           double h, double t) {
-  // spin and nodes that travel remember what they were told last
-  if (!system_.model().section.damped() || system_.spin() != nullptr || system_.moving_mesh() != nullptr) {
-    return std::nullopt;
-  }
+  if (!system_.model().section.damped() || !system_.travel(t + h / 2)) return std::nullopt;
   y_ = 0.5 * (q0 + q1);
   dydt_ = (q1 - q0) / h;
   free_.setZero(q0.size());
   a_.resize(q0.size());
-  return equations_.residual(y_, dydt_, free_, t + h / 2, a_);
+  const double lost = equations_.residual(y_, dydt_, free_, t + h / 2, a_);
+  system_.travel(t + h);
+  return lost;
 }
 
 template <int D>

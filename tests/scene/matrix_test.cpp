@@ -40,7 +40,7 @@ Scene plain() {
 SlidingJointSpec& joint(Scene& scene, SupportType support = SupportType::free) {
   SlidingJointSpec& added = scene.sliding_joints.emplace_back();
   added.support = support;
-  added.position = scene.sliding_joints.size() == 1 ? 0.45 : 0.7;
+  added.position = scene.sliding_joints.size() == 1 ? 0.45 : scene.sliding_joints.size() == 2 ? 0.7 : 0.85;
   return added;
 }
 
@@ -169,13 +169,40 @@ const std::vector<Feature>& features() {
              {.node = 0, .x = {}}, {.node = 2, .x = {.value = 0.5, .rate = 0.7}}, {.node = 4, .x = {.value = 1}}};
        }},
       {"rotary inertia", [](Scene& s) { s.beam.rotary_inertia = BendingInertia::rayleigh; }},
-      {"nut", [](Scene& s) {
+      {"nut",
+       [](Scene& s) {
          SlidingJointSpec& nut = joint(s);
          nut.mass = 0.5;
          nut.pitch = 0.1;
          s.spin.emplace().angles = AngleField::hermite;
          s.spin->rate = 20;
-       }}};
+       }},
+      {"wheel",
+       [](Scene& s) {
+         held(s, SupportType::pin);
+         s.sliding_joints.back().pulley = PulleySpec{.radius = 0.1, .inertia = 0.003};
+       }},
+      {"block",
+       [](Scene& s) {
+         s.beam.elements = 8;  // each joint needs a node
+         const int first = static_cast<int>(s.sliding_joints.size());
+         for (int i = 0; i < 2; ++i) joint(s).mass = 0.2;
+         s.blocks = {{.joints = {first, first + 1}, .mass = 0.3}};
+       }},
+      {"drum",
+       [](Scene& s) {
+         if (s.start.type == SupportType::free) s.start.type = SupportType::pin;
+         s.start.drum = DrumSpec{.radius = 0.1, .inertia = 0.01, .torque = {.value = 1}};
+         s.start.end_stop = EndStopSpec{.most = 0, .stiffness = 1e4, .depth = 1e-3, .damping = 5};
+       }},
+      {"fluid",
+       [](Scene& s) {
+         s.fluid = FluidSpec{.density = 1000, .velocity = {0.5, 1, 0}};
+         s.drag = DragSpec{{0.4, 0.1}, {0.3, 0.05}};
+       }},
+      {"ground",
+       [](Scene& s) { s.ground = GroundSpec{.height = -0.02, .stiffness = 500, .depth = 0.01, .damping = 2}; }},
+      {"frames", [](Scene& s) { s.beam.space_law = SpaceLaw::frames; }}};
   return all;
 }
 
