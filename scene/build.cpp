@@ -107,6 +107,11 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
   const auto joints = sliding_joints(scene);
   for (std::size_t which = 0; which < joints.size(); ++which) {
     const double x = position_on_axis(scene.beam.curve, breaks, joints[which].position);
+    if (!(x > 0 && x < breaks.back())) {
+      throw InvalidInput(
+          joint_key(scene, which) + "/position", number_text(x),
+          "it must be inside the beam: more than 0 and less than " + number_text(breaks.back()) + " [m]");
+    }
     const int first = nodes.joints.empty() ? 1 : nodes.joints.back() + 1;
     if (std::binary_search(breaks.begin(), breaks.end(), x)) {
       const int there = static_cast<int>(std::ranges::lower_bound(nodes.x, x) - nodes.x.begin());

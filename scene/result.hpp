@@ -72,7 +72,7 @@ struct SlidingSample {
 struct WinchSample {
   double length;   ///< paid out since t = 0 [m]
   double rate;     ///< [m/s]
-  double tension;  ///< with which the beam pulls at it [N]
+  double tension;  ///< with which the beam pulls at it, by the length before stretching [N]
   double power;    ///< of its push, without the energy that the beam brings along [W]
 };
 

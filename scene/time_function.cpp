@@ -106,7 +106,7 @@ void check_time_function(const std::string& at, const TimeSpec& spec) {
   if (!is_zero(
           {.value = spec.value, .rate = spec.rate, .acceleration = spec.acceleration, .amplitude = spec.amplitude}) ||
       spec.ramp > 0 || spec.rate_ramp > 0 || spec.until) {
-    refuse(key, "this key", "a table stands alone: leave out the other keys of " + at);
+    refuse(key, "this key", "a table stands alone: leave out the keys beside it");
   }
   if (spec.table.size() < 2) {
     refuse(key, std::to_string(spec.table.size()) + " entries",

@@ -45,8 +45,8 @@ void validate_blocks(const Scene& scene) {
       if (!tied.insert(joint).second) {
         refuse(entry, std::to_string(joint), "this joint is in a block already: each may be in one, once");
       }
-      check_tied(scene, static_cast<std::size_t>(joint));
     }
+    for (const int joint : block.joints) check_tied(scene, static_cast<std::size_t>(joint));
   }
   if (scene.initial_velocity && scene.initial_velocity->rotation != 0) {
     refuse("/initial_velocity/rotation", number_text(scene.initial_velocity->rotation),

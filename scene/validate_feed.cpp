@@ -156,10 +156,9 @@ std::function<std::pair<double, double>(double t)> beam_ends(const Scene& scene)
 }
 
 void validate_feeds(const Scene& scene) {
-  if (!fed(scene)) return;
   check_end(scene, "/supports/at=start", scene.start);
   check_end(scene, "/supports/at=end", scene.end);
-  check_way(scene);
+  if (fed(scene)) check_way(scene);
 }
 
 }  // namespace vlbeam

@@ -52,7 +52,7 @@ TEST(WrongRope, IsRightToBeginWith) { EXPECT_NO_THROW(validate(scene_from_json(J
 #define JOINT(keys) \
   R"({"sliding_joints": [{"position": 1.4142135623730951, "support": "pin", "slopes": "free", )" keys "}]}"
 #define BLOCK(joints, blocks) R"({"sliding_joints": [)" joints R"(], "blocks": [)" blocks "]}"
-#define FREE_AT(x) R"({"position": )" x R"(, "slopes": "free"})"
+#define FREE_AT(x) R"({"mass": 1, "position": )" x R"(, "slopes": "free"})"
 
 INSTANTIATE_TEST_SUITE_P(
     Curves, WrongRope,
@@ -62,11 +62,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"beam": {"curve": {"points": [[0, 0, 0], [1, 0, 0]]}}})", "/beam/curve/points", "2 numbers"},
         Wrong{R"({"beam": {"curve": {"points": "here"}}})", "/beam/curve/points", "array"},
         Wrong{R"({"beam": {"elements": 1}})", "/beam/elements", "whole number"},
-        Wrong{R"({"beam": {"section": {"EI": 3}}})", "/sliding_joints/0/slopes", ""},
+        Wrong{R"({"beam": {"section": {"EI": 3}, "curve": {"points": [[0, 0], [1, 1], [2, 0], [3, 1]]}}})",
+              "/beam/curve/points/2", "a rope"},
         Wrong{R"({"beam": {"compression": "some"}})", "/beam/compression", "\"none\""},
         Wrong{R"({"beam": {"slack_over": 1e-4}})", "/beam/slack_over", "compression"},
-        Wrong{R"({"beam": {"compression": "none", "slack_over": 0}})", "/beam/slack_over", "> 0"},
-        Wrong{R"({"beam": {"compression": "none", "slack_over": 2}})", "/beam/slack_over", "<= 1"},
+        Wrong{R"({"beam": {"compression": "none", "slack_over": 0}})", "/beam/slack_over", "(0, 1]"},
+        Wrong{R"({"beam": {"compression": "none", "slack_over": 2}})", "/beam/slack_over", "(0, 1]"},
         Wrong{R"({"beam": {"compression": "none"}, "integrator": {"type": "energy-momentum"}})", "/integrator/type",
               "other"}));
 INSTANTIATE_TEST_SUITE_P(
@@ -85,9 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{SUPPORT(R"("feed": {"value": 1})"), "/supports/0/feed/value", "ramp > 0"},
         Wrong{SUPPORT(R"("feed": {"rate": 1, "ramp": 1, "rate_ramp": 1})"), "/supports/0/feed/rate_ramp", "ramp"},
         Wrong{SUPPORT(R"("feed": {"rate": 1, "rate_ramp": -1})"), "/supports/0/feed/rate_ramp", ">= 0"},
-        Wrong{SUPPORT(R"("feed": {"table": [[0, 0], [0, 1]]})"), "/supports/0/feed/table/1", "after"},
+        Wrong{SUPPORT(R"("feed": {"table": [[0, 0], [0, 1]]})"), "/supports/0/feed/table/1/0", "must grow"},
         Wrong{SUPPORT(R"("feed": {"table": [[0, 0]]})"), "/supports/0/feed/table", "two"},
-        Wrong{SUPPORT(R"("feed": {"table": [[0, 0], [1, 1]], "rate": 1})"), "/supports/0/feed/rate", "table"},
+        Wrong{SUPPORT(R"("feed": {"table": [[0, 0], [1, 1]], "rate": 1})"), "/supports/0/feed/table", "stands alone"},
         Wrong{SUPPORT(R"("feed": {"table": [[0, 0], [0.1, -5]]})"), "/supports/0/feed", "draw in less"},
         Wrong{R"({"supports": [{"at": "end", "type": "free", "feed": {"rate": 1, "rate_ramp": 1}}]})",
               "/supports/0/type", "\"pin\""},
@@ -114,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{R"({"sliding_joints": [{"position": 9, "support": "pin", "slopes": "free"}]})",
                           "/sliding_joints/0/position", "inside"},
                     Wrong{R"({"sliding_joints": [{"position": 1.4142135623730951, "slopes": "free"}]})",
-                          "/sliding_joints/0/mass", "nothing holds"},
+                          "/sliding_joints/0/mass", "> 0"},
                     Wrong{R"({"sliding_joints": [{"position": 1.4142135623730951, "support": "pin"}]})",
                           "/sliding_joints/0/slopes", "equal-stretch"},
                     Wrong{R"({"sliding_joints": [{"position": 0.7, "support": "slide"}]})", "/sliding_joints/0/support",
