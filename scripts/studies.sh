@@ -32,27 +32,47 @@ if [[ $action == run && -z ${5:-} ]]; then
 fi
 
 case $action in
-  run | update)
+  update)
+    mkdir -p "$out"
+    todo=()
+    for study in "${studies[@]}"; do completed "$study" || todo+=("$study"); done
+    [[ ${#todo[@]} -gt 0 ]] || exit 0
+    # Side by side, a core each, so that none is idle while a study waits for its longest run. The last one first: it takes
+    # one core however many there are (work_precision, which measures times). Gates are judged afterwards, all together.
+    each=$((${#todo[@]} < jobs ? jobs / ${#todo[@]} : 1))
+    export vlbeam profile out each
+    code=0
+    printf '%s\n' "${todo[@]}" | tac | xargs -P "$jobs" -I '{}' bash -c '
+      code=0
+      said=$("$vlbeam" study "{}" --profile "$profile" --out "$out" --jobs "$each" 2>&1) || code=$?
+      printf "%s\n" "$said"
+      [[ $code -lt 128 ]] || exit 255  # stopped by the user: xargs starts no more, and the next call carries on
+      [[ $code -le 1 ]]' || code=$?
+    case $code in
+      0) exit 0 ;;
+      124 | 125) exit 130 ;;
+      *) exit 3 ;;
+    esac
+    ;;
+  run)
     failed=0
     mkdir -p "$out"
     for study in "${studies[@]}"; do
-      if [[ $action == update ]] && completed "$study"; then continue; fi
-      if [[ $action == run && -z ${5:-} ]] && done_before "$study"; then
+      if [[ -z ${5:-} ]] && done_before "$study"; then
         echo "$study: finished before the interruption"
         continue
       fi
-      # With `update` the gates are judged afterwards, all together.
       code=0
       "$vlbeam" study "$study" --profile "$profile" --out "$out" --jobs "$jobs" || code=$?
       if [[ $code -ge 128 ]]; then exit "$code"; fi  # stopped by the user: the next run carries on
-      if [[ $code -gt 1 || ($code -eq 1 && $action == run) ]]; then failed=$code; fi
-      if [[ $code -eq 0 && $action == run && -z ${5:-} ]]; then finished_line "$study" >> "$finished"; fi
+      if [[ $code -ge 1 ]]; then failed=$code; fi
+      if [[ $code -eq 0 && -z ${5:-} ]]; then finished_line "$study" >> "$finished"; fi
     done
     rm -f "$finished"
-    if [[ $action == run && -d build/python/vlbeam ]] && "$python" -c "import matplotlib, pandas" 2> /dev/null; then
+    if [[ -d build/python/vlbeam ]] && "$python" -c "import matplotlib, pandas" 2> /dev/null; then
       PYTHONPATH=build/python "$python" docs/tutorials/run.py --quick
     fi
-    if [[ $action == run ]]; then "$python" studies/site/build.py "$out"; fi
+    "$python" studies/site/build.py "$out"
     exit "$failed"
     ;;
   gate)

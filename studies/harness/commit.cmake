@@ -2,7 +2,7 @@
 # with "-dirty" where they differ from it; "unknown" outside git. Commits that change something else leave the program,
 # and so every report, up to date.
 set(git git -C ${SOURCE} -c safe.directory=* --no-optional-locks)
-set(sources core CMakeLists.txt ":(glob)studies/**/*.cpp" ":(glob)studies/**/*.hpp" ":(glob)studies/**/CMakeLists.txt")
+set(sources core scene CMakeLists.txt ":(glob)studies/**/*.cpp" ":(glob)studies/**/*.hpp" ":(glob)studies/**/CMakeLists.txt")
 set(commit unknown)
 execute_process(COMMAND ${git} log -1 --format=%H -- ${sources}
                 RESULT_VARIABLE failed OUTPUT_VARIABLE last OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

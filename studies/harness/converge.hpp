@@ -25,7 +25,7 @@ struct Setting {
 /// The scene's own.
 Setting setting_of(const Scene& scene);
 
-/// The scene that refinement starts from: where the integrator is automatic, one that errs less in time than meshes do.
+/// The scene that refinement starts from. An automatic integrator then errs less in time than the mesh does in space.
 Scene to_converge(const Scene& scene);
 
 /// The scene in another setting. Node numbers name the same material points on the new mesh. Throws InvalidInput where

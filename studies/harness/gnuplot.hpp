@@ -19,8 +19,8 @@ void draw_figure(const std::filesystem::path& script, const std::filesystem::pat
 void draw_figure_of(const std::string& script, const std::string& data, const std::filesystem::path& figure,
                     GnuplotVariables variables = {});
 
-/// A film (.mp4) of a script that draws a GIF, and its data. Throws InvalidInput where ffmpeg, which makes the one of
-/// the other, is not installed.
+/// Makes a film (.mp4): runs a script that draws a GIF of `data`, and has ffmpeg convert it. Throws InvalidInput if
+/// ffmpeg is not installed.
 void draw_film_of(const std::string& script, const std::string& data, const std::filesystem::path& film);
 
 }  // namespace vlbeam

@@ -8,7 +8,7 @@
 
 namespace vlbeam {
 
-/// Where the judge of reference/judge, another formulation, has the joint, its mass and the end of a beam.
+/// Where the joint, its mass and the end of a beam are by the judge of reference/judge, another formulation.
 struct Judged {
   std::optional<double> joint;     ///< its material coordinate [m]
   std::optional<Point> mass, end;  ///< [m]; an end that is held is not among its answers

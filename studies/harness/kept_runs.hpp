@@ -19,16 +19,16 @@ class KeptRuns {
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
 
-  /// The study is complete: nobody needs them any more.
+  /// Removes what was kept, once the study is complete.
   void discard() const;
 };
 
-/// simulate(), from what was kept of this scene, if something was: with the digits of a run that never stopped. Without
-/// a folder, and of what has no checkpoints (statics, SUNDIALS), it is simulate() alone.
+/// simulate(), going on from what was kept of this scene, if anything, with the digits of a run that never stopped.
+/// Without a folder, and for runs that have no checkpoints (statics, SUNDIALS), it is simulate() alone.
 ///
-/// Where the run is a process of its own, `progress` is asked several times a second, at t = 0, whether it goes on.
-/// Result and exceptions are the same ones, but that an exception that is not InvalidInput comes as std::runtime_error
-/// with its text, and that a process which crashes, or is ended, throws std::runtime_error, which says by what.
+/// If the run is a process of its own, `progress` is asked several times a second, at t = 0, whether it goes on. Result
+/// and InvalidInput are the same. Other exceptions become std::runtime_error with their text. A process that crashes,
+/// or is ended, throws std::runtime_error, which says by what.
 RunResult simulate_kept(const Scene& scene, const ProgressCallback& progress);
 
 /// The process of such a run: reads `asked`, and returns what it has to write to standard output.

@@ -17,7 +17,7 @@ double distance(const Point& a, const Point& b);
 /// The sample at time t [s], or nothing.
 const Sample* sample_at(const RunResult& result, double t);
 
-/// max(|dx_i|, |dr_end|, |dr_mass|) / L at one time; NaN where one of the runs has no such sample, or one of them alone
+/// max(|dx_i|, |dr_end|, |dr_mass|) / L at one time. NaN if one of the runs has no sample then, or if only one of them
 /// has lost its mass.
 double position_error(const RunResult& run, const RunResult& reference, double t);
 double position_error(const Sample& a, const Sample& b);

@@ -6,8 +6,8 @@
 
 namespace vlbeam {
 
-/// Of the known words, of which there is at least one, that which takes the fewest letters to insert, remove, replace
-/// or swap; the first of several.
+/// The known word, of one or more, that takes the fewest letters to insert, remove, replace or swap; of several the
+/// first.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& known);
 
 /// "a", "b", "c".

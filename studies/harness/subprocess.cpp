@@ -16,6 +16,8 @@
 
 extern char** environ;
 
+// By the system's own calls. Boost.Process of Debian 12 (1.74) makes pipes that processes of other threads inherit, so
+// that their ends are seen too late, and it takes the signal SIGCHLD of the whole program to wait for a limited time.
 namespace vlbeam {
 namespace {
 
