@@ -3,26 +3,25 @@
 #include "core/beam/span.hpp"
 #include "core/element/fixed_rest.hpp"
 #include "core/element/fixed_tangent.hpp"
-#include "core/element/wide_pack.hpp"
 
 namespace vlbeam {
 namespace {
 
-template <class Lanes, int D>
-Vec<Lanes, D> load_lanes(const double* first, const std::array<int, Pack::width>& offset) {
-  Vec<Lanes, D> result;
+template <int D>
+Vec<Pack, D> load_lanes(const double* first, const std::array<int, Pack::width>& offset) {
+  Vec<Pack, D> result;
   for (int c = 0; c < D; ++c) {
-    result[c] = Lanes(first[offset[0] + c], first[offset[1] + c], first[offset[2] + c], first[offset[3] + c]);
+    result[c] = Pack(first[offset[0] + c], first[offset[1] + c], first[offset[2] + c], first[offset[3] + c]);
   }
   return result;
 }
 
-template <class Lanes, int D>
-NodalCubic<Lanes, D> load_elements(const double* nodes, int first, const std::array<int, Pack::width>& offset) {
+template <int D>
+NodalCubic<Pack, D> load_elements(const double* nodes, int first, const std::array<int, Pack::width>& offset) {
   const double* a = nodes + node_size<D> * first;
   const double* b = a + node_size<D>;
-  return {load_lanes<Lanes, D>(a, offset), load_lanes<Lanes, D>(a + D, offset), load_lanes<Lanes, D>(b, offset),
-          load_lanes<Lanes, D>(b + D, offset)};
+  return {load_lanes<D>(a, offset), load_lanes<D>(a + D, offset), load_lanes<D>(b, offset),
+          load_lanes<D>(b + D, offset)};
 }
 
 /// Offsets of a pack's elements in a nodal array; lanes beyond the last element repeat it.
@@ -50,8 +49,8 @@ void add_chord_tangent(const Stiffness& stiffness, NodeTangent<D>* diagonal, Nod
 }
 
 /// Adds the forces on the first `count` elements of a pack to the nodes from `out` on.
-template <class Lanes, int D>
-void add_lanes(const FixedForce<Lanes, D>& f, int count, double* out) {
+template <int D>
+void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
   constexpr int stride = node_size<D>;
   for (int i = 0; i < count; ++i, out += stride) {
     for (int c = 0; c < D; ++c) {
@@ -86,25 +85,27 @@ auto with_kernel(const BeamSection& section, const Function& f) {
                                    : f.template operator()<Kernel::engineering>();
 }
 
+// Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
+// calls. Free functions: for a member of a class template GCC takes the attribute at its declaration only.
+
 /// `Sampled`: the axial strain has points of its own. Where it has none, the loop over them costs 2 %.
-template <class Lanes, int D, Kernel K, bool Sampled, class Packs>
-double sum_forces(const Packs& packs, const BeamSection& of, const double* q, const double* rate, double* force) {
+template <int D, Kernel K, bool Sampled, class Packs>
+[[gnu::flatten]] double add_pack_forces(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
+                                        double* force) {
   const BeamSection section = known<K>(of);
   double dissipation = 0;
   for (const auto& pack : packs) {
     const auto offset = lane_offsets<D>(pack.count);
-    const auto e = load_elements<Lanes, D>(q, pack.first, offset);
-    const auto e_rate = section.damped() ? load_elements<Lanes, D>(rate, pack.first, offset) : e;
+    const auto e = load_elements<D>(q, pack.first, offset);
+    const auto e_rate = section.damped() ? load_elements<D>(rate, pack.first, offset) : e;
     const auto& basis = pack.tables->basis;
-    auto f = FixedForce<Lanes, D>::zero();
+    auto f = FixedForce<Pack, D>::zero();
     if constexpr (Sampled) {
-      basis.visit_kinds(section, [&](const auto& points, const BeamSection& felt) {
-        add_fixed_force<Lanes, D>(points, e, e_rate, felt, f);
-      });
+      f = fixed_force<Pack, D>(basis, e, e_rate, section);
     } else {
-      add_fixed_force<Lanes, D>(basis.points, e, e_rate, section, f);
+      add_fixed_force<Pack, D>(basis.points, e, e_rate, section, f);
     }
-    add_lanes<Lanes, D>(f, pack.count, force + node_size<D> * pack.first);
+    add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
     if (section.damped()) {
       for (int i = 0; i < pack.count; ++i) dissipation += f.dissipation[i];
     }
@@ -121,7 +122,7 @@ template <int D, Kernel K, class Packs>
   ChordTangent<double, D> viscous;
   for (auto& row : viscous) row.fill(Matrix::Zero());
   for (const auto& pack : packs) {
-    const auto e = load_elements<Pack, D>(q, pack.first, lane_offsets<D>(pack.count));
+    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
     const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section);
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
@@ -153,33 +154,12 @@ template <int D, Kernel K, class Packs>
   }
 }
 
-// Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
-// calls. Free functions: for a member of a class template GCC takes the attribute at its declaration only. What has
-// wide lanes takes them, to the same digits.
-
-template <int D, Kernel K, bool Sampled, class... Arguments>
-[[gnu::flatten]] double add_pack_forces(const Arguments&... arguments) {
-  return sum_forces<Pack, D, K, Sampled>(arguments...);
-}
-#ifdef VLBEAM_WIDE_LANES
-template <int D, Kernel K, bool Sampled, class... Arguments>
-VLBEAM_WIDE_LANES [[gnu::flatten]] double add_wide_forces(const Arguments&... arguments) {
-  return sum_forces<WidePack, D, K, Sampled>(arguments...);
-}
-#endif
-
 }  // namespace
 
 template <int D>
 double Span<D>::forces(const double* q, const double* rate, double* force) const {
   const bool sampled = !packs_.empty() && !packs_.front().tables->basis.stretch.empty();
   return with_kernel(section_, [&]<Kernel K>() {
-#ifdef VLBEAM_WIDE_LANES
-    if (has_wide_lanes()) {
-      return sampled ? add_wide_forces<D, K, true>(packs_, section_, q, rate, force)
-                     : add_wide_forces<D, K, false>(packs_, section_, q, rate, force);
-    }
-#endif
     return sampled ? add_pack_forces<D, K, true>(packs_, section_, q, rate, force)
                    : add_pack_forces<D, K, false>(packs_, section_, q, rate, force);
   });
@@ -188,9 +168,9 @@ double Span<D>::forces(const double* q, const double* rate, double* force) const
 template <int D>
 void Span<D>::rest_forces(const double* q, double* force) const {
   for (const auto& pack : packs_) {
-    const auto e = load_elements<Pack, D>(q, pack.first, lane_offsets<D>(pack.count));
+    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
     const auto f = rest_force<Pack, D>(pack.tables->basis, pack.tables->rest, e, section_);
-    add_lanes<Pack, D>(f, pack.count, force + node_size<D> * pack.first);
+    add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/wide_pack.hpp"
+#include "core/element/pack.hpp"
 #include "tests/core/support/element_under_test.hpp"
 
 namespace vlbeam::test {
@@ -96,44 +96,7 @@ struct Element {
   NodalCubic<double, D> e, rate;
 };
 
-/// Force column and dissipation of one lane.
-template <class Lanes, int D>
-Vec<double, 3 * D + 1> lane_of(const FixedForce<Lanes, D>& f, int lane) {
-  Vec<double, 3 * D + 1> result;
-  for (int c = 0; c < D; ++c) {
-    result[c] = f.r_b[c][lane];
-    result[D + c] = f.s_a[c][lane];
-    result[2 * D + c] = f.s_b[c][lane];
-  }
-  result[3 * D] = f.dissipation[lane];
-  return result;
-}
-
-#ifdef VLBEAM_WIDE_LANES
-template <int D>
-VLBEAM_WIDE_LANES [[gnu::flatten]] Vec<double, 3 * D + 1> force_in_wide_lanes(const FixedBasis<Pack>& basis,
-                                                                              const NodalCubic<Pack, D>& e,
-                                                                              const NodalCubic<Pack, D>& rate,
-                                                                              const BeamSection& section, int lane) {
-  const auto widen = [](const NodalCubic<Pack, D>& from) {
-    NodalCubic<WidePack, D> to;
-    for (int c = 0; c < D; ++c) {
-      to.r_a[c] = from.r_a[c];
-      to.s_a[c] = from.s_a[c];
-      to.r_b[c] = from.r_b[c];
-      to.s_b[c] = from.s_b[c];
-    }
-    return to;
-  };
-  auto f = FixedForce<WidePack, D>::zero();
-  basis.visit_kinds(section, [&](const auto& points, const BeamSection& felt) {
-    add_fixed_force<WidePack, D>(points, widen(e), widen(rate), felt, f);
-  });
-  return lane_of<WidePack, D>(f, lane);
-}
-#endif
-
-/// Force column and dissipation of one lane of a pack of elements. Wide lanes have the same digits.
+/// Force column and dissipation of one lane of a pack of elements.
 template <int D>
 Vec<double, 3 * D + 1> force_in_pack(const std::array<Element<D>, Pack::width>& elements, int lane,
                                      const BeamSection& section) {
@@ -165,10 +128,12 @@ Vec<double, 3 * D + 1> force_in_pack(const std::array<Element<D>, Pack::width>& 
     set_nodes(e, i, element.e);
     set_nodes(rate, i, element.rate);
   }
-  const Vec<double, 3 * D + 1> result = lane_of<Pack, D>(fixed_force<Pack, D>(basis, e, rate, section), lane);
-#ifdef VLBEAM_WIDE_LANES
-  if (has_wide_lanes()) EXPECT_EQ((force_in_wide_lanes<D>(basis, e, rate, section, lane)), result);
-#endif
+  const auto f = fixed_force<Pack, D>(basis, e, rate, section);
+  auto get = [&](const Vec<Pack, D>& v) -> Vec<double, D> {
+    return v.unaryExpr([&](const Pack& p) { return p[lane]; });
+  };
+  Vec<double, 3 * D + 1> result;
+  result << get(f.r_b), get(f.s_a), get(f.s_b), f.dissipation[lane];
   return result;
 }
 
