@@ -78,7 +78,17 @@ class Path {
 
   bool advance(Eigen::VectorXd& q, double from, double to, int halvings, bool first) {
     Eigen::VectorXd tried = q;
-    const bool found = search_.newton(tried, to) && (first || follows(q, from, tried, to));
+    bool found = search_.newton(tried, to) && (first || follows(q, from, tried, to));
+    if (!found) {
+      tried = q;
+      const bool rope = !system_.model().section.stiffness.bends();
+      search_.residual(q, to);
+      const double pull = first && rope ? search_.r.norm() : -std::numeric_limits<double>::infinity();
+      found = search_.free_newton(tried, to, pull, rope ? 0.01 * search_.r.norm() : -std::numeric_limits<double>::infinity()) && (first || follows(q, from, tried, to));
+      if (found && first && search_.stable_at(tried, to)) {
+        q = tried; system_.follow(q); return true;
+      }
+    }
     if (first && !(found && holds_at_start_) && search_.relax(q, to)) {
       system_.follow(q);
       return true;

@@ -139,6 +139,34 @@ class StaticSearch {
     return false;
   }
 
+  /// The same with the forces along the axis as unknowns of their own, none of them below `least`, and at first not
+  /// below `first` [N].
+  bool free_newton(Eigen::VectorXd& q, double factor, double first, double least) {
+    Eigen::VectorXd tried = q;
+    impose(tried, factor);
+    FreeTension<D> forces(system);
+    forces.start(tried, first);
+    double previous = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_corrections; ++i) {
+      ++counters.newton.iterations;
+      residual(tried, factor);
+      ++counters.newton.tangents;
+      if (!equations.linearize(tried, load(factor), 0, &forces)) return false;
+      equations.solve(r);
+      const double correction = size(r);
+      if (getenv("DBG")) fprintf(stderr,"free %d %g neg %d\n", i, correction, equations.negative_pivots(zero_pivot));
+      if (!std::isfinite(correction)) return false;
+      const double share = std::min(1.0, largest_correction / correction);
+      forces.advance(tried, r, share, least);
+      if (correction < 1e-6 || (correction < 1e-3 && correction > previous / 2)) {
+        Eigen::VectorXd last = tried;
+        if (newton(last, factor)) { q = last; return true; }
+      }
+      previous = correction;
+    }
+    return false;
+  }
+
   /// Whether a joint has run through another node, or left the beam.
   bool tangled(const Eigen::VectorXd& q) const {
     const ChainView<D> beam = system.view(q.data(), q.data());
