@@ -82,7 +82,7 @@ void FreeTension<D>::advance(Eigen::VectorXd& q, const Eigen::VectorXd& change, 
     force = std::max(force, least);
   });
   q -= share * change;
-  if (getenv("DBG")) fprintf(stderr,"  N %g %g\n", *std::min_element(forces_.begin(),forces_.end()),*std::max_element(forces_.begin(),forces_.end()));
+  
 }
 
 template class FreeTension<2>;
