@@ -79,7 +79,9 @@ class Path {
   bool advance(Eigen::VectorXd& q, double from, double to, int halvings, bool first) {
     Eigen::VectorXd tried = q;
     bool found = search_.newton(tried, to) && (first || follows(q, from, tried, to));
-    if (first && !(found && holds_at_start_) && (search_.hang(q, to) || search_.relax(q, to))) {
+    const bool loose = first && !(found && holds_at_start_);
+    if ((loose || !found) && search_.hang(q, to)) return true;
+    if (loose && search_.relax(q, to)) {
       system_.follow(q);
       return true;
     }

@@ -85,6 +85,21 @@ void FreeTension<D>::advance(Eigen::VectorXd& q, const Eigen::VectorXd& change, 
   
 }
 
+template <int D>
+bool FreeTension<D>::pulls(const Eigen::VectorXd& q, double least) const {
+  std::vector<double> means(static_cast<std::size_t>(system_.mesh().elements()), 0);
+  std::vector<double> lengths = means;
+  at_points(q, [&](const Point& point) {
+    const auto k = static_cast<std::size_t>(point.element);
+    means[k] += point.weight * stiffness_.EA * point.strain;
+    lengths[k] += point.weight;
+  });
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    if (!(means[k] > least * lengths[k])) return false;
+  }
+  return true;
+}
+
 template class FreeTension<2>;
 template class FreeTension<3>;
 

@@ -26,6 +26,8 @@ class FreeTension {
   void add_to(const Eigen::VectorXd& q, BeamMatrix<D>& tangent) const;
   /// Takes q to q - share change, and the forces along; none falls below `least`.
   void advance(Eigen::VectorXd& q, const Eigen::VectorXd& change, double share, double least);
+  /// Whether strains at q pull, in the mean of each element, by more than `least` [N].
+  bool pulls(const Eigen::VectorXd& q, double least) const;
 
  private:
   /// Where the axial strain is summed.

@@ -111,10 +111,10 @@ class JointRelease {
     return control.trigger_length() * (1 + 1e-12) - search_.reach(search_.slider, q, -way);
   }
 
-  /// Nothing but what slides holds the beam, which then goes down.
+  /// Nothing but the ring holds the beam, which then goes down.
   bool hangs() const {
     const auto free = [](const Support<D>& support) { return (support.free_position > 0).all(); };
-    return free(system_.model().start) && free(system_.model().end);
+    return search_.in_ring(search_.slider) && free(system_.model().start) && free(system_.model().end);
   }
 
   [[noreturn]] void not_released(const Eigen::VectorXd& q, const std::string& why) {

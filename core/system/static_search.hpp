@@ -21,6 +21,7 @@ class StaticSearch {
   static constexpr double largest_correction = 0.5;   // of the beam's length, and of slopes
   static constexpr double largest_relaxation = 0.05;  // the same, of one step of a relaxation
   static constexpr double by_rounding = 1e-7;         // corrections that no longer fall end the iteration from here on
+  static constexpr double close = 0.05;                 // corrections that free forces from their bounds
   static constexpr double near = 1e-3, nearly = 1e-6;  // corrections that lead from free forces to those of the strains
   static constexpr double least_force = 0.01;          // of a rope in search of its equilibrium, over what acts on it
   static constexpr double slack = 1e-10;              // over the axial stiffness: of a beam that holds nothing
@@ -162,15 +163,21 @@ class StaticSearch {
     return false;
   }
 
-  /// The same with the forces along the axis as unknowns of their own (FreeTension), at first none below `first`, and
-  /// later none below `least` [N]; then as above.
-  bool newton_with_forces(Eigen::VectorXd& q, double factor, double first, double least) {
+  /// How an iteration with free forces goes: at first none is below `first`, and later none below `least` [N].
+  struct Walk {
+    double first, least;
+    double longest = largest_correction;  ///< of a step
+    int most = most_corrections;
+  };
+
+  /// The same with the forces along the axis as unknowns of their own (FreeTension), then as above.
+  bool newton_with_forces(Eigen::VectorXd& q, double factor, const Walk& walk) {
     Eigen::VectorXd at = q;
     impose(at, factor);
     FreeTension<D> forces(system);
-    forces.start(at, first);
+    forces.start(at, walk.first);
     double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_corrections; ++i) {
+    for (int i = 0; i < walk.most; ++i) {
       ++counters.newton.iterations;
       ++counters.newton.tangents;
       residual(at, factor);
@@ -178,9 +185,11 @@ class StaticSearch {
       equations.solve(r);
       const double correction = size(r);
       if (!std::isfinite(correction)) return false;
-      forces.advance(at, r, std::min(1.0, largest_correction / correction), least);
+      // in the end even those of a rope may push, at a point of an element or where the ground holds it
+      const double least = correction < close ? -std::numeric_limits<double>::infinity() : walk.least;
+      forces.advance(at, r, std::min(1.0, walk.longest / correction), least);
       const bool settles = correction < nearly || (correction < near && correction > previous / 2);
-      if (settles || i + 1 == most_corrections) {
+      if (settles || i + 1 == walk.most) {
         Eigen::VectorXd tried = at;
         if (newton(tried, factor)) {
           q = tried;
@@ -195,20 +204,25 @@ class StaticSearch {
   /// With forces as strains say at first; a rope does not push.
   bool newton_with_forces(Eigen::VectorXd& q, double factor) {
     const double least = system.model().section.stiffness.bends() ? -std::numeric_limits<double>::infinity() : 0;
-    return newton_with_forces(q, factor, least, least);
+    return newton_with_forces(q, factor, Walk{least, least});
   }
 
   /// Where a rope that holds nothing at first hangs: forces that bear what acts on it, and none that pushes, lead there.
-  /// False where it finds no stable equilibrium.
+  /// False where it finds no stable equilibrium, or one that pushes, on the ground or so.
   bool hang(Eigen::VectorXd& q, double factor) {
     if (system.model().section.stiffness.bends()) return false;
     residual(q, factor);
     const double bears = r.norm();
-    Eigen::VectorXd tried = q;
-    if (!(bears > 0) || !newton_with_forces(tried, factor, bears, least_force * bears)) return false;
-    if (!stable_at(tried, factor)) return false;
-    q = tried;
-    return true;
+    if (!(bears > 0)) return false;
+    for (const int pace : {1, 5, 25}) {
+      Eigen::VectorXd tried = q;
+      const Walk walk{bears, least_force * bears, largest_correction / pace, most_corrections * pace};
+      if (!newton_with_forces(tried, factor, walk)) continue;
+      if (!FreeTension<D>(system).pulls(tried, -by_rounding * bears) || !stable_at(tried, factor)) continue;
+      q = tried;
+      return true;
+    }
+    return false;
   }
 
   /// Whether a joint has run through another node, or left the beam.
@@ -279,13 +293,16 @@ class StaticSearch {
     return false;
   }
 
+  bool in_ring(std::size_t which) const {
+    return system.held(which) != nullptr && (system.held(which)->free_slope > 0).all();
+  }
+
   /// What slides has run to where it cannot go on: of a ring, with the force that it would take there.
   [[noreturn]] void not_balanced(std::size_t which, double force, const std::string& ring, const std::string& other) {
     const int joint = system.joint_index(which);
-    const bool in_ring = system.held(which) != nullptr && (system.held(which)->free_slope > 0).all();
     const std::string slides = "the beam slides along the ring at joint " + std::to_string(joint) + " with " +
                                in_digits(std::abs(force), 4) + " N unbalanced: ";
-    throw NotBalanced(in_ring ? slides + ring : other, joint, force);
+    throw NotBalanced(in_ring(which) ? slides + ring : other, joint, force);
   }
 
   bool next_is_end(std::size_t which, int way) const {
