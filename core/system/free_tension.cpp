@@ -14,6 +14,13 @@ FreeTension<D>::FreeTension(const BeamSystem<D>& system)
 }
 
 template <int D>
+std::array<double, 2> FreeTension<D>::pull_at(double strain) const {
+  if (!stiffness_.slackens()) return {stiffness_.EA * strain, stiffness_.EA};
+  const SlackLaw<double> rope(strain, stiffness_.slack_over);
+  return {stiffness_.EA * rope.pull, stiffness_.EA * rope.stiffness};
+}
+
+template <int D>
 template <class Visit>
 void FreeTension<D>::at_points(const Eigen::VectorXd& q, const Visit& visit) const {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(q.size());
@@ -40,7 +47,7 @@ void FreeTension<D>::at_points(const Eigen::VectorXd& q, const Visit& visit) con
 template <int D>
 void FreeTension<D>::start(const Eigen::VectorXd& q, double least) {
   forces_.clear();
-  at_points(q, [&](const Point& point) { forces_.push_back(std::max(stiffness_.EA * point.strain, least)); });
+  at_points(q, [&](const Point& point) { forces_.push_back(std::max(pull_at(point.strain)[0], least)); });
 }
 
 template <int D>
@@ -48,7 +55,7 @@ void FreeTension<D>::add_to(const Eigen::VectorXd& q, BeamMatrix<D>& tangent) co
   const ChainView<D> beam = system_.view(q.data(), q.data());
   std::size_t which = 0;
   at_points(q, [&](const Point& point) {
-    const double more = forces_[which++] - stiffness_.EA * point.strain;
+    const double more = forces_[which++] - pull_at(point.strain)[0];
     Eigen::Matrix<double, D, D> by_slope = Eigen::Matrix<double, D, D>::Identity();  // second derivative of the strain
     if (!stiffness_.green()) {
       const double stretch = point.r_x.norm();
@@ -78,11 +85,11 @@ void FreeTension<D>::advance(Eigen::VectorXd& q, const Eigen::VectorXd& change, 
     }
     const double along = point.r_x.dot(slope) / (stiffness_.green() ? 1 : point.r_x.norm());
     double& force = forces_[which++];
-    force += share * (stiffness_.EA * (point.strain + along) - force);
+    const auto [pull, stiffness] = pull_at(point.strain);
+    force += share * (pull + stiffness * along - force);
     force = std::max(force, least);
   });
   q -= share * change;
-  
 }
 
 template <int D>
@@ -91,7 +98,7 @@ bool FreeTension<D>::pulls(const Eigen::VectorXd& q, double least) const {
   std::vector<double> lengths = means;
   at_points(q, [&](const Point& point) {
     const auto k = static_cast<std::size_t>(point.element);
-    means[k] += point.weight * stiffness_.EA * point.strain;
+    means[k] += point.weight * pull_at(point.strain)[0];
     lengths[k] += point.weight;
   });
   for (std::size_t k = 0; k < means.size(); ++k) {

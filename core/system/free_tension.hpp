@@ -39,6 +39,8 @@ class FreeTension {
     double strain;  ///< from the rest shape
   };
 
+  /// The axial force of a strain, and its derivative [N].
+  std::array<double, 2> pull_at(double strain) const;
   /// Calls visit(point) at q.
   template <class Visit>
   void at_points(const Eigen::VectorXd& q, const Visit& visit) const;

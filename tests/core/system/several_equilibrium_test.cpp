@@ -141,7 +141,8 @@ TEST(RopeOverRings, SlidesWhereNothingHoldsIt) {
     BeamSystem<2> system(build_model<2>(scene), build_chain<2>(scene));
     SolverCounters counters;
     try {
-      trace_equilibria<2>(system, {}, [](const Equilibrium&) { return true; }, counters);
+      trace_equilibria<2>(
+          system, {}, [](const Equilibrium&) { return true; }, counters);
       ADD_FAILURE() << "it is in equilibrium";
     } catch (const NotBalanced& slides) {
       EXPECT_EQ(slides.joint, 0);
@@ -162,7 +163,7 @@ TEST(RopeOverRings, SidesEndOnTheDirectrixOfTheCatenaryBetween) {
   scene.beam.elements = 40;
   const RunResult run = completed(scene);
   const double L = run.samples.front().beam_length;  // the corner between the rings is rounded off
-  double c = 0.5;  // of the deeper one
+  double c = 0.5;                                    // of the deeper one
   for (int i = 0; i < 50; ++i) c -= (2 * c * std::exp(1 / c) - L) / (2 * std::exp(1 / c) * (1 - 1 / c));
   const Sample& last = run.samples.back();
   EXPECT_NEAR(*last.joints[0].position, c * std::cosh(1 / c), 1e-4);
