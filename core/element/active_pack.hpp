@@ -54,6 +54,15 @@ class ActivePack {
   friend ActivePack operator*(const ActivePack& a, double b) { return a * Pack(b); }
   friend ActivePack operator*(double a, const ActivePack& b) { return Pack(a) * b; }
 
+  friend ActivePack clamped(const ActivePack& a, double low, double high) {
+    ActivePack result = a;
+    for (int i = 0; i < Pack::width; ++i) {
+      if (a.value_[i] >= low && a.value_[i] <= high) continue;
+      result.value_.set(i, a.value_[i] < low ? low : high);
+      result.by_.set(i, 0);
+    }
+    return result;
+  }
   friend ActivePack sqrt(const ActivePack& a) {
     const Pack root = sqrt(a.value_);
     return {root, a.by_ * (Pack(0.5) / root)};
