@@ -20,9 +20,6 @@ MovingResidual<double, D, Ends> residual_of(const MovingCoordinates<double, D>& 
                                             const MovingCoordinates<double, D>& rate,
                                             const MovingCoordinates<double, D>& a, const WeightFunction& weights,
                                             const PointTables& tables, const MovingLaw<D>& law, double& dissipation) {
-  if constexpr (Ends != MovingEnds::both) {
-    if (in_lanes_of<Ends>(law)) return residual_in_lanes<Ends, D>(q, rate, a, weights, tables.four, law);
-  }
   return moving_residual<Ends, double, D>(q, rate, a, weights, tables.one, law, &dissipation);
 }
 
