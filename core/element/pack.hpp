@@ -47,8 +47,6 @@ class Pack {
     for (int i = 0; i < parts; ++i) a.parts_[i] = -a.parts_[i];
     return a;
   }
-  /// Of its lanes.
-  double sum() const { return ((*this)[0] + (*this)[1]) + ((*this)[2] + (*this)[3]); }
   friend Pack sqrt(const Pack& a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 
  private:
