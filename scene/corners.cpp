@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "scene/build.hpp"
 
@@ -41,19 +43,8 @@ std::vector<Vec<double, D>> points_of(const std::vector<Point>& from) {
   return points;
 }
 
-}  // namespace
-
-bool is_rope(const BeamSpec& beam) { return beam.section.type == Section::Type::stiffness && beam.section.EI == 0; }
-
 template <int D>
-Nurbs<D> drawn_nurbs(const CurveSpec& curve) {
-  Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, points_of<D>(curve.control_points)};
-  if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
-  return nurbs;
-}
-
-template <int D>
-Axis<D> drawn_axis(const CurveSpec& curve) {
+Axis<D> draw(const CurveSpec& curve) {
   constexpr double degree = std::numbers::pi / 180;
   switch (curve.type) {
     case CurveType::arc:
@@ -67,6 +58,25 @@ Axis<D> drawn_axis(const CurveSpec& curve) {
       break;
   }
   return Axis<D>::line(vector_of<D>(curve.start), vector_of<D>(curve.end));
+}
+
+}  // namespace
+
+bool is_rope(const BeamSpec& beam) { return beam.section.type == Section::Type::stiffness && beam.section.EI == 0; }
+
+template <int D>
+Nurbs<D> drawn_nurbs(const CurveSpec& curve) {
+  Nurbs<D> nurbs{curve.degree, curve.knots, curve.weights, points_of<D>(curve.control_points)};
+  if (nurbs.weights.empty()) nurbs.weights.assign(nurbs.points.size(), 1);
+  return nurbs;
+}
+
+template <int D>
+Axis<D> drawn_axis(const CurveSpec& curve) {
+  // defaults, checks and builders of one scene ask for its axis some hundred times, and its length is an integral
+  thread_local std::optional<std::pair<CurveSpec, Axis<D>>> last;
+  if (!last || last->first != curve) last.emplace(curve, draw<D>(curve));
+  return last->second;
 }
 
 bool may_have_corners(const CurveSpec& curve) {

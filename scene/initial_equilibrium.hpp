@@ -14,7 +14,7 @@ EquilibriumOptions equilibrium_options(const Scene& scene);
 
 /// What a sample says of an equilibrium.
 inline StaticSample static_sample_of(const Equilibrium& at) {
-  return {at.factor, at.negative_pivots, at.holding_force};
+  return {at.factor, at.negative_pivots, at.holding_force, at.hidden_pivots};
 }
 
 /// Where a motion starts, at rest.

@@ -176,6 +176,7 @@ constexpr auto names(WarningKind) {
                                             {thick_elements, "thick-elements"},
                                             {light_material, "light-material"},
                                             {buckled_elements, "buckled-elements"},
+                                            {hidden_stability, "hidden-stability"},
                                             {ringing_friction, "ringing-friction"}});
 }
 

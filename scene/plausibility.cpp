@@ -107,6 +107,16 @@ void check_friction(const Scene& scene, const RunResult& result, std::vector<War
   }
 }
 
+/// Of the last equilibrium, or of that from which a motion starts.
+void check_stability(const Scene& scene, const RunResult& result, std::vector<Warning>& warnings) {
+  const Sample& seen = scene.analysis == Analysis::statics ? result.samples.back() : result.samples.front();
+  if (!seen.equilibrium || seen.equilibrium->negative_pivots > 0 || seen.equilibrium->hidden_pivots == 0) return;
+  warnings.push_back({WarningKind::hidden_stability,
+                      text_of("rounding hides whether the equilibrium is stable: in ", seen.equilibrium->hidden_pivots,
+                              " directions the energy hardly changes, against what the axis resists"),
+                      "a smaller EA, fewer elements, or a support that holds the beam"});
+}
+
 }  // namespace
 
 std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
@@ -116,6 +126,7 @@ std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
   check_strain(scene, result, warnings);
   check_compression(scene, result, warnings);
   check_friction(scene, result, warnings);
+  check_stability(scene, result, warnings);
   return warnings;
 }
 

@@ -59,6 +59,7 @@ struct StaticSample {
   double load_factor = 0;    ///< what loads, gravity and displacements of supports are scaled by
   int negative_pivots = 0;   ///< of the tangent: directions in which the potential energy falls; 0 is stable
   double holding_force = 0;  ///< on the material coordinate of a joint, along the beam [N]; 0 once it is released
+  int hidden_pivots = 0;     ///< directions of which rounding hides whether the energy falls
 };
 
 /// One of several joints.
@@ -173,6 +174,7 @@ enum class WarningKind {
   thick_elements,          ///< the section's radius exceeds an element's length: a unit may be wrong
   light_material,          ///< lighter than foam: a unit may be wrong
   buckled_elements,        ///< compressed beyond what a single element bears: it is slack, and its folds have no mesh
+  hidden_stability,        ///< rounding hides whether an equilibrium is stable
   ringing_friction,        ///< the force that friction goes by is that of a vibration which nothing damps
 };
 

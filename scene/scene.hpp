@@ -65,6 +65,8 @@ struct CurveSpec {
   std::vector<double> knots = {}, weights = {};  ///< nurbs; no weights are equal weights
   std::vector<Point> control_points = {};        ///< nurbs [m]
   std::vector<Point> points = {};                ///< polyline [m]
+
+  bool operator==(const CurveSpec&) const = default;
 };
 
 /// The cross-section: a solid circle or rectangle of the beam's material, or stiffnesses and masses per length.

@@ -297,13 +297,13 @@ void check_equilibrium(const Scene& scene) {
     refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), "with " + who + " it must be \"none\"");
   }
   const bool loaded = !scene.loads.empty() || scene.gravity != Point{};
-  // two rings hold a beam as a sleeve does
   const auto held = [&](SupportType by) {
-    return std::ranges::count(scene.sliding_joints, by, &SlidingJointSpec::support);
+    return std::ranges::count(scene.sliding_joints, by, &SlidingJointSpec::support) > 0;
   };
-  const bool in_sleeve = 2 * held(SupportType::clamp) + held(SupportType::pin) > 1;
-  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_sleeve) {
-    refuse("/supports", "nothing that holds the beam", "under loads or gravity it has no equilibrium: hold an end");
+  const bool in_ring = held(SupportType::clamp) || held(SupportType::pin);
+  if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_ring) {
+    refuse("/supports", "nothing that holds the beam",
+           "under loads or gravity it has no equilibrium: hold an end, or lay it over a ring");
   }
   if (scene.statics.control == LoadControl::arc_length) {
     if (!loaded) refuse("/statics/control", "\"arc-length\"", "it needs gravity or /loads to scale: take \"load\"");

@@ -32,6 +32,11 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
     }
   }
 
+  void solve_pivots() {
+    Base::solve_pivots();
+    wide_.solve_pivots();
+  }
+
   /// Gives each node an angle.
   void add_angles() requires(D == 3) {
     turns_ = true;

@@ -46,7 +46,8 @@ void BorderedBlockTridiagonal<B>::reset(int nodes) {
   diagonal.assign(n, Block::Zero());
   upper.assign(n, Block::Zero());
   lower.assign(n, Block::Zero());
-  inverse_.resize(n);
+  inverse_.resize(solves_ ? 0 : n);
+  pivots_.resize(solves_ ? n : 0);
   border.clear();
   corner.setZero();
 }
@@ -78,11 +79,26 @@ bool BorderedBlockTridiagonal<B>::factor() {
   for (std::size_t k = 0; k < n; ++k) {
     Block pivot = diagonal[k];
     if (k > 0) {
-      lower[k] = lower[k] * inverse_[k - 1];  // the elimination factor takes the place of the block it eliminates
+      // the elimination factor takes the place of the block it eliminates
+      if (solves_) {
+        const Pivot& before = pivots_[k - 1];
+        const Block scaled = before.scale.asDiagonal() * lower[k].transpose();
+        lower[k] = (before.scale.asDiagonal() * before.scaled.transpose().partialPivLu().solve(scaled)).transpose();
+      } else {
+        lower[k] = lower[k] * inverse_[k - 1];
+      }
       pivot.noalias() -= lower[k] * upper[k - 1];
     }
-    inverse_[k] = inverse_of(pivot);
-    if (!inverse_[k].allFinite()) return false;
+    if (solves_) {
+      Pivot& own = pivots_[k];
+      set_scales(pivot, own.scale);
+      own.scaled = own.scale.asDiagonal() * pivot * own.scale.asDiagonal();
+      own.lu.compute(own.scaled);
+      if (!pivot.allFinite() || own.lu.matrixLU().diagonal().cwiseAbs().minCoeff() == 0) return false;
+    } else {
+      inverse_[k] = inverse_of(pivot);
+      if (!inverse_[k].allFinite()) return false;
+    }
   }
   if (border.empty()) return true;
   const std::size_t stride = B * n;
@@ -122,13 +138,20 @@ void BorderedBlockTridiagonal<B>::solve(double* x) const {
 template <int B>
 int BorderedBlockTridiagonal<B>::negative_pivots(double zero) const {
   int count = 0;
-  for (std::size_t k = 0; k < inverse_.size(); ++k) {
+  for (std::size_t k = 0; k < diagonal.size(); ++k) {
     Vector size;  // places, slopes and, of an odd number, an angle have units of their own
     for (int first = 0; first < B; first += B / 2) {
       const int end = std::min(first + B / 2, B);
       double largest = 0;
       for (int i = first; i < end; ++i) largest = std::max(largest, std::abs(diagonal[k](i, i)));
       for (int i = first; i < end; ++i) size[i] = std::sqrt(largest);
+    }
+    if (solves_) {
+      const Vector by = (pivots_[k].scale.cwiseProduct(size)).cwiseInverse();
+      const Block scaled = by.asDiagonal() * pivots_[k].scaled * by.asDiagonal();
+      const Block even = (scaled + scaled.transpose()) / 2;
+      for (const double value : eigenvalues(even)) count += value < -zero ? 1 : 0;
+      continue;
     }
     const Block scaled = size.asDiagonal() * inverse_[k] * size.asDiagonal();
     const Block even = (scaled + scaled.transpose()) / 2;
@@ -177,16 +200,28 @@ double BorderedBlockTridiagonal<B>::row_times(const Border& b, const double* x) 
 }
 
 template <int B>
+template <class Columns>
+void BorderedBlockTridiagonal<B>::apply_pivot(std::size_t k, Columns&& x) const {
+  if (solves_) {
+    const Pivot& own = pivots_[k];
+    const Vector scaled = own.scale.cwiseProduct(x);
+    x = own.scale.cwiseProduct(own.lu.solve(scaled));
+  } else {
+    x = inverse_[k] * x.eval();
+  }
+}
+
+template <int B>
 void BorderedBlockTridiagonal<B>::substitute(double* x, std::size_t first) const {
   const int n = nodes();
   for (int k = static_cast<int>(first) + 1; k < n; ++k) {
     node_part<B>(x, k).noalias() -= lower[static_cast<std::size_t>(k)] * node_part<B>(x, k - 1);
   }
-  node_part<B>(x, n - 1) = inverse_.back() * node_part<B>(x, n - 1).eval();
+  apply_pivot(static_cast<std::size_t>(n - 1), node_part<B>(x, n - 1));
   for (int k = n - 1; k-- > 0;) {
     const auto i = static_cast<std::size_t>(k);
-    const Vector rest = node_part<B>(x, k) - upper[i] * node_part<B>(x, k + 1);
-    node_part<B>(x, k).noalias() = inverse_[i] * rest;
+    node_part<B>(x, k).noalias() -= upper[i] * node_part<B>(x, k + 1);
+    apply_pivot(i, node_part<B>(x, k));
   }
 }
 

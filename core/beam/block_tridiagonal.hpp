@@ -41,6 +41,12 @@ class BorderedBlockTridiagonal {
   int nodes() const { return static_cast<int>(diagonal.size()); }
   int borders() const { return static_cast<int>(border.size()); }
 
+  /// Solves with each pivot from now on, by pivoting, instead of multiplying with its inverse. The inverse of a badly
+  /// conditioned pivot errs most where the pivot is stiffest, and this error takes the place of what the elimination
+  /// leaves of a stiff matrix in soft directions. Slower: the integrators do not need it, whose mass stiffens all
+  /// directions.
+  void solve_pivots() { solves_ = true; }
+
   /// Block LU from the first node to the last, then the small system that the border leaves. Returns false where a
   /// pivot is singular or not finite.
   bool factor();
@@ -64,10 +70,22 @@ class BorderedBlockTridiagonal {
   int reached(const Border& b) const { return std::min(reach, nodes() - b.first); }
   double row_times(const Border& b, const double* x) const;
 
+  /// Makes of `x` the solution of pivot k.
+  template <class Columns>
+  void apply_pivot(std::size_t k, Columns&& x) const;
+
   /// Forward and back substitution of a right-hand side that is zero before node `first`.
   void substitute(double* x, std::size_t first) const;
 
-  std::vector<Block> inverse_;
+  struct Pivot {
+    Vector scale;
+    Block scaled;
+    Eigen::PartialPivLU<Block> lu;
+  };
+
+  bool solves_ = false;
+  std::vector<Block> inverse_;                      ///< of the pivots
+  std::vector<Pivot> pivots_;                       ///< where they are solved
   std::vector<double> columns_;                     ///< the border's columns, solved
   Eigen::MatrixXd rest_;                            ///< of the corner, once the nodes are eliminated
   Eigen::PartialPivLU<Eigen::MatrixXd> corner_lu_;  ///< of that, scaled

@@ -30,6 +30,64 @@ struct MovingLaw {
   const RestElement<D>* rest = nullptr;             ///< of the element, null for a straight, unstrained one
 };
 
+/// What acts at one quadrature point of a variable-length element, or at four in lanes, as forces conjugate to r, r_x
+/// and r_xx, from which all generalized forces follow.
+template <class Real, int D>
+struct ConjugateForces {
+  Vec<Real, D> on_r, on_slope, on_second;
+};
+
+/// Those of gravity, stress and inertia at a point that moves as `at` says and is accelerated by `acceleration`. What
+/// acts on the ends besides is added to `on_a`, `on_b`, the power lost to damping to `dissipation`. A null `rest` is
+/// that of a straight beam. In lanes a beam is straight and not damped.
+template <MovingEnds Ends, class Real, int D, class Point>
+[[gnu::always_inline]] inline ConjugateForces<Real, D> point_forces(const Point& point, const PointMotion<Real, D>& at,
+                                                                    const RestStrain<Real>* rest,
+                                                                    const BeamSection& section, Formulation formulation,
+                                                                    const Vec<Real, D>& gravity,
+                                                                    const Vec<Real, D>& acceleration, Real& on_a,
+                                                                    Real& on_b, Real& dissipation) {
+  using Vector = Vec<Real, D>;
+  using Kinematics = MovingKinematics<Real, D, Ends>;
+  const double rhoA = section.rhoA;
+  const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, section.stiffness);
+  Vector p = elastic.p, m = elastic.m;
+  Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
+  Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
+  const Real& wl = point.weight;
+  if constexpr (!in_lanes<Real>) {
+    if (rest != nullptr) {
+      const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, section);
+      p += from_rest.p;
+      m += from_rest.m;
+      stored = from_rest.axial + from_rest.bending;
+      stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) - from_rest.work(rest->along);
+      if constexpr (Kinematics::a_moves) on_a += wl * from_rest.work(rest->by_a);
+      if constexpr (Kinematics::b_moves) on_b += wl * from_rest.work(rest->by_b);
+    }
+    if (section.damped()) {
+      const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness, section.damping,
+                                           section.curvature_regularization);
+      p += viscous.p;
+      m += viscous.m;
+      dissipation += wl * viscous.power;
+    }
+  }
+
+  const Real mu = wl * rhoA;
+  ConjugateForces<Real, D> f{(gravity - acceleration) * mu, p * Real(-wl), m * Real(-wl)};
+  if (formulation == Formulation::variational) {
+    const Real mu_c = mu * point.mesh_velocity;
+    f.on_r -= at.v * Real(point.weight_rate * rhoA) + at.v_x * mu_c;
+    f.on_slope -= at.v * mu_c;
+    const Real lagrangian = Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
+    const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
+    if constexpr (Kinematics::a_moves) on_a += lagrangian_x * Real(1 - point.u) - lagrangian * point.share;
+    if constexpr (Kinematics::b_moves) on_b += lagrangian_x * Real(point.u) + lagrangian * point.share;
+  }
+  return f;
+}
+
 /// Mass matrix and generalized forces of one variable-length element.
 ///
 /// `virtual_work` is Eq. 17-19 of Ding & Ouyang (2022): everything at fixed material points.
@@ -60,7 +118,6 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
   const FeltSections sections(law.section);
   const Vector gravity = law.gravity.template cast<Real>();
-  const bool variational = law.formulation == Formulation::variational;
 
   using Rest = RestKinematics<Real, D, Ends>;
   const auto at_rest =
@@ -70,44 +127,10 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   for_each_point(kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion,
                  [&](const auto& point, const auto& at, const auto* rest) {
                    const BeamSection& section = sections[point.feels];
-                   const double rhoA = section.rhoA;
-                   const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, section.stiffness);
-                   Vector p = elastic.p, m = elastic.m;
-                   Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
-                   Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
-                   if (rest != nullptr) {
-                     const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, section);
-                     p += from_rest.p;
-                     m += from_rest.m;
-                     stored = from_rest.axial + from_rest.bending;
-                     stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) - from_rest.work(rest->along);
-                     if constexpr (Kinematics::a_moves) eq.force_a += point.weight * from_rest.work(rest->by_a);
-                     if constexpr (Kinematics::b_moves) eq.force_b += point.weight * from_rest.work(rest->by_b);
-                   }
-                   const Real& wl = point.weight;
-                   if (section.damped()) {
-                     const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness,
-                                                          section.damping, section.curvature_regularization);
-                     p += viscous.p;
-                     m += viscous.m;
-                     eq.dissipation += wl * viscous.power;
-                   }
-
-                   const Real mu = wl * rhoA;
-                   // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
-                   Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
-                   if (variational) {
-                     const Real mu_c = mu * point.mesh_velocity;
-                     f0 -= at.v * Real(point.weight_rate * rhoA) + at.v_x * mu_c;
-                     f1 -= at.v * mu_c;
-                     const Real lagrangian =
-                         Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
-                     const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
-                     if constexpr (Kinematics::a_moves)
-                       eq.force_a += lagrangian_x * Real(1 - point.u) - lagrangian * point.share;
-                     if constexpr (Kinematics::b_moves)
-                       eq.force_b += lagrangian_x * Real(point.u) + lagrangian * point.share;
-                   }
+                   const auto [f0, f1, f2] =
+                       point_forces<Ends, Real, D>(point, at, rest, section, law.formulation, gravity, at.remainder,
+                                                   eq.force_a, eq.force_b, eq.dissipation);
+                   const Real mu = point.weight * section.rhoA;
                    for (std::size_t i = 0; i < 4; ++i) {
                      eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
                      const Real mi = mu * at.s[i];

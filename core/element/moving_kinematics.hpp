@@ -50,7 +50,8 @@ struct PointMotion {
   Vec<Real, D> remainder;           ///< r_v: acceleration at q'' = 0
 };
 
-/// Kinematics of a variable-length element in one configuration, evaluated at any number of points.
+/// Kinematics of a variable-length element in one configuration, evaluated at any number of points. In lanes its
+/// weights are frozen.
 template <class Real, int D, MovingEnds Ends = MovingEnds::both>
 class MovingKinematics {
  public:
@@ -59,16 +60,18 @@ class MovingKinematics {
 
   MovingKinematics(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
                    WeightTransport transport, const WeightFunction& weights)
-      : q_(q), rate_(rate), transported_(transport == WeightTransport::transported) {
+      : q_(q), rate_(rate), transported_(!in_lanes<Real> && transport == WeightTransport::transported) {
     l_ = q.x_b - q.x_a;
     inverse_ = Real(1) / l_;
     inverse2_ = inverse_ * inverse_;
     l_rate_ = rate.x_b - rate.x_a;
-    if (transported_) {
-      weights_ = weights.on(q.x_a, q.x_b);
-      prepare_transport();
-    } else {
-      for (std::size_t i = 0; i < 4; ++i) weights_[i] = Real(weights.w[i]);
+    if constexpr (!in_lanes<Real>) {
+      if (transported_) {
+        weights_ = weights.on(q.x_a, q.x_b);
+        prepare_transport();
+      } else {
+        for (std::size_t i = 0; i < 4; ++i) weights_[i] = Real(weights.w[i]);
+      }
     }
   }
 
@@ -103,11 +106,13 @@ class MovingKinematics {
     point.r_x = combine(point.s_x, q_.e);
     point.r_xx = combine(point.s_xx, q_.e);
     point.r_xxx = derivative(f, 3, q_.e) * Real(inverse2_ * inverse_);
-    if (transported_) {
-      transport_weights(point);
-    } else {
-      freeze_weights(u, f, point);
+    if constexpr (!in_lanes<Real>) {
+      if (transported_) {
+        transport_weights(point);
+        return point;
+      }
     }
+    freeze_weights(u, f, point);
     return point;
   }
 

@@ -1,6 +1,5 @@
 #include "core/element/moving_tangent.hpp"
 
-#include "core/element/active.hpp"
 #include "core/element/damping_tangent.hpp"
 #include "core/element/elastic_tangent.hpp"
 #include "core/element/rest_tangent.hpp"
@@ -11,7 +10,7 @@ template <MovingEnds Ends, int D, int Unknown>
 MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
                                                const MovingCoordinates<double, D>& rate,
                                                const MovingCoordinates<double, D>& a, const TangentWeights& weigh,
-                                               const WeightFunction& weights, const ShapeTabulation& table,
+                                               const WeightFunction& weights, const PointTables& tables,
                                                const MovingLaw<D>& law) {
   constexpr int X = 4 * D;
   using Vector = Vec<double, D>;
@@ -41,7 +40,7 @@ MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D
       law.rest ? std::optional<Rest>(std::in_place, *law.rest, q.x_a, q.x_b, law.transport, weights, law.section)
                : std::nullopt;
   for_each_point(
-      kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion_at,
+      kinematics, tables.one, reshaped, at_rest ? &*at_rest : nullptr, motion_at,
       [&](const auto& point, const Motion& motion, const auto* rest) {
         const auto& [at, by] = motion;
         const BeamSection& section = sections[point.feels];
@@ -142,62 +141,26 @@ MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D
         }
       });
 
-  using Real = Active<1>;
   for (int e = 0; e < Unknown; ++e) {
-    const auto along_end = [&](const MovingCoordinates<double, D>& from, double scale) {
-      MovingCoordinates<Real, D> result;
-      result.e = {from.e.r_a.template cast<Real>(), from.e.s_a.template cast<Real>(), from.e.r_b.template cast<Real>(),
-                  from.e.s_b.template cast<Real>()};
-      result.x_a = Real(from.x_a);
-      result.x_b = Real(from.x_b);
-      (is_end_a<Ends>(e) ? result.x_a : result.x_b).derivatives()[0] = scale;
-      return result;
-    };
-    const auto by_end = moving_residual<Ends, Real, D>(along_end(q, weigh.q), along_end(rate, weigh.v),
-                                                       along_end(a, weigh.a), weights, table, law);
-    for (int i = 0; i < 4; ++i) {
-      for (int c = 0; c < D; ++c) {
-        tangent(i * D + c, X + e) = by_end.nodes[static_cast<std::size_t>(i)][c].derivatives()[0];
-      }
-    }
-    for (int i = 0; i < Unknown; ++i) {
-      tangent(X + i, X + e) = by_end.ends[static_cast<std::size_t>(i)].derivatives()[0];
-    }
+    const auto by_end = residual_by_end<Ends, D>(e, q, rate, a, weigh, weights, tables, law);
+    for (int i = 0; i < 4; ++i) tangent.template block<D, 1>(i * D, X + e) = by_end.nodes[static_cast<std::size_t>(i)];
+    for (int i = 0; i < Unknown; ++i) tangent(X + i, X + e) = by_end.ends[static_cast<std::size_t>(i)];
   }
   return tangent;
 }
 
-template MovingTangent<MovingEnds::a, 2> moving_tangent<MovingEnds::a, 2>(const MovingCoordinates<double, 2>&,
-                                                                          const MovingCoordinates<double, 2>&,
-                                                                          const MovingCoordinates<double, 2>&,
-                                                                          const TangentWeights&, const WeightFunction&,
-                                                                          const ShapeTabulation&, const MovingLaw<2>&);
-template MovingTangent<MovingEnds::b, 2> moving_tangent<MovingEnds::b, 2>(const MovingCoordinates<double, 2>&,
-                                                                          const MovingCoordinates<double, 2>&,
-                                                                          const MovingCoordinates<double, 2>&,
-                                                                          const TangentWeights&, const WeightFunction&,
-                                                                          const ShapeTabulation&, const MovingLaw<2>&);
-template MovingTangent<MovingEnds::both, 2> moving_tangent<MovingEnds::both, 2>(
-    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&,
-    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<2>&);
-template MovingTangent<MovingEnds::both, 2, 0> moving_tangent<MovingEnds::both, 2, 0>(
-    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&,
-    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<2>&);
-template MovingTangent<MovingEnds::a, 3> moving_tangent<MovingEnds::a, 3>(const MovingCoordinates<double, 3>&,
-                                                                          const MovingCoordinates<double, 3>&,
-                                                                          const MovingCoordinates<double, 3>&,
-                                                                          const TangentWeights&, const WeightFunction&,
-                                                                          const ShapeTabulation&, const MovingLaw<3>&);
-template MovingTangent<MovingEnds::b, 3> moving_tangent<MovingEnds::b, 3>(const MovingCoordinates<double, 3>&,
-                                                                          const MovingCoordinates<double, 3>&,
-                                                                          const MovingCoordinates<double, 3>&,
-                                                                          const TangentWeights&, const WeightFunction&,
-                                                                          const ShapeTabulation&, const MovingLaw<3>&);
-template MovingTangent<MovingEnds::both, 3> moving_tangent<MovingEnds::both, 3>(
-    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&,
-    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<3>&);
-template MovingTangent<MovingEnds::both, 3, 0> moving_tangent<MovingEnds::both, 3, 0>(
-    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&,
-    const TangentWeights&, const WeightFunction&, const ShapeTabulation&, const MovingLaw<3>&);
+#define VLBEAM_MOVING_TANGENT(ENDS, D, UNKNOWN)                                                                      \
+  template MovingTangent<ENDS, D, UNKNOWN> moving_tangent<ENDS, D, UNKNOWN>(                                         \
+      const MovingCoordinates<double, D>&, const MovingCoordinates<double, D>&, const MovingCoordinates<double, D>&, \
+      const TangentWeights&, const WeightFunction&, const PointTables&, const MovingLaw<D>&)
+VLBEAM_MOVING_TANGENT(MovingEnds::a, 2, 1);
+VLBEAM_MOVING_TANGENT(MovingEnds::b, 2, 1);
+VLBEAM_MOVING_TANGENT(MovingEnds::both, 2, 2);
+VLBEAM_MOVING_TANGENT(MovingEnds::both, 2, 0);
+VLBEAM_MOVING_TANGENT(MovingEnds::a, 3, 1);
+VLBEAM_MOVING_TANGENT(MovingEnds::b, 3, 1);
+VLBEAM_MOVING_TANGENT(MovingEnds::both, 3, 2);
+VLBEAM_MOVING_TANGENT(MovingEnds::both, 3, 0);
+#undef VLBEAM_MOVING_TANGENT
 
 }  // namespace vlbeam

@@ -1,59 +1,8 @@
 #pragma once
 
-#include "core/element/moving_element.hpp"
-#include "core/tangent_weights.hpp"
+#include "core/element/moving_residual.hpp"
 
 namespace vlbeam {
-
-// A variable-length element as an implicit method sees it.
-
-template <MovingEnds Ends>
-inline constexpr int moving_ends = Ends == MovingEnds::both ? 2 : 1;
-/// Whether the moving end `e`, of those there are, is end A.
-template <MovingEnds Ends>
-constexpr bool is_end_a(int e) {
-  return Ends == MovingEnds::a || (Ends == MovingEnds::both && e == 0);
-}
-
-/// Residual M a - Q of a variable-length element: (r_A, s_A, r_B, s_B) and that of the moving ends.
-template <class Real, int D, MovingEnds Ends>
-struct MovingResidual {
-  std::array<Vec<Real, D>, 4> nodes;
-  std::array<Real, moving_ends<Ends>> ends;
-};
-
-/// Adds the power lost to damping to `dissipation` [W], where there is one.
-template <MovingEnds Ends, class Real, int D>
-MovingResidual<Real, D, Ends> moving_residual(const MovingCoordinates<Real, D>& q,
-                                              const MovingCoordinates<Real, D>& rate,
-                                              const MovingCoordinates<Real, D>& a, const WeightFunction& weights,
-                                              const ShapeTabulation& table, const MovingLaw<D>& law,
-                                              Real* dissipation = nullptr) {
-  const auto eq = moving_equations<Real, D, Ends>(q, rate, weights, table, law);
-  const std::array<Vec<Real, D>, 4> nodal{a.e.r_a, a.e.s_a, a.e.r_b, a.e.s_b};
-  MovingResidual<Real, D, Ends> r;
-  for (int e = 0; e < moving_ends<Ends>; ++e) {
-    const bool at_a = is_end_a<Ends>(e);
-    const auto& border = at_a ? eq.mass_a : eq.mass_b;
-    const Real& end = at_a ? a.x_a : a.x_b;
-    Real& on_end = r.ends[static_cast<std::size_t>(e)];
-    on_end = (at_a ? eq.mass_aa : eq.mass_bb) * end - (at_a ? eq.force_a : eq.force_b);
-    if constexpr (Ends == MovingEnds::both) on_end += eq.mass_ab * (at_a ? a.x_b : a.x_a);
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (e == 0) {
-        r.nodes[i] = border[i] * end - eq.force[i];
-      } else {
-        r.nodes[i] += border[i] * end;
-      }
-      on_end += border[i].dot(nodal[i]);
-    }
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) r.nodes[i] += nodal[j] * eq.mass[i][j];
-  }
-  if (dissipation) *dissipation += eq.dissipation;
-  return r;
-}
 
 /// With rows and columns of `Unknown` ends, those that move; with 0 their motion is given, and x'' counts in M a alone.
 template <MovingEnds Ends, int D, int Unknown = moving_ends<Ends>>
@@ -66,7 +15,7 @@ template <MovingEnds Ends, int D, int Unknown = moving_ends<Ends>>
 MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
                                                const MovingCoordinates<double, D>& rate,
                                                const MovingCoordinates<double, D>& a, const TangentWeights& by,
-                                               const WeightFunction& weights, const ShapeTabulation& table,
+                                               const WeightFunction& weights, const PointTables& tables,
                                                const MovingLaw<D>& law);
 
 }  // namespace vlbeam

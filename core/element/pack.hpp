@@ -52,6 +52,8 @@ class Pack {
     return {std::clamp(a[0], low, high), std::clamp(a[1], low, high), std::clamp(a[2], low, high),
             std::clamp(a[3], low, high)};
   }
+  /// Of its lanes.
+  double sum() const { return ((*this)[0] + (*this)[1]) + ((*this)[2] + (*this)[3]); }
   friend Pack sqrt(const Pack& a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 
  private:

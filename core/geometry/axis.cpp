@@ -114,7 +114,7 @@ double Axis<D>::turn_at(double x) const {
 template <int D>
 Axis<D> Axis<D>::straightened() const {
   if (kinks_.empty()) return *this;
-  const auto& chain = std::get<Spans>(shape_);
+  const Spans& chain = this->chain();
   const auto straight_piece = [](const RationalCubic<double, D>& span) {
     const Vector along = (span.points[3] - span.points[0]).normalized();
     return std::ranges::all_of(span.points, [&](const Vector& point) {
@@ -146,7 +146,7 @@ Axis<D> Axis<D>::straightened() const {
 template <int D>
 Axis<D> Axis<D>::rounded(const std::vector<double>& kinks, double reach) const {
   if (kinks.empty()) return *this;
-  const auto& chain = std::get<Spans>(shape_);
+  const Spans& chain = this->chain();
   const auto is_rounded = [&](double at) { return std::ranges::find(kinks, at) != kinks.end(); };
   const std::size_t n = chain.spans.size();
   const auto cut_at =
@@ -193,7 +193,7 @@ std::pair<std::size_t, double> Axis<D>::locate(const Spans& chain, double x) con
 template <int D>
 Vec<double, D> Axis<D>::tangent_before(double x) const {
   if (std::ranges::find(kinks_, x) == kinks_.end()) return tangent(x);
-  const auto& chain = std::get<Spans>(shape_);
+  const Spans& chain = this->chain();
   const auto i = static_cast<std::size_t>(std::ranges::find(chain.bounds, x) - chain.bounds.begin());
   return by_arc_length(chain.spans[i - 1], 1)[1];
 }
@@ -203,8 +203,8 @@ bool Axis<D>::in_one_piece(double x_a, double x_b) const {
   if (const auto* shape = std::get_if<Arc>(&shape_)) {
     return shape->rise_per_length == 0 && std::abs((x_b - x_a) * shape->turn_per_length) < std::numbers::pi;
   }
-  const auto* chain = std::get_if<Spans>(&shape_);
-  return !chain || std::ranges::none_of(chain->bounds, [&](double at) { return x_a < at && at < x_b; });
+  const auto* chain = std::get_if<Chain>(&shape_);
+  return !chain || std::ranges::none_of((*chain)->bounds, [&](double at) { return x_a < at && at < x_b; });
 }
 
 template <int D>
@@ -228,7 +228,7 @@ std::array<Vec<double, D>, 4> Axis<D>::derivatives(double x) const {
     const double curvature = 1 / shape->radius;
     return {shape->center + shape->radius * out, along, -curvature * out, -curvature * curvature * along};
   }
-  const auto& chain = std::get<Spans>(shape_);
+  const Spans& chain = this->chain();
   const auto [i, u] = locate(chain, x);
   return by_arc_length(chain.spans[i], u);
 }
@@ -244,7 +244,7 @@ RationalCubic<double, D> Axis<D>::between(double x_a, double x_b) const {
     return circular_arc<D>(shape->center, shape->radius, shape->from + x_a * shape->turn_per_length,
                            (x_b - x_a) * shape->turn_per_length);
   }
-  const auto& chain = std::get<Spans>(shape_);
+  const Spans& chain = this->chain();
   const auto [i, u_a] = locate(chain, x_a);
   const auto [j, u_b] = locate(chain, x_b);
   const double end = j == i ? u_b : 1;  // x_b may be the next break

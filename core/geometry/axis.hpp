@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -72,10 +73,15 @@ class Axis {
     void add(const RationalCubic<double, D>& span);
     double length_of(std::size_t i) const { return lengths[i].back(); }
   };
-  using Shape = std::variant<Line, Arc, Spans>;
+  using Chain = std::shared_ptr<const Spans>;  ///< shared by copies: a span's lengths are many numbers
+  using Shape = std::variant<Line, Arc, Chain>;
 
   Axis(Shape shape, std::vector<double> breaks, std::vector<double> kinks = {})
       : shape_(std::move(shape)), breaks_(std::move(breaks)), kinks_(std::move(kinks)) {}
+  Axis(Spans spans, std::vector<double> breaks, std::vector<double> kinks = {})
+      : Axis(Shape(std::make_shared<const Spans>(std::move(spans))), std::move(breaks), std::move(kinks)) {}
+
+  const Spans& chain() const { return *std::get<Chain>(shape_); }
 
   /// Index of the span that holds x, and its parameter there.
   std::pair<std::size_t, double> locate(const Spans& chain, double x) const;

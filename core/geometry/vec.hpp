@@ -10,14 +10,16 @@ template <class Real, int D>
 using Vec = Eigen::Matrix<Real, D, 1>;
 
 class Pack;
+class ActivePack;
+template <class Real>
+inline constexpr bool in_lanes = std::is_same_v<Real, Pack> || std::is_same_v<Real, ActivePack>;
 
 // Sums and multiples of small matrices are computed at once: as Eigen's expressions each would be a type of its own,
 // with hundreds of declarations, which is most of what compiling them takes. They round alike. Not those of packs,
 // which are wider than registers: what is stored in between costs them a twentieth more.
 
 template <class Real, int R, int C>
-using Small =
-    std::enable_if_t<R >= 1 && C >= 1 && R * C <= 16 && !std::is_same_v<Real, Pack>, Eigen::Matrix<Real, R, C>>;
+using Small = std::enable_if_t<R >= 1 && C >= 1 && R * C <= 16 && !in_lanes<Real>, Eigen::Matrix<Real, R, C>>;
 
 template <class Real, int R, int C>
 Small<Real, R, C> operator+(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {

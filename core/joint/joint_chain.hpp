@@ -16,7 +16,7 @@ struct MovingPart {
   int element = 0;
   MovingEnds ends = MovingEnds::a;
   int a = -1, b = -1;  ///< which of the chain's joints is at that end; -1 for none
-  ShapeTabulation table;
+  PointTables tables;
 };
 
 /// What joints take from a beam and its guides give it.

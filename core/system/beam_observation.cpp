@@ -37,7 +37,7 @@ double BeamSystem<D>::line_power(const ChainView<D>& beam, double t) const {
   for (const MovingPart& part : parts_) {
     const bool reshaped =
         model_.transport == WeightTransport::transported && beam.weights(part.element).w != unit_weights;
-    sum += swept(beam.kinematics(part.element), part.table, reshaped, model_.formulation);
+    sum += swept(beam.kinematics(part.element), part.tables.one, reshaped, model_.formulation);
   }
   return model_.loads.line_force(t).dot(sum - beam.inflow());  // what comes in is not moved by it
 }

@@ -127,7 +127,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
     const int a = joint_at(k), b = joint_at(k + 1);
     if (a < 0 && b < 0 && !moving_) continue;
     const MovingEnds ends = moving_ || (a >= 0 && b >= 0) ? MovingEnds::both : a < 0 ? MovingEnds::b : MovingEnds::a;
-    parts_.push_back({k, ends, a, b, ShapeTabulation(rule, mesh_.weights[static_cast<std::size_t>(k)].w)});
+    parts_.push_back({k, ends, a, b, PointTables(rule, mesh_.weights[static_cast<std::size_t>(k)].w)});
   }
   elements_.reserve(parts_.size());
   motions_.reserve(places_.size());
@@ -221,13 +221,13 @@ void BeamSystem<D>::fill_elements(const double* q, const double* rate, double t,
     const WeightFunction& weights = beam.weights(k);
     switch (part.ends) {
       case MovingEnds::a:
-        elements.push_back(moving_equations<double, D, MovingEnds::a>(at, rates, weights, part.table, law));
+        elements.push_back(moving_equations<double, D, MovingEnds::a>(at, rates, weights, part.tables.one, law));
         break;
       case MovingEnds::b:
-        elements.push_back(moving_equations<double, D, MovingEnds::b>(at, rates, weights, part.table, law));
+        elements.push_back(moving_equations<double, D, MovingEnds::b>(at, rates, weights, part.tables.one, law));
         break;
       case MovingEnds::both:
-        elements.push_back(moving_equations<double, D, MovingEnds::both>(at, rates, weights, part.table, law));
+        elements.push_back(moving_equations<double, D, MovingEnds::both>(at, rates, weights, part.tables.one, law));
         break;
     }
     if (model_.masses.present()) model_.masses.add_to(beam, k, gravity(t), elements.back());

@@ -79,11 +79,11 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     add(j - 1, conserving_residual<MovingEnds::b, D>(
                    {coordinates(q0, j - 1, start, q0[extra]), coordinates(q1, j - 1, start, q1[extra])},
                    {coordinates(v0, j - 1, 0, v0[extra]), coordinates(v1, j - 1, 0, v1[extra])}, h,
-                   mesh.weights[ju - 1], system_.moving_parts()[0].table, law));
+                   mesh.weights[ju - 1], system_.moving_parts()[0].tables.one, law));
     add(j,
         conserving_residual<MovingEnds::a, D>({coordinates(q0, j, q0[extra], end), coordinates(q1, j, q1[extra], end)},
                                               {coordinates(v0, j, v0[extra], 0), coordinates(v1, j, v1[extra], 0)}, h,
-                                              mesh.weights[ju], system_.moving_parts()[1].table, law));
+                                              mesh.weights[ju], system_.moving_parts()[1].tables.one, law));
     position<D>(out, j) +=
         system_.joint(0).law.mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
   } else if (const auto& rider = system_.rider()) {

@@ -66,8 +66,8 @@ void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& 
   const auto& places = system_.places();
   at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
     const int k = part.element;
-    const auto of = moving_residual<Ends, double, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k),
-                                                     beam.weights(k), part.table, law, &lost);
+    const auto of = residual_of<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), beam.weights(k),
+                                         part.tables, law, lost);
     for (int i = 0; i < 4; ++i) {
       Eigen::Map<Vec<double, D>>(r.data() + beam.vector(k, i)) += of.nodes[static_cast<std::size_t>(i)];
     }
@@ -151,7 +151,7 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
     const int k = part.element;
     tangent.add_element(beam, k,
                         moving_tangent<Ends, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k), by,
-                                                beam.weights(k), part.table, law),
+                                                beam.weights(k), part.tables, law),
                         marks);
   });
   for (std::size_t i = 0; i < system_.places().size(); ++i) {
@@ -190,11 +190,11 @@ void Equations<D>::add_travelling_elements(const Motion<D>& now, const TangentWe
       tangent.add_element(
           beam, k,
           moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(now.a, k), by,
-                                                 beam.weights(k), part.table, law));
+                                                 beam.weights(k), part.tables, law));
       if (!model.rotary.present()) return;
       const auto i = static_cast<std::size_t>(k);
-      tangent.add_element(beam, k,
-                          RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
+      tangent.add_element(
+          beam, k, RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.tables.one).tangent(model.rotary, by));
     }
   });
   mesh.add_inflow_tangent(beam, by, [&](int row, int column, const auto& block) {

@@ -78,10 +78,16 @@ class Path {
 
   bool advance(Eigen::VectorXd& q, double from, double to, int halvings, bool first) {
     Eigen::VectorXd tried = q;
-    const bool found = search_.newton(tried, to) && (first || follows(q, from, tried, to));
-    if (first && !(found && holds_at_start_) && search_.relax(q, to)) {
+    bool found = search_.newton(tried, to) && (first || follows(q, from, tried, to));
+    const bool loose = first && !(found && holds_at_start_);
+    if ((loose || !found) && search_.hang(q, to)) return true;
+    if (loose && search_.relax(q, to)) {
       system_.follow(q);
       return true;
+    }
+    if (!found) {
+      tried = q;
+      found = search_.newton_with_forces(tried, to) && follows(q, from, tried, to);
     }
     if (found) {
       q = tried;
@@ -206,6 +212,8 @@ class Path {
       if (iterations <= 4) step = std::min(1.5 * step, most);
       if (iterations > 7) step /= 1.5;
     }
+    if (search_.releasing)
+      path_ends(q, "they slide on after " + std::to_string(points) + " points of the path", factor);
     throw ComputationFailed("the load factor is " + in_digits(factor, 4) + " after " + std::to_string(points) +
                                 " points of the path: it may never be 1",
                             factor);
@@ -215,11 +223,16 @@ class Path {
     if (!search_.releasing) throw ComputationFailed(why + " at load factor " + in_digits(factor, 4), factor);
     std::string places;
     for (const std::size_t i : search_.free_joints()) {
-      places += (places.empty() ? "x = " : ", ") + in_digits(q[equations_.mark(i)], 4);
+      places += (places.empty() ? "" : ", ") + in_digits(q[equations_.mark(i)], 4);
     }
-    throw ComputationFailed("the joints that slide are not released together: " + why + " where they are at " + places +
-                                " m and " + in_digits(1 - factor, 4) + " of the forces that held them are left",
-                            1);
+    const std::vector<std::size_t> free = search_.free_joints();
+    const std::size_t most = *std::ranges::max_element(
+        free, {}, [this](std::size_t which) { return std::abs(search_.held_by.empty() ? 0 : search_.held_by[which]); });
+    const double force = search_.held_by.empty() ? 0 : (1 - factor) * search_.held_by[most];
+    const std::string where = why + " where the joints that slide are at x = " + places + " m";
+    search_.not_balanced(most, force, where,
+                         "the joints that slide are not released together: " + where + " and " +
+                             in_digits(1 - factor, 4) + " of the forces that held them are left");
   }
 
   /// Length of the first step along a path whose direction has this size by the load factor.
@@ -236,7 +249,9 @@ class Path {
   /// All joints that nothing guides, along the path that fading forces on them make.
   void release_together(Eigen::VectorXd& q, const std::function<bool(const Equilibrium&)>& on_point) {
     equations_.keep_conditions(true);  // of the slopes, as they are once joints are free
-    if (!search_.newton(q, 1)) path_ends(q, "there is no equilibrium with equal stretches at the joints", 0);
+    if (!search_.newton(q, 1) && !search_.newton_with_forces(q, 1)) {
+      path_ends(q, "there is no equilibrium with equal stretches at the joints", 0);
+    }
     search_.held_by = search_.holding_forces(q, 1);
     search_.releasing = true;
     equations_.hold_joints(false);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/dynamics/solver_counters.hpp"
+#include "core/error.hpp"
 #include "core/system/beam_system.hpp"
 
 namespace vlbeam {
@@ -21,11 +23,22 @@ struct EquilibriumOptions {
   bool conditions_at_held = false;
 };
 
+/// What slides finds no place where nothing needs to hold it.
+class NotBalanced : public ComputationFailed {
+ public:
+  NotBalanced(const std::string& message, int of, double lacks)
+      : ComputationFailed(message, 1), joint(of), force(lacks) {}
+
+  int joint;     ///< of the model's
+  double force;  ///< along the beam, that would have to hold it where the search ends [N]
+};
+
 /// A point on the path of equilibria.
 struct Equilibrium {
   double factor = 0;
   Eigen::VectorXd y;                 ///< a state at rest
   int negative_pivots = 0;           ///< of the tangent: directions in which the potential energy falls
+  int hidden_pivots = 0;             ///< directions of which rounding hides whether it falls
   Eigen::VectorXd multipliers = {};  ///< of the conditions on the slopes of a kinked joint
   bool joint_held = true;            ///< joints that nothing guides keep their material coordinates
   std::vector<double> holding = {};  ///< what it takes for that, or for the guide, along the beam: of each joint [N]
@@ -37,13 +50,14 @@ struct Equilibrium {
 /// Follows the path from the initial state and calls `on_point` for every point of it, false from it ends the path. The
 /// initial state comes first where it is an equilibrium. Newton's iteration with the exact tangent; steps it does not
 /// solve are halved. A start that holds no load (a slack cable) is first relaxed: steps (K + mu M) dq = -r, mu falling,
-/// go down the potential energy to a stable equilibrium. Throws ComputationFailed, at the factor reached, where there
-/// is none, naming the direction in which the beam moves freely.
-/// At load factor 1 a joint that is alone in having no guide is released by moving its material coordinate x: the force
-/// that holds it there is a function of x, followed in steps from where the joint is, downhill, to where it vanishes,
-/// through the system's length control. Each step is a point of the path; the last one solves for x, too. Several are
-/// released together: the forces that hold them fall in proportion to 1 - s, and s goes from 0 to 1 along the path that
-/// this makes.
+/// go down the potential energy to a stable equilibrium; of a rope, forces along it that are unknowns of their own lead
+/// there (FreeTension), and so they do on steps that Newton's iteration does not solve. Throws ComputationFailed, at
+/// the factor reached, where there is none, naming the direction in which the beam moves freely. At load factor 1 a
+/// joint that is alone in having no guide is released by moving its material coordinate x: the force that holds it
+/// there is a function of x, followed in steps from where the joint is, downhill, to where it vanishes, through the
+/// system's length control. Each step is a point of the path; the last one solves for x, too. Several are released
+/// together: the forces that hold them fall in proportion to 1 - s, and s goes from 0 to 1 along the path that this
+/// makes. Throws NotBalanced where the beam slides on in a ring.
 template <int D>
 void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
                       const std::function<bool(const Equilibrium&)>& on_point, SolverCounters& counters);

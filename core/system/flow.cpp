@@ -67,7 +67,7 @@ Tally BeamSystem<D>::flow_power(const double* q, const double* rate, const doubl
     if (model_.loads.line_force) {
       // moving_equations took the line force for a potential, of which the moving ends carry a part; it is none
       const MovingKinematics<double, D> kinematics = beam.kinematics(k);
-      for (const auto& [u, w, feels] : with_mass(part.table.rule)) {
+      for (const auto& [u, w, feels] : with_mass(part.tables.one.rule)) {
         const PointMotion<double, D> point = kinematics.at(u, rational_shape(kinematics.weights(), u));
         const double along = line.dot(point.r_x) * kinematics.length();
         force_a += w * ((1 - u) * along - line.dot(point.r));

@@ -29,7 +29,7 @@ class JointRelease {
       if (!slide) not_released(q, "the tangent is singular");
       const double newton_step = -force / slide->stiffness;
       // the path may lead up to a largest force, and beyond it down again
-      if (way == 0) way = (force < 0) == (slide->stiffness > -neutral) ? 1 : -1;
+      if (way == 0) way = (force < 0) == (slide->stiffness > -neutral || hangs()) ? 1 : -1;
       if (std::abs(newton_step) <= longest && settle(q, 2 * longest)) {
         if (search_.control_length(q)) {
           ++counters_.steps;
@@ -51,7 +51,7 @@ class JointRelease {
         if (step < shortest_slide * unit) not_released(q, "there is no equilibrium next to the last one");
         size = std::min(step, room);
         next = q + way * size * slide->q;
-        if (search_.newton(next, 1)) {
+        if (search_.newton(next, 1) || search_.newton_with_forces(next, 1)) {
           const double change = search_.holding_force(next, 1) - force, expected = way * size * slide->stiffness;
           const double scale = std::max(std::abs(expected), std::abs(force));
           // beyond the zero of the force
@@ -111,11 +111,18 @@ class JointRelease {
     return control.trigger_length() * (1 + 1e-12) - search_.reach(search_.slider, q, -way);
   }
 
+  /// Nothing but the ring holds the beam, which then goes down.
+  bool hangs() const {
+    const auto free = [](const Support<D>& support) { return (support.free_position > 0).all(); };
+    return search_.in_ring(search_.slider) && free(system_.model().start) && free(system_.model().end);
+  }
+
   [[noreturn]] void not_released(const Eigen::VectorXd& q, const std::string& why) {
-    throw ComputationFailed("the joint that slides is not released: " + why +
-                                " at x = " + in_digits(q[equations_.mark(search_.slider)], 4) +
-                                " m, where holding it takes " + in_digits(search_.holding_force(q, 1), 4) + " N",
-                            1);
+    const double force = search_.holding_force(q, 1);
+    const std::string where = why + " at x = " + in_digits(q[equations_.mark(search_.slider)], 4) + " m";
+    search_.not_balanced(
+        search_.slider, force, where,
+        "the joint that slides is not released: " + where + ", where holding it takes " + in_digits(force, 4) + " N");
   }
 
   StaticSearch<D>& search_;

@@ -139,7 +139,7 @@ void MovingMesh<D>::take_inertia(const ChainView<D>& beam, const std::vector<Mov
   for (std::size_t k = 0; k < elements.size(); ++k) {
     MovingEquations<double, D>& eq = elements[k];
     if (model_.rotary.present()) {
-      const RotaryElement& rotary = rotary_.emplace_back(marks_[k], marks_[k + 1], parts[k].table);
+      const RotaryElement& rotary = rotary_.emplace_back(marks_[k], marks_[k + 1], parts[k].tables.one);
       const int element = static_cast<int>(k);
       const auto residual =
           rotary.residual(model_.rotary, element_nodes<D>(beam.q, element), element_nodes<D>(beam.rate, element));
@@ -173,7 +173,7 @@ double MovingMesh<D>::rotary_power(const ChainView<D>& beam, const MovingPart& p
   const auto k = static_cast<std::size_t>(part.element);
   const auto e = element_nodes<D>(beam.q, part.element), e_rate = element_nodes<D>(beam.rate, part.element),
              e_a = element_nodes<D>(a, part.element);
-  double power = vlbeam::rotary_power(model_.rotary, marks_[k], marks_[k + 1], part.table, e, e_rate, e_a);
+  double power = vlbeam::rotary_power(model_.rotary, marks_[k], marks_[k + 1], part.tables.one, e, e_rate, e_a);
   const auto r = rotary_[k].residual(model_.rotary, e, e_rate), inertia = rotary_[k].inertia(model_.rotary, e_a);
   const auto rates = RotaryElement::nodal(e_rate);
   for (std::size_t row = 0; row < 4; ++row) power -= (r[row] + inertia[row]).dot(rates[row]);

@@ -45,8 +45,9 @@ void StaticEquations<D>::assemble(const Eigen::VectorXd& u, double factor, doubl
 }
 
 template <int D>
-bool StaticEquations<D>::linearize(const Eigen::VectorXd& u, double factor, double by_a) {
+bool StaticEquations<D>::linearize(const Eigen::VectorXd& u, double factor, double by_a, const FreeTension<D>* forces) {
   assemble(u, factor, by_a);
+  if (forces != nullptr) forces->add_to(u, tangent_);
   kinks().add_curvature(u.data() + system_.coordinates(), 1, tangent_);
   kinks().add_rows(u.data(), 1, tangent_);
   system_.holding().project(tangent_);

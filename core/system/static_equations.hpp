@@ -2,6 +2,7 @@
 
 #include "core/joint/kinks.hpp"
 #include "core/system/equations.hpp"
+#include "core/system/free_tension.hpp"
 
 namespace vlbeam {
 
@@ -14,7 +15,7 @@ template <int D>
 class StaticEquations {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit StaticEquations(BeamSystem<D>& system) : system_(system), equations_(system) {}
+  explicit StaticEquations(BeamSystem<D>& system) : system_(system), equations_(system) { tangent_.solve_pivots(); }
 
   /// Whether a joint's material coordinate stays what it is; that of one which is guided always does.
   bool holds(std::size_t which) const { return held_ || system_.guides(which); }
@@ -36,8 +37,9 @@ class StaticEquations {
   void reactions(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const;
   /// The same without what is held.
   void residual(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const;
-  /// Factors the tangent, plus `by_a` times the mass matrix; false where it is singular.
-  bool linearize(const Eigen::VectorXd& u, double factor, double by_a);
+  /// Factors the tangent, plus `by_a` times the mass matrix; false where it is singular. With `forces` it is that of
+  /// the iteration in which they are free.
+  bool linearize(const Eigen::VectorXd& u, double factor, double by_a, const FreeTension<D>* forces = nullptr);
   void solve(Eigen::VectorXd& r) const { tangent_.solve(r.data()); }
   /// Of what linearize() factored: the number of directions, within the conditions on the slopes, in which the energy
   /// falls. `zero` is what counts as no fall, over what a coordinate alone does.

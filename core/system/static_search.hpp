@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "core/system/equilibrium.hpp"
@@ -17,14 +18,19 @@ class StaticSearch {
  public:
   static constexpr int most_corrections = 30;
   static constexpr int most_relaxations = 3000;
-  static constexpr double largest_correction = 0.5;   // of the beam's length, and of slopes
-  static constexpr double largest_relaxation = 0.05;  // the same, of one step of a relaxation
-  static constexpr double by_rounding = 1e-7;         // corrections that no longer fall end the iteration from here on
-  static constexpr double zero_pivot = 1e-13;         // over its block's diagonal
-  static constexpr double slack = 1e-10;              // over the axial stiffness: of a beam that holds nothing
-  static constexpr double force_by_rounding = 2e-15;  // over EA
-  static constexpr int most_events = 9;               // of length control at one instant
-  static constexpr double longest_slide = 0.25;       // of a joint that is released, over L_std
+  static constexpr double largest_correction = 0.5;    // of the beam's length, and of slopes
+  static constexpr double largest_relaxation = 0.05;   // the same, of one step of a relaxation
+  static constexpr double by_rounding = 1e-7;          // corrections that no longer fall end the iteration from here on
+  static constexpr double close = 0.05;                // corrections that free forces from their bounds
+  static constexpr double near = 1e-3, nearly = 1e-6;  // corrections that lead from free forces to those of the strains
+  static constexpr double least_force = 0.01;          // of a rope in search of its equilibrium, over what acts on it
+  static constexpr double slack = 1e-10;               // over the axial stiffness: of a beam that holds nothing
+  static constexpr double soft_in_bending = 1e-2;      // the same over that of bending, of a slender beam
+  static constexpr double tangent_by_rounding = 1e-15;  // over what each element resists to stretch
+  static constexpr double force_by_rounding = 2e-15;    // over EA
+  static constexpr double rounding_share = 1e-3;        // of what acts: with more of it rounding hides the equilibrium
+  static constexpr int most_events = 9;                 // of length control at one instant
+  static constexpr double longest_slide = 0.25;         // of a joint that is released, over L_std
   static constexpr double end_distance = 1e-3;  // from an end of the beam at which a joint is too near, over L_std
 
   StaticSearch(BeamSystem<D>& of, const EquilibriumOptions& with, SolverCounters& counted)
@@ -53,7 +59,9 @@ class StaticSearch {
 
   Equilibrium point(const Eigen::VectorXd& q, double factor) {
     Equilibrium at{load(factor), state_of(q), 0};
-    if (linearize(q, factor)) at.negative_pivots = equations.negative_pivots(zero_pivot);
+    const Falls seen = falls(q, factor);
+    at.negative_pivots = seen.surely;
+    at.hidden_pivots = seen.perhaps - seen.surely;
     at.multipliers = q.tail(q.size() - system.coordinates());
     at.joint_held = releasing ? factor < 1 : equations.holds_joints();
     at.holding = holding_forces(q, factor);
@@ -106,7 +114,11 @@ class StaticSearch {
   /// What counts as holding nothing, over inertia [1/s^2].
   double soft() const {
     const auto& section = system.model().section;
-    return slack * section.stiffness.EA / (section.rhoA * length * length);
+    const Stiffness& k = section.stiffness;
+    const double axial = slack * k.EA / (section.rhoA * length * length);
+    if (!k.bends()) return axial;
+    const double bending = soft_in_bending * k.EI / (section.rhoA * length * length * length * length);
+    return std::min(axial, std::max(bending, rounding()));
   }
 
   bool linearize(const Eigen::VectorXd& q, double factor, double by_a = 0) {
@@ -119,6 +131,18 @@ class StaticSearch {
     return correction <= options.tolerance || (correction < by_rounding && correction > previous / 2);
   }
 
+  /// Whether the residual, which was asked for last, is rounding, and less than a little of what acts on the beam.
+  bool rests(const Eigen::VectorXd& q) {
+    const double left = r.norm();
+    if (!(left <= force_by_rounding * system.model().section.stiffness.EA)) return false;
+    const Eigen::VectorXd lacking = r;
+    equations.residual(q, 0, r);
+    r -= lacking;
+    const double acts = r.norm();
+    r = lacking;
+    return acts == 0 || left <= rounding_share * acts;
+  }
+
   /// Newton's iteration with the exact tangent; false where it finds nothing near q, which then is no equilibrium.
   bool newton(Eigen::VectorXd& q, double factor) {
     impose(q, factor);
@@ -126,7 +150,7 @@ class StaticSearch {
     for (int i = 0; i < most_corrections; ++i) {
       ++counters.newton.iterations;
       residual(q, factor);
-      const bool at_rest = r.norm() <= force_by_rounding * system.model().section.stiffness.EA;
+      const bool at_rest = rests(q);
       if (!linearize(q, factor)) return at_rest && !tangled(q);
       equations.solve(r);
       const double correction = size(r);
@@ -135,6 +159,68 @@ class StaticSearch {
       q -= r;
       if (is_last(correction, previous)) return !tangled(q);
       previous = correction;
+    }
+    return false;
+  }
+
+  /// How an iteration with free forces goes: at first none is below `first`, and later none below `least` [N].
+  struct Walk {
+    double first, least;
+    double longest = largest_correction;  ///< of a step
+    int most = most_corrections;
+  };
+
+  /// The same with the forces along the axis as unknowns of their own (FreeTension), then as above.
+  bool newton_with_forces(Eigen::VectorXd& q, double factor, const Walk& walk) {
+    Eigen::VectorXd at = q;
+    impose(at, factor);
+    FreeTension<D> forces(system);
+    forces.start(at, walk.first);
+    double previous = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < walk.most; ++i) {
+      ++counters.newton.iterations;
+      ++counters.newton.tangents;
+      residual(at, factor);
+      if (!equations.linearize(at, load(factor), 0, &forces)) return false;
+      equations.solve(r);
+      const double correction = size(r);
+      if (!std::isfinite(correction)) return false;
+      // in the end even those of a rope may push, at a point of an element or where the ground holds it
+      const double least = correction < close ? -std::numeric_limits<double>::infinity() : walk.least;
+      forces.advance(at, r, std::min(1.0, walk.longest / correction), least);
+      const bool settles = correction < nearly || (correction < near && correction > previous / 2);
+      if (settles || i + 1 == walk.most) {
+        Eigen::VectorXd tried = at;
+        if (newton(tried, factor)) {
+          q = tried;
+          return true;
+        }
+      }
+      previous = correction;
+    }
+    return false;
+  }
+
+  /// With forces as strains say at first; a rope does not push.
+  bool newton_with_forces(Eigen::VectorXd& q, double factor) {
+    const double least = system.model().section.stiffness.bends() ? -std::numeric_limits<double>::infinity() : 0;
+    return newton_with_forces(q, factor, Walk{least, least});
+  }
+
+  /// Where a rope that holds nothing at first hangs: forces that bear what acts on it, and none that pushes, lead
+  /// there. False where it finds no stable equilibrium, or one that pushes, on the ground or so.
+  bool hang(Eigen::VectorXd& q, double factor) {
+    if (system.model().section.stiffness.bends()) return false;
+    residual(q, factor);
+    const double bears = r.norm();
+    if (!(bears > 0)) return false;
+    for (const int pace : {1, 5, 25}) {
+      Eigen::VectorXd tried = q;
+      const Walk walk{bears, least_force * bears, largest_correction / pace, most_corrections * pace};
+      if (!newton_with_forces(tried, factor, walk)) continue;
+      if (!FreeTension<D>(system).pulls(tried, -by_rounding * bears) || !stable_at(tried, factor)) continue;
+      q = tried;
+      return true;
     }
     return false;
   }
@@ -153,8 +239,26 @@ class StaticSearch {
     return false;
   }
 
-  bool stable_at(const Eigen::VectorXd& q, double factor) {
-    return linearize(q, factor) && equations.negative_pivots(zero_pivot) == 0;
+  /// Directions in which the energy falls.
+  struct Falls {
+    int surely;   ///< by more than what rounding may make of it
+    int perhaps;  ///< or by less
+  };
+  /// Rounding changes the tangent by no more than so much inertia more or less does, which is a share of what each
+  /// element resists to stretch.
+  Falls falls(const Eigen::VectorXd& q, double factor) {
+    const auto count = [&](double by_a) { return linearize(q, factor, by_a) ? equations.negative_pivots(0) : 0; };
+    const double hidden = rounding();
+    const int surely = count(hidden);
+    return {surely, std::max(surely, count(-hidden))};
+  }
+  bool stable_at(const Eigen::VectorXd& q, double factor) { return falls(q, factor).surely == 0; }
+
+  /// What rounding of an element's stretch amounts to, over inertia [1/s^2].
+  double rounding() const {
+    const auto& section = system.model().section;
+    const double l = length / system.mesh().elements();
+    return tangent_by_rounding * section.stiffness.EA / (section.rhoA * l * l);
   }
 
   /// Down the potential energy, as an overdamped beam would go, until Newton's iteration finds a stable equilibrium.
@@ -166,7 +270,7 @@ class StaticSearch {
     const double largest = 1e12 * mu;
     for (int i = 0; i < most_relaxations && mu < largest; ++i) {
       residual(at, factor);
-      if (!linearize(at, factor, mu) || equations.negative_pivots(zero_pivot) > 0) {
+      if (!linearize(at, factor, mu) || equations.negative_pivots(0) > 0) {
         mu *= 4;
         continue;
       }
@@ -187,6 +291,18 @@ class StaticSearch {
       }
     }
     return false;
+  }
+
+  bool in_ring(std::size_t which) const {
+    return system.held(which) != nullptr && (system.held(which)->free_slope > 0).all();
+  }
+
+  /// What slides has run to where it cannot go on: of a ring, with the force that it would take there.
+  [[noreturn]] void not_balanced(std::size_t which, double force, const std::string& ring, const std::string& other) {
+    const int joint = system.joint_index(which);
+    const std::string slides = "the beam slides along the ring at joint " + std::to_string(joint) + " with " +
+                               in_digits(std::abs(force), 4) + " N unbalanced: ";
+    throw NotBalanced(in_ring(which) ? slides + ring : other, joint, force);
   }
 
   bool next_is_end(std::size_t which, int way) const {

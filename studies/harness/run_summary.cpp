@@ -135,6 +135,7 @@ std::string ledger_text(const EnergyLedger& ledger, double size) {
 
 std::string stability_text(const StaticSample& at) {
   const int falls = at.negative_pivots;
+  if (falls == 0 && at.hidden_pivots > 0) return ", as far as rounding tells stable";
   return falls == 0 ? ", stable" : ", not stable: the energy falls in " + std::to_string(falls) + " directions";
 }
 

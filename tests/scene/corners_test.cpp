@@ -332,5 +332,25 @@ TEST(Corners, AMassThatAKinkWouldPassIsRefused) {
   EXPECT_EQ(test::refused(scene), "/sliding_joints/0/slopes") << "it stands where the ring does";
 }
 
+TEST(Corners, TheAxisIsThatOfTheCurveAskedForWhicheverWasDrawnBefore) {
+  CurveSpec bent{.type = CurveType::polyline};
+  bent.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  CurveSpec longer = bent;
+  longer.points[2] = {1, 2, 0};
+  CurveSpec curved{.type = CurveType::nurbs, .knots = {0, 0, 0, 0, 1, 1, 1, 1}};
+  curved.control_points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}};
+  CurveSpec weighted = curved;
+  weighted.weights = {1, 2, 2, 1};
+  const double first = drawn_axis<3>(curved).length();
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_DOUBLE_EQ(drawn_axis<3>(bent).length(), 2);
+    EXPECT_DOUBLE_EQ(drawn_axis<3>(longer).length(), 3);
+    EXPECT_DOUBLE_EQ(drawn_axis<3>(longer).kinks().front(), 1);
+    EXPECT_EQ(drawn_axis<3>(curved).length(), first);
+    EXPECT_EQ(drawn_axis<2>(curved).length(), first);
+    EXPECT_GT(std::abs(drawn_axis<3>(weighted).length() - first), 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace vlbeam

@@ -452,7 +452,11 @@ TEST(InitialEquilibrium, RefusesWhatHasNone) {
             }),
             "/flow");
   EXPECT_EQ(with([](Scene& s) { s.formulation = Formulation::virtual_work; }), "/formulation");
-  EXPECT_EQ(with([](Scene& s) { s.start.type = s.end.type = SupportType::free; }), "/supports");
+  EXPECT_EQ(with([](Scene& s) {
+              s.sliding_joints.clear();
+              s.start.type = s.end.type = SupportType::free;
+            }),
+            "/supports");
   EXPECT_EQ(with([](Scene& s) {
               s.statics.joints = StaticJoints::released;
               s.sliding_joints.front().x.emplace();

@@ -67,6 +67,20 @@ TEST(Plausibility, TellsSlackBeams) {
   EXPECT_TRUE(implausible(scene, run).empty()) << "rounding and ringing of a taut rope";
 }
 
+TEST(Plausibility, TellsWhereRoundingHidesStability) {
+  RunResult run;
+  run.samples.resize(2);
+  Scene scene = hanging_bar();
+  scene.analysis = Analysis::statics;
+  run.samples.front().equilibrium = StaticSample{.hidden_pivots = 3};  // before loads are there
+  run.samples.back().equilibrium = StaticSample{.load_factor = 1};
+  EXPECT_TRUE(implausible(scene, run).empty());
+  run.samples.back().equilibrium->hidden_pivots = 1;
+  EXPECT_EQ(kinds(implausible(scene, run)), std::vector{WarningKind::hidden_stability});
+  run.samples.back().equilibrium->negative_pivots = 1;
+  EXPECT_TRUE(implausible(scene, run).empty()) << "it is not stable, whatever the other does";
+}
+
 TEST(Plausibility, TellsFrictionByAVibration) {
   Scene scene = hanging_bar();
   scene.sliding_mass = SlidingMassSpec{};

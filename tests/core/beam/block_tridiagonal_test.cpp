@@ -69,6 +69,37 @@ using Sizes =
     ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 4>, std::integral_constant<int, 6>>;
 TYPED_TEST_SUITE(BlockTridiagonal, Sizes);
 
+/// A chain that resists along aslant directions 1e10 times as much as across them: what is soft is lost in the inverse
+/// of a pivot, and is not where pivots are solved.
+TYPED_TEST(BlockTridiagonal, SolvesPivotsOfAStiffAxis) {
+  constexpr int nodes = 12;
+  typename TestFixture::Matrix m;
+  m.solve_pivots();
+  m.reset(nodes);
+  using Block = typename TestFixture::Matrix::Block;
+  using Vector = typename TestFixture::Matrix::Vector;
+  for (int k = 0; k < nodes; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    Vector axis;
+    for (double& a : axis) a = this->number();
+    const Block element = Block::Identity() + 1e10 * axis.normalized() * axis.normalized().transpose();
+    m.diagonal[i] += element;  // the first is tied to the ground
+    if (k == 0) continue;
+    m.diagonal[i - 1] += element;
+    m.upper[i - 1] = m.lower[i] = -element;
+  }
+  const Eigen::MatrixXd full = this->dense(m);
+  // what a force does that pulls the last node across the last axis, by decompositions of the whole
+  const Eigen::VectorXd force = Eigen::VectorXd::Unit(full.rows(), full.rows() - 1);
+  const Eigen::VectorXd exact =
+      full.cast<long double>().ldlt().solve(force.cast<long double>()).template cast<double>();
+  Eigen::VectorXd x = force;
+  ASSERT_TRUE(m.factor());
+  m.solve(x.data());
+  EXPECT_LE((x - exact).norm(), 1e-4 * exact.norm());
+  EXPECT_EQ(m.negative_pivots(0), 0);
+}
+
 TYPED_TEST(BlockTridiagonal, SolvesWhatItHolds) {
   constexpr double dominant = 3 * TypeParam::value;
   for (const int nodes : {1, 2, 3, 9}) {

@@ -28,14 +28,14 @@ class DrivenTangent : public ElementUnderTest<Dimension> {
     o.section.damping = damping;
     o.section.curvature_regularization = D == 3 && damping > 0 ? 0.4 : 0;
     const MovingLaw<D> law{o.section, formulation, o.transport, o.gravity};
-    const ShapeTabulation table(o.rule, o.stored.w);
+    const PointTables tables(o.rule, o.stored.w);
     const ElementColumn<double, D> a = this->random_.template vector<element_size<D>>();
     const Nodal direction = this->random_.template vector<4 * D>();
     const auto tangent =
         moving_tangent<MovingEnds::both, D, 0>(coordinates<double, D>(this->q_), coordinates<double, D>(this->rate_),
-                                               coordinates<double, D>(a), by, o.stored, table, law);
+                                               coordinates<double, D>(a), by, o.stored, tables, law);
     const auto eq = moving_equations<Real, D>(along(this->q_, by.q * direction), along(this->rate_, by.v * direction),
-                                              o.stored, table, law);
+                                              o.stored, tables.one, law);
     const auto exact = nodal_residual(eq, along(a, by.a * direction));
     const Nodal product = tangent * direction;
     Nodal expected;

@@ -92,20 +92,20 @@ TYPED_TEST(RestElements, TangentIsTheDerivativeOfTheResidual) {
     const auto rest = this->draw_rest_shape();
     std::array<ElementColumn<double, D>, 3> state{this->q_, this->rate_, this->random_.template vector<4 * D + 2>()};
     state[1][4 * D] = state[2][4 * D] = 0;
-    const ShapeTabulation table(this->oracle_.rule, this->oracle_.stored.w);
+    const PointTables tables(this->oracle_.rule, this->oracle_.stored.w);
     for (const Formulation formulation : formulations) {
       const auto law = this->law(formulation, rest);
       const auto tangent =
           moving_tangent<MovingEnds::b, D>(coordinates<double, D>(state[0]), coordinates<double, D>(state[1]),
-                                           coordinates<double, D>(state[2]), by, this->oracle_.stored, table, law);
+                                           coordinates<double, D>(state[2]), by, this->oracle_.stored, tables, law);
       for (int j = 0; j < 4 * D + 1; ++j) {
         const ElementColumn<double, D> unit = ElementColumn<double, D>::Unit(j < 4 * D ? j : 4 * D + 1);
         const std::array<double, 3> scale{by.q, by.v, by.a};
         auto moving = [&](std::size_t i) {
           return coordinates<Real, D>(in_motion<double, element_size<D>>(state[i], scale[i] * unit));
         };
-        const auto r =
-            moving_residual<MovingEnds::b, Real, D>(moving(0), moving(1), moving(2), this->oracle_.stored, table, law);
+        const auto r = moving_residual<MovingEnds::b, Real, D>(moving(0), moving(1), moving(2), this->oracle_.stored,
+                                                               tables.one, law);
         Eigen::Matrix<double, 4 * D + 1, 1> expected;
         for (int i = 0; i < 4; ++i) {
           expected.template segment<D>(i * D) = rate_of<double, D>(r.nodes[static_cast<std::size_t>(i)]);

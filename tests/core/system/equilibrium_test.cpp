@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include "core/error.hpp"
 #include "tests/core/support/scenes.hpp"
@@ -148,6 +150,147 @@ TEST(Statics, MechanismIsNamed) {
   const RunResult result = simulate(scene);
   EXPECT_EQ(result.status, RunStatus::failed);
   EXPECT_NE(result.failure.find("nothing holds it along (1, 0)"), std::string::npos) << result.failure;
+}
+
+/// H of a rope of length L that weighs w by length, between supports at one height. Green's law,
+/// T = EA l (l^2 - 1)/2: the half of its span is H/w times the integral of l over u, T = H cosh u, up to sinh u = w L/2
+/// H (reference/exact/catenary.py).
+double catenary_pull(double EA, double w, double L, double span) {
+  const auto stretch = [EA](double T) {
+    double l = 1 + T / EA;
+    for (int i = 0; i < 8; ++i) l -= (l * l * l - l - 2 * T / EA) / (3 * l * l - 1);
+    return l;
+  };
+  const auto reach = [&](double H) {
+    constexpr int steps = 400;  // of Simpson's rule
+    const double last = std::asinh(w * L / (2 * H)), h = last / steps;
+    double sum = 0;
+    for (int i = 0; i <= steps; ++i) {
+      sum += (i % steps == 0 ? 1 : i % 2 == 0 ? 2 : 4) * stretch(H * std::cosh(i * h));
+    }
+    return 2 * H / w * sum * h / 3;
+  };
+  double low = 1e-3 * w * L, high = 10 * w * L;
+  for (int i = 0; i < 100; ++i) (reach((low + high) / 2) < span ? low : high) = (low + high) / 2;
+  return low;
+}
+
+constexpr double slack_length = 2 * std::numbers::sqrt2;
+
+/// A rope that is longer than its supports are apart, 2 m, drawn without stress.
+Scene slack(const std::string& drawn, int elements, double EA, int dimension = 2) {
+  Scene scene = straight(elements, EA, 0);
+  scene.dimension = dimension;
+  scene.gravity = {0, -9.81, 0};
+  scene.beam.axial_strain = AxialStrain::lobatto;
+  scene.start.type = scene.end.type = SupportType::pin;
+  scene.beam.curve = {.type = CurveType::polyline};
+  if (drawn == "V") scene.beam.curve.points = {{0, 0, 0}, {1, -1, 0}, {2, 0, 0}};
+  if (drawn == "across") scene.beam.curve.points = {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}};
+  if (drawn == "zigzag") scene.beam.curve.points = {{0, 0, 0}, {0.5, 0.5, 0}, {1.5, -0.5, 0}, {2, 0, 0}};
+  if (drawn == "arc") {
+    const double half = 1.391557378251510, radius = slack_length / 2 / half;  // sin(h)/h = 1/sqrt 2
+    const double degrees = half * 180 / std::numbers::pi;
+    scene.beam.curve = {.type = CurveType::arc,
+                        .center = {1, radius * std::cos(half), 0},
+                        .radius = radius,
+                        .from_degrees = -90 - degrees,
+                        .to_degrees = -90 + degrees};
+  }
+  return scene;
+}
+
+TEST(SlackRope, HangsAsTheElasticCatenaryWhateverItsStiffnessAndDrawing) {
+  for (const double EA : {1e4, 1e6, 1e8, 1e9}) {
+    const double exact = catenary_pull(EA, 9.81, slack_length, 2);
+    for (const std::string drawn : {"V", "arc", "zigzag", "across"}) {
+      const int dimension = drawn == "across" ? 3 : 2;
+      std::vector<double> errors;
+      for (const int n : {16, 32, 64}) {
+        const RunResult run = completed(slack(drawn, n, EA, dimension));
+        EXPECT_EQ(run.samples.back().equilibrium->negative_pivots, 0) << drawn << " " << EA;
+        errors.push_back(std::abs(run.samples.back().reactions[1].position[0] / exact - 1));
+      }
+      // rounding of the strain makes a force of EA
+      const double rounding = std::numeric_limits<double>::epsilon() * EA / exact;
+      EXPECT_LE(errors[2], 8e-9 + rounding) << drawn << " " << EA;
+      if (rounding > 0.01 * errors[0]) continue;
+      EXPECT_GT(std::log2(errors[0] / errors[1]), 3.7) << drawn << " " << EA << ": " << errors[0] << " " << errors[1];
+    }
+  }
+}
+
+/// Rounding of the strain is 1e-4 of the tension there, and no more.
+TEST(SlackRope, HangsWhereRoundingIsMostOfWhatItsStrainsTell) {
+  const double exact = catenary_pull(2e12, 9.81, slack_length, 2);
+  const RunResult run = completed(slack("V", 32, 2e12));
+  EXPECT_NEAR(run.samples.back().reactions[1].position[0] / exact, 1, 1e-3);
+}
+
+/// A weight in the middle of a light rope: two straight legs at 45 degrees.
+TEST(SlackRope, BearsAWeight) {
+  for (const std::string drawn : {"V", "arc"}) {
+    Scene scene = slack(drawn, 32, 1e9);
+    scene.beam.section.rhoA = 1e-6;
+    scene.point_masses = {{16, 2}};
+    const RunResult run = completed(scene);
+    const double pull = run.samples.back().reactions[1].position[0];
+    EXPECT_NEAR(pull / 9.81, 1, 1e-5) << drawn;
+    EXPECT_NEAR(run.configurations.back().r[16][1], -1, 1e-5) << drawn;
+  }
+}
+
+TEST(SlackRope, IsWhereAMotionStarts) {
+  Scene scene = slack("arc", 16, 1e8), start = scene;
+  const Sample at_rest = completed(scene).samples.back();
+  start.analysis = Analysis::dynamics;
+  start.initial_shape = InitialShape::equilibrium;
+  start.integrator.type = IntegratorType::generalized_alpha;
+  start.integrator.step = 1e-3;
+  start.duration = 0.01;
+  start.output.interval = 0.01;
+  const RunResult run = completed(start);
+  EXPECT_NEAR(run.samples.front().reactions[1].position[0] / at_rest.reactions[1].position[0], 1, 1e-6);
+  EXPECT_EQ(run.samples.front().equilibrium->negative_pivots, 0);
+  EXPECT_LE(run.max_kinetic, 1e-9);
+}
+
+/// Hardly stretched, a beam bends as if it could not be: the elastica of a dead load, P L^2/EI = 10, in elliptic
+/// integrals.
+TEST(Statics, ASlenderBeamBendsHoweverStiffItsAxis) {
+  for (const double EA : {1e8, 1e10, 1e12, 1e13}) {
+    Scene scene = straight(32, EA, 1);
+    scene.beam.axial_strain = AxialStrain::lobatto;
+    scene.loads = {{.node = 32, .x = {}, .magnitude = {.value = 10}, .direction = {0, -1, 0}, .turn = {}}};
+    EXPECT_LT(distance(completed(scene).samples.back().end, 0.4450044022, -0.8106090249), 8e-7) << EA;
+  }
+}
+
+/// Loads that rounding of the axial force swallows move nothing: that is no equilibrium.
+TEST(Statics, WhatRoundingHidesIsNoAnswer) {
+  Scene scene = straight(8, 1e18, 1);
+  scene.loads = {{.node = 8, .x = {}, .magnitude = {.value = 10}, .direction = {0, -1, 0}, .turn = {}}};
+  EXPECT_EQ(simulate(scene).status, RunStatus::failed);
+}
+
+/// A verdict is right, or says that rounding hides it.
+TEST(Statics, KnowsWhereRoundingHidesStability) {
+  const double euler = std::numbers::pi * std::numbers::pi / 4;
+  for (const double EA : {1e8, 1e10, 1e11, 1e12, 1e14}) {
+    for (const auto& [load, falls] : std::vector<std::pair<double, int>>{{0.98, 0}, {1.02, 1}}) {
+      Scene scene = straight(16, EA, 1);
+      scene.beam.curve.end = {std::cos(0.6), std::sin(0.6), 0};
+      scene.loads = {{.node = 16, .x = {}, .magnitude = {.value = load * euler}, .turn = {}}};
+      scene.loads.front().direction = {-std::cos(0.6), -std::sin(0.6), 0};
+      const StaticSample seen = *completed(scene).samples.back().equilibrium;
+      const bool known = seen.hidden_pivots == 0;
+      EXPECT_TRUE(known || EA > 1e11) << EA << " " << load;
+      EXPECT_FALSE(known && EA > 1e13) << EA << " " << load;
+      if (known) {
+        EXPECT_EQ(seen.negative_pivots, falls) << EA << " " << load;
+      }
+    }
+  }
 }
 
 /// What rounding leaves of no force must not move a beam that nothing holds.

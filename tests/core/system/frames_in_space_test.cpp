@@ -56,6 +56,21 @@ TEST(FramesInSpace, AQuarterArcBendsAndTwistsAcrossItsPlane) {
   }
 }
 
+/// A hook, 1000 times slenderer and more: it is where it was, and stable.
+TEST(FramesInSpace, ASlenderHookIsStable) {
+  std::vector<Point> tips;
+  for (const double radius : {1e-3, 1e-5, 5e-6}) {
+    const double EI = 2e11 * pi * radius * radius * radius * radius / 4;
+    Scene scene = loaded_arc(16, 1, 0, section(2e11 * pi * radius * radius, EI, EI / 1.3), 2 * EI);
+    scene.beam.curve = {.type = CurveType::nurbs};
+    scene.beam.curve.knots = {0, 0, 0, 0, 1, 1, 1, 1};
+    scene.beam.curve.control_points = {{0, 0, 0}, {0.5, 0, 0}, {0.7, 0.4, 0.1}, {0.3, 0.5, 0.4}};
+    scene.loads.front().direction = {0.3, -1, 0.5};
+    tips.push_back(tip(scene));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(tips.back()[c], tips.front()[c], 1e-6) << radius;
+  }
+}
+
 /// Bathe & Bolourchi (1979): published results are of elements that shear, and within 1 % of this.
 TEST(FramesInSpace, ABendOf45DegreesGoesFar) {
   const Point exact{100 - 15.558, 46.892, 53.608};

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "core/system/equilibrium.hpp"
+#include "scene/build.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {
@@ -97,6 +101,85 @@ TEST(TrolleysStatics, ReleasedTogetherRestWhereTheCableIsLowest) {
   for (const auto& kink : result.configurations.back().kinks) {
     const Point &before = result.configurations.back().r_x[kink.node], &behind = kink.r_x;
     EXPECT_NEAR(before[1], -behind[1], 1e-6) << "level to both sides: the lowest point, and the ring in the middle";
+  }
+}
+
+/// A rope that is drawn over rings through these points, with the arc length of its corners there, and no support.
+Scene over_rings(const std::vector<Point>& points, const std::vector<double>& rings, double EA, double rhoA) {
+  Scene scene = at_rest(20, EA, 0);
+  scene.gravity = {0, -9.81, 0};
+  scene.beam.section.rhoA = rhoA;
+  scene.beam.curve = {.type = CurveType::polyline};
+  scene.beam.curve.points = points;
+  for (const double at : rings) {
+    scene.sliding_joints.push_back(at_ring(at));
+    scene.sliding_joints.back().slopes = JointSlopes::free;
+  }
+  return scene;
+}
+
+TEST(RopeOverRings, OfTwoEqualSidesIsFoundAndUnstable) {
+  for (const double EA : {1e4, 1e8}) {
+    const RunResult run = completed(over_rings({{0, -1, 0}, {0, 0, 0}, {0, -1, 0}}, {1}, EA, 1));
+    const Sample& last = run.samples.back();
+    EXPECT_NEAR(*last.joint_position, 1, 1e-9);
+    EXPECT_NEAR(last.joint->force[1], -2 * 9.81, 1e-6) << "the weight of the rope";
+    EXPECT_EQ(last.equilibrium->negative_pivots, 1) << "it slips off, once it moves";
+  }
+}
+
+/// The longer side, and the heavier one, pulls the rope off: the error names the ring, and what would have to hold it.
+TEST(RopeOverRings, SlidesWhereNothingHoldsIt) {
+  Scene rope = over_rings({{0, -0.9, 0}, {0, 0, 0}, {0, -1.1, 0}}, {0.9}, 1e4, 1);
+  Scene atwood = over_rings({{0, -1, 0}, {0, 0, 0}, {0, -1, 0}}, {1}, 1e5, 1e-4);
+  atwood.point_masses = {{0, 2}, {20, 1}};
+  for (const auto& [scene, lacks] : {std::pair{rope, 2 * 9.81}, std::pair{atwood, 9.81}}) {
+    const RunResult run = simulate(scene);
+    EXPECT_EQ(run.status, RunStatus::failed);
+    EXPECT_NE(run.failure.find("the beam slides along the ring at joint 0 with "), std::string::npos) << run.failure;
+    EXPECT_NE(run.failure.find(" N unbalanced: it comes to the end of the beam"), std::string::npos) << run.failure;
+    BeamSystem<2> system(build_model<2>(scene), build_chain<2>(scene));
+    SolverCounters counters;
+    try {
+      trace_equilibria<2>(
+          system, {}, [](const Equilibrium&) { return true; }, counters);
+      ADD_FAILURE() << "it is in equilibrium";
+    } catch (const NotBalanced& slides) {
+      EXPECT_EQ(slides.joint, 0);
+      EXPECT_NEAR(std::abs(slides.force), lacks, 5e-3 * lacks);
+    }
+  }
+  Scene two = over_rings({{-1, -1, 0}, {-1, 0, 0}, {1, 0, 0}, {1, -1, 0}}, {1, 3}, 1e5, 1);
+  const RunResult run = simulate(two);
+  EXPECT_EQ(run.status, RunStatus::failed);
+  EXPECT_NE(run.failure.find("the beam slides along the ring at joint "), std::string::npos) << run.failure;
+}
+
+/// Over two smooth pegs 2 a apart each side hangs down to the directrix of the catenary between them:
+/// L = 2 c exp(a/c), sides c cosh(a/c). Longer than 2 e a it has two equilibria, shorter none (above).
+TEST(RopeOverRings, SidesEndOnTheDirectrixOfTheCatenaryBetween) {
+  Scene scene = over_rings({{-1, -2, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {1, -2, 0}},
+                           {2, 2 + 2 * std::numbers::sqrt2}, 1e5, 1);
+  scene.beam.elements = 40;
+  const RunResult run = completed(scene);
+  const double L = run.samples.front().beam_length;  // the corner between the rings is rounded off
+  double c = 0.5;                                    // of the deeper one
+  for (int i = 0; i < 50; ++i) c -= (2 * c * std::exp(1 / c) - L) / (2 * std::exp(1 / c) * (1 - 1 / c));
+  const Sample& last = run.samples.back();
+  EXPECT_NEAR(*last.joints[0].position, c * std::cosh(1 / c), 1e-4);
+  EXPECT_NEAR(*last.joints[0].position + *last.joints[1].position, L, 1e-6);
+  EXPECT_GT(last.equilibrium->negative_pivots, 0);
+}
+
+/// Whittaker: 2 T sin(a) = W, T = P (reference/exact/pulleys.py), whatever the string's stiffness.
+TEST(RopeOverRings, ThreeWeightsHangWhereTheStringIsStiff) {
+  for (const double EA : {1e5, 1e7, 1e8, 1e9}) {
+    Scene scene = over_rings({{-1, -1.5, 0}, {-1, 0, 0}, {1, 0, 0}, {1, -1.5, 0}}, {1.5, 3.5}, EA, 1e-9);
+    scene.point_masses = {{0, 1}, {10, 1.2}, {20, 1}};
+    const RunResult run = completed(scene);
+    EXPECT_EQ(run.samples.back().equilibrium->negative_pivots, 0);
+    EXPECT_NEAR(run.configurations.back().r[10][0], 0, 1e-8) << EA;
+    EXPECT_NEAR(run.configurations.back().r[10][1], -0.75, 1e-8) << EA;
   }
 }
 
