@@ -115,23 +115,30 @@ TEST(SeveralJoints, GeneralizedAlphaComesNearTheExplicitRunWithItsOrder) {
   }
 }
 
+/// Explicit methods early, for their steps get as short as the last element.
 TEST(SeveralJoints, MayLeaveAFreeEndOneAfterTheOther) {
-  Scene scene = test::rope({slider(1.2, 0.3, 3), slider(1.7, 0.3, 3)});
-  scene.gravity = {0, 0, 0};
-  scene.start = {SupportType::clamp, ClampType::full};
-  scene.end.type = SupportType::free;
-  scene.duration = 0.4;
-  const RunResult run = simulate(scene);
-  ASSERT_EQ(run.status, RunStatus::separated) << run.failure;
-  std::vector<int> left;
-  for (const Event& event : run.events) {
-    if (event.type == EventType::separation) left.push_back(event.joint);
+  for (const IntegratorType type : {IntegratorType::fehlberg78, IntegratorType::generalized_alpha}) {
+    Scene scene = test::rope({slider(1.2, 0.3, 3), slider(1.7, 0.3, 3)});
+    scene.integrator.type = type;
+    if (type == IntegratorType::fehlberg78) {
+      for (SlidingJointSpec& joint : scene.sliding_joints) joint.separation_distance = 0.06;
+    }
+    scene.gravity = {0, 0, 0};
+    scene.start = {SupportType::clamp, ClampType::full};
+    scene.end.type = SupportType::free;
+    scene.duration = 0.4;
+    const RunResult run = simulate(scene);
+    ASSERT_EQ(run.status, RunStatus::separated) << run.failure;
+    std::vector<int> left;
+    for (const Event& event : run.events) {
+      if (event.type == EventType::separation) left.push_back(event.joint);
+    }
+    EXPECT_EQ(left, (std::vector<int>{1, 0})) << "the one ahead first";
+    const Sample& last = run.samples.back();
+    EXPECT_FALSE(last.joints[0].position || last.joints[1].position);
+    EXPECT_NEAR((*last.joints[1].mass_position)[0], 1.7 + 3 * 0.4, 1e-6) << "nothing holds it back on a straight beam";
+    EXPECT_NEAR((*last.joints[0].mass_position)[0], 1.2 + 3 * 0.4, 1e-6);
   }
-  EXPECT_EQ(left, (std::vector<int>{1, 0})) << "the one ahead first";
-  const Sample& last = run.samples.back();
-  EXPECT_FALSE(last.joints[0].position || last.joints[1].position);
-  EXPECT_NEAR((*last.joints[1].mass_position)[0], 1.7 + 3 * 0.4, 1e-6) << "nothing holds it back on a straight beam";
-  EXPECT_NEAR((*last.joints[0].mass_position)[0], 1.2 + 3 * 0.4, 1e-6);
 }
 
 TEST(SeveralJoints, ThatMeetEndTheRunByName) {
