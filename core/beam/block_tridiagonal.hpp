@@ -81,8 +81,8 @@ class BorderedBlockTridiagonal {
   };
 
   bool solves_ = false;
-  std::vector<Block> inverse_;  ///< of the pivots
-  std::vector<Pivot> pivots_;   ///< where they are solved
+  std::vector<Block> inverse_;                      ///< of the pivots
+  std::vector<Pivot> pivots_;                       ///< where they are solved
   std::vector<double> columns_;                     ///< the border's columns, solved
   Eigen::MatrixXd rest_;                            ///< of the corner, once the nodes are eliminated
   Eigen::PartialPivLU<Eigen::MatrixXd> corner_lu_;  ///< of that, scaled

@@ -212,7 +212,8 @@ class Path {
       if (iterations <= 4) step = std::min(1.5 * step, most);
       if (iterations > 7) step /= 1.5;
     }
-    if (search_.releasing) path_ends(q, "they slide on after " + std::to_string(points) + " points of the path", factor);
+    if (search_.releasing)
+      path_ends(q, "they slide on after " + std::to_string(points) + " points of the path", factor);
     throw ComputationFailed("the load factor is " + in_digits(factor, 4) + " after " + std::to_string(points) +
                                 " points of the path: it may never be 1",
                             factor);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/dynamics/solver_counters.hpp"
+#include "core/error.hpp"
 #include "core/system/beam_system.hpp"
 
 namespace vlbeam {
@@ -51,13 +51,13 @@ struct Equilibrium {
 /// initial state comes first where it is an equilibrium. Newton's iteration with the exact tangent; steps it does not
 /// solve are halved. A start that holds no load (a slack cable) is first relaxed: steps (K + mu M) dq = -r, mu falling,
 /// go down the potential energy to a stable equilibrium; of a rope, forces along it that are unknowns of their own lead
-/// there (FreeTension), and so they do on steps that Newton's iteration does not solve. Throws ComputationFailed, at the factor reached, where there
-/// is none, naming the direction in which the beam moves freely.
-/// At load factor 1 a joint that is alone in having no guide is released by moving its material coordinate x: the force
-/// that holds it there is a function of x, followed in steps from where the joint is, downhill, to where it vanishes,
-/// through the system's length control. Each step is a point of the path; the last one solves for x, too. Several are
-/// released together: the forces that hold them fall in proportion to 1 - s, and s goes from 0 to 1 along the path that
-/// this makes. Throws NotBalanced where the beam slides on in a ring.
+/// there (FreeTension), and so they do on steps that Newton's iteration does not solve. Throws ComputationFailed, at
+/// the factor reached, where there is none, naming the direction in which the beam moves freely. At load factor 1 a
+/// joint that is alone in having no guide is released by moving its material coordinate x: the force that holds it
+/// there is a function of x, followed in steps from where the joint is, downhill, to where it vanishes, through the
+/// system's length control. Each step is a point of the path; the last one solves for x, too. Several are released
+/// together: the forces that hold them fall in proportion to 1 - s, and s goes from 0 to 1 along the path that this
+/// makes. Throws NotBalanced where the beam slides on in a ring.
 template <int D>
 void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
                       const std::function<bool(const Equilibrium&)>& on_point, SolverCounters& counters);

@@ -82,7 +82,6 @@ void FreeTension<D>::advance(Eigen::VectorXd& q, const Eigen::VectorXd& change, 
     force = std::max(force, least);
   });
   q -= share * change;
-  
 }
 
 template <int D>

@@ -120,9 +120,9 @@ class JointRelease {
   [[noreturn]] void not_released(const Eigen::VectorXd& q, const std::string& why) {
     const double force = search_.holding_force(q, 1);
     const std::string where = why + " at x = " + in_digits(q[equations_.mark(search_.slider)], 4) + " m";
-    search_.not_balanced(search_.slider, force, where,
-                         "the joint that slides is not released: " + where + ", where holding it takes " +
-                             in_digits(force, 4) + " N");
+    search_.not_balanced(
+        search_.slider, force, where,
+        "the joint that slides is not released: " + where + ", where holding it takes " + in_digits(force, 4) + " N");
   }
 
   StaticSearch<D>& search_;

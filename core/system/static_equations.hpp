@@ -37,8 +37,8 @@ class StaticEquations {
   void reactions(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const;
   /// The same without what is held.
   void residual(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const;
-  /// Factors the tangent, plus `by_a` times the mass matrix; false where it is singular. With `forces` it is that of the
-  /// iteration in which they are free.
+  /// Factors the tangent, plus `by_a` times the mass matrix; false where it is singular. With `forces` it is that of
+  /// the iteration in which they are free.
   bool linearize(const Eigen::VectorXd& u, double factor, double by_a, const FreeTension<D>* forces = nullptr);
   void solve(Eigen::VectorXd& r) const { tangent_.solve(r.data()); }
   /// Of what linearize() factored: the number of directions, within the conditions on the slopes, in which the energy

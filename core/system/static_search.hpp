@@ -18,19 +18,19 @@ class StaticSearch {
  public:
   static constexpr int most_corrections = 30;
   static constexpr int most_relaxations = 3000;
-  static constexpr double largest_correction = 0.5;   // of the beam's length, and of slopes
-  static constexpr double largest_relaxation = 0.05;  // the same, of one step of a relaxation
-  static constexpr double by_rounding = 1e-7;         // corrections that no longer fall end the iteration from here on
-  static constexpr double close = 0.05;                 // corrections that free forces from their bounds
+  static constexpr double largest_correction = 0.5;    // of the beam's length, and of slopes
+  static constexpr double largest_relaxation = 0.05;   // the same, of one step of a relaxation
+  static constexpr double by_rounding = 1e-7;          // corrections that no longer fall end the iteration from here on
+  static constexpr double close = 0.05;                // corrections that free forces from their bounds
   static constexpr double near = 1e-3, nearly = 1e-6;  // corrections that lead from free forces to those of the strains
   static constexpr double least_force = 0.01;          // of a rope in search of its equilibrium, over what acts on it
-  static constexpr double slack = 1e-10;              // over the axial stiffness: of a beam that holds nothing
-  static constexpr double soft_in_bending = 1e-2;     // the same over that of bending, of a slender beam
+  static constexpr double slack = 1e-10;               // over the axial stiffness: of a beam that holds nothing
+  static constexpr double soft_in_bending = 1e-2;      // the same over that of bending, of a slender beam
   static constexpr double tangent_by_rounding = 1e-15;  // over what each element resists to stretch
-  static constexpr double force_by_rounding = 2e-15;  // over EA
-  static constexpr double rounding_share = 1e-3;      // of what acts: with more of it rounding hides the equilibrium
-  static constexpr int most_events = 9;               // of length control at one instant
-  static constexpr double longest_slide = 0.25;       // of a joint that is released, over L_std
+  static constexpr double force_by_rounding = 2e-15;    // over EA
+  static constexpr double rounding_share = 1e-3;        // of what acts: with more of it rounding hides the equilibrium
+  static constexpr int most_events = 9;                 // of length control at one instant
+  static constexpr double longest_slide = 0.25;         // of a joint that is released, over L_std
   static constexpr double end_distance = 1e-3;  // from an end of the beam at which a joint is too near, over L_std
 
   StaticSearch(BeamSystem<D>& of, const EquilibriumOptions& with, SolverCounters& counted)
@@ -207,8 +207,8 @@ class StaticSearch {
     return newton_with_forces(q, factor, Walk{least, least});
   }
 
-  /// Where a rope that holds nothing at first hangs: forces that bear what acts on it, and none that pushes, lead there.
-  /// False where it finds no stable equilibrium, or one that pushes, on the ground or so.
+  /// Where a rope that holds nothing at first hangs: forces that bear what acts on it, and none that pushes, lead
+  /// there. False where it finds no stable equilibrium, or one that pushes, on the ground or so.
   bool hang(Eigen::VectorXd& q, double factor) {
     if (system.model().section.stiffness.bends()) return false;
     residual(q, factor);

@@ -91,14 +91,14 @@ TYPED_TEST(BlockTridiagonal, SolvesPivotsOfAStiffAxis) {
   const Eigen::MatrixXd full = this->dense(m);
   // what a force does that pulls the last node across the last axis, by decompositions of the whole
   const Eigen::VectorXd force = Eigen::VectorXd::Unit(full.rows(), full.rows() - 1);
-  const Eigen::VectorXd exact = full.cast<long double>().ldlt().solve(force.cast<long double>()).template cast<double>();
+  const Eigen::VectorXd exact =
+      full.cast<long double>().ldlt().solve(force.cast<long double>()).template cast<double>();
   Eigen::VectorXd x = force;
   ASSERT_TRUE(m.factor());
   m.solve(x.data());
   EXPECT_LE((x - exact).norm(), 1e-4 * exact.norm());
   EXPECT_EQ(m.negative_pivots(0), 0);
 }
-
 
 TYPED_TEST(BlockTridiagonal, SolvesWhatItHolds) {
   constexpr double dominant = 3 * TypeParam::value;

@@ -153,8 +153,8 @@ TEST(Statics, MechanismIsNamed) {
 }
 
 /// H of a rope of length L that weighs w by length, between supports at one height. Green's law,
-/// T = EA l (l^2 - 1)/2: the half of its span is H/w times the integral of l over u, T = H cosh u, up to sinh u = w L/2 H
-/// (reference/exact/catenary.py).
+/// T = EA l (l^2 - 1)/2: the half of its span is H/w times the integral of l over u, T = H cosh u, up to sinh u = w L/2
+/// H (reference/exact/catenary.py).
 double catenary_pull(double EA, double w, double L, double span) {
   const auto stretch = [EA](double T) {
     double l = 1 + T / EA;
