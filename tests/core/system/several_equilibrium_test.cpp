@@ -158,17 +158,16 @@ TEST(RopeOverRings, SlidesWhereNothingHoldsIt) {
 /// Over two smooth pegs 2 a apart each side hangs down to the directrix of the catenary between them:
 /// L = 2 c exp(a/c), sides c cosh(a/c). Longer than 2 e a it has two equilibria, shorter none (above).
 TEST(RopeOverRings, SidesEndOnTheDirectrixOfTheCatenaryBetween) {
-  Scene scene = over_rings({{-1, -2, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {1, -2, 0}},
-                           {2, 2 + 2 * std::numbers::sqrt2}, 1e5, 1);
-  scene.beam.elements = 40;
+  const double L = 6.4;
+  Scene scene = over_rings({{-1, -2.2, 0}, {-1, 0, 0}, {1, 0, 0}, {1, -2.2, 0}}, {2.2, 4.2}, 1e6, 1);
+  scene.beam.elements = 32;
   const RunResult run = completed(scene);
-  const double L = run.samples.front().beam_length;  // the corner between the rings is rounded off
-  double c = 0.5;                                    // of the deeper one
+  double c = 1.9;  // of the flatter one
   for (int i = 0; i < 50; ++i) c -= (2 * c * std::exp(1 / c) - L) / (2 * std::exp(1 / c) * (1 - 1 / c));
   const Sample& last = run.samples.back();
-  EXPECT_NEAR(*last.joints[0].position, c * std::cosh(1 / c), 1e-4);
+  EXPECT_NEAR(*last.joints[0].position, c * std::cosh(1 / c), 5e-5) << "strains are 2e-5";
   EXPECT_NEAR(*last.joints[0].position + *last.joints[1].position, L, 1e-6);
-  EXPECT_GT(last.equilibrium->negative_pivots, 0);
+  EXPECT_EQ(last.equilibrium->negative_pivots, 1) << "it slips off, once it moves";
 }
 
 /// Whittaker: 2 T sin(a) = W, T = P (reference/exact/pulleys.py), whatever the string's stiffness.
