@@ -58,8 +58,8 @@ class Drum final : public Part<D> {
 
   /// `push` is a function of time [N], negative where the drum pulls. `rhoA` [kg/m]. `line` is the force along the
   /// whole beam [N/m], or empty.
-  Drum(const End& end, double rhoA, TimeFunction push, LineForce line, std::optional<EndStop> stop = {})
-      : end_(end), rhoA_(rhoA), push_(std::move(push)), line_(std::move(line)), stop_(std::move(stop)) {}
+  Drum(const End& end, double rhoA, TimeFunction push, LineForce line, const std::optional<EndStop>& stop = {})
+      : end_(end), rhoA_(rhoA), push_(std::move(push)), line_(std::move(line)), stop_(stop) {}
 
   Tally add_force(const Motion<D>& motion, double* force) const override {
     const JointPlace* const end = place(motion.beam);
