@@ -19,7 +19,6 @@ void check_tied(const Scene& scene, std::size_t which) {
   if (joint.velocity != 0) {
     refuse(key + "/velocity", number_text(joint.velocity), "a block holds this joint: it starts at rest, with 0");
   }
-  if (joint.pitch) refuse(key + "/pitch", "this key", "a block holds this joint, and no nut");
 }
 
 }  // namespace
@@ -58,15 +57,11 @@ void validate_blocks(const Scene& scene) {
   if (starts_in_equilibrium(scene)) {
     refuse("/initial_shape", "\"equilibrium\"", "with /blocks a motion starts as \"built\"");
   }
-  switch (scene.integrator.type) {
-    case IntegratorType::energy_momentum:
-    case IntegratorType::ida:
-    case IntegratorType::cvode:
-    case IntegratorType::rosenbrock4:
-      refuse("/integrator/type", quoted(scene.integrator.type),
-             "it knows no /blocks: take an explicit one, or \"generalized-alpha\"");
-    default:
-      break;
+  if (!joints_may_rest(scene)) {  // blocks are held by the same forces
+    refuse("/blocks", "this key",
+           "it goes together with explicit integrators and \"generalized-alpha\", and with neither friction nor a nut: "
+           "leave one "
+           "of the two out");
   }
 }
 

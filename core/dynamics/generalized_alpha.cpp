@@ -320,7 +320,8 @@ class GeneralizedAlpha final : public Stepper {
     end_.power = system_.supplied_power(q_, v_, acceleration_, t + h);
     end_.power.dissipated = dissipation;
     Tally given = 0.5 * h * (start_.power + end_.power);
-    if (const auto lost = system_.power_lost_between(base_q_, q_, h, t)) given.dissipated = h * *lost;
+    other_a_ = 0.5 * (start_.true_acceleration + acceleration_);
+    if (const auto lost = system_.power_lost_between(base_q_, q_, other_a_, h, t)) given.dissipated = h * *lost;
     system_.tallies().add(given, y);
     end_.true_acceleration = acceleration_;
     end_.a = next_a_;

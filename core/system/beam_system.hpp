@@ -340,6 +340,10 @@ class BeamSystem final : public EventedOde {
   void open_contact(const Contact& contact, const Eigen::VectorXd& y);
   /// What rests, and with it the links.
   void find_resting();
+  /// Of joint `index` of the model, which is on the beam.
+  const JointPlace& place_of(int index) const {
+    return places_[static_cast<std::size_t>(std::ranges::find(index_, index) - index_.begin())];
+  }
   /// The distances that joints of a block have there, an array like q, are those that they keep.
   void tie_blocks(const double* q);
   /// All that touch and come nearer strike each other at once, and what rests bears it: new velocities, and what rests

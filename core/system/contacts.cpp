@@ -49,12 +49,8 @@ void BeamSystem<D>::find_resting() {
   std::erase_if(resting_, [](const Contact& contact) { return !contact.rests; });
   links_.clear();
   for (const Tie& tie : ties_) {
-    const auto node = [&](int joint) {
-      return places_[static_cast<std::size_t>(std::ranges::find(index_, joint) - index_.begin())].node;
-    };
-    for (int c = 0; c < D; ++c) {
-      links_.push_back({node(tie.behind), node(tie.ahead), tie.apart[c], Vector(Vector::Unit(c))});
-    }
+    const int behind = place_of(tie.behind).node, ahead = place_of(tie.ahead).node;
+    for (int c = 0; c < D; ++c) links_.push_back({behind, ahead, tie.apart[c], Vector(Vector::Unit(c))});
   }
   links_.insert(links_.end(), resting_.begin(), resting_.end());
   link_forces_.setZero(static_cast<Eigen::Index>(links_.size()));
@@ -64,10 +60,7 @@ template <int D>
 void BeamSystem<D>::tie_blocks(const double* q) {
   for (const std::vector<int>& block : model_.blocks) {
     for (std::size_t k = 1; k < block.size(); ++k) {
-      const auto place = [&](int joint) {
-        const auto at = static_cast<std::size_t>(std::ranges::find(index_, joint) - index_.begin());
-        return Vector(position<D>(q, places_[at].node));
-      };
+      const auto place = [&](int joint) { return position<D>(q, place_of(joint).node); };
       ties_.push_back({block[0], block[k], place(block[k]) - place(block[0])});
     }
   }

@@ -166,13 +166,12 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
 
 template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
-                                                          double h, double t) {
+                                                          const Eigen::VectorXd& a, double h, double t) {
   if (!system_.model().section.damped() || !system_.travel(t + h / 2)) return std::nullopt;
   y_ = 0.5 * (q0 + q1);
   dydt_ = (q1 - q0) / h;
-  free_.setZero(q0.size());
-  a_.resize(q0.size());
-  const double lost = equations_.residual(y_, dydt_, free_, t + h / 2, a_);
+  free_.resize(q0.size());
+  const double lost = equations_.residual(y_, dydt_, a, t + h / 2, free_);
   system_.travel(t + h);
   return lost;
 }

@@ -122,20 +122,24 @@ INSTANTIATE_TEST_SUITE_P(
                           "\"pin\""}));
 INSTANTIATE_TEST_SUITE_P(
     Blocks, WrongRope,
-    testing::Values(Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0], "mass": 1})"), "/blocks/0/joints",
-                          "at least two"},
-                    Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 2], "mass": 1})"),
-                          "/blocks/0/joints/1", "0 to 1"},
-                    Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 0], "mass": 1})"),
-                          "/blocks/0/joints/1", "once"},
-                    Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 1]})"), "/blocks/0/mass", "> 0"},
-                    Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 1.5], "mass": 1})"),
-                          "/blocks/0/joints", "whole numbers"},
-                    Wrong{BLOCK(FREE_AT("0.5") ","
-                                               R"({"position": 1, "support": "pin", "slopes": "free"})",
-                                R"({"joints": [0, 1], "mass": 1})"),
-                          "/sliding_joints/1/support", "\"free\""},
-                    Wrong{R"({"blocks": [{"joints": [0, 1], "mass": 1}]})", "/blocks/0/joints/1", "0 to 0"}));
+    testing::Values(
+        Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0], "mass": 1})"), "/blocks/0/joints",
+              "at least two"},
+        Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 2], "mass": 1})"), "/blocks/0/joints/1",
+              "0 to 1"},
+        Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 0], "mass": 1})"), "/blocks/0/joints/1", "once"},
+        Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 1]})"), "/blocks/0/mass", "> 0"},
+        Wrong{BLOCK(FREE_AT("0.5") "," FREE_AT("1"), R"({"joints": [0, 1.5], "mass": 1})"), "/blocks/0/joints",
+              "whole numbers"},
+        Wrong{BLOCK(FREE_AT("0.5") ","
+                                   R"({"position": 1, "support": "pin", "slopes": "free"})",
+                    R"({"joints": [0, 1], "mass": 1})"),
+              "/sliding_joints/1/support", "\"free\""},
+        Wrong{BLOCK(FREE_AT("0.5") ","
+                                   R"({"mass": 1, "position": 1, "slopes": "free", "friction": {"coefficient": 0.1}})",
+                    R"({"joints": [0, 1], "mass": 1})"),
+              "/blocks", "neither friction nor a nut"},
+        Wrong{R"({"blocks": [{"joints": [0, 1], "mass": 1}]})", "/blocks/0/joints/1", "0 to 0"}));
 INSTANTIATE_TEST_SUITE_P(
     Surroundings, WrongRope,
     testing::Values(Wrong{R"({"fluid": {"density": 1000}})", "/fluid/area", "must be given"},

@@ -54,6 +54,19 @@ TEST(HeldFriction, TakesTheEnergyThatIsMissing) {
   }
 }
 
+// What damping takes is found in the middle of a step, and friction with it, which needs the accelerations there.
+TEST(HeldFriction, IsBookedBesideDamping) {
+  Scene scene = rubbing(SupportType::pin);
+  scene.beam.material.damping = 1e-4;
+  scene.sliding_joints.push_back(mass_at(0.8, 2));
+  scene.sliding_joints.back().friction = AxialFriction{0.4, 0.05};
+  scene.integrator = IntegratorSpec{.type = IntegratorType::generalized_alpha, .step = 1e-4, .rho_inf = 1};
+  const RunResult run = test::completed(scene);
+  const double loads = run.samples.back().flow->ledger.loads;
+  EXPECT_GT(run.samples.back().energy.dissipated, 1e-3 * loads) << "it rubs";
+  EXPECT_LT(run.max_energy_drift, 1e-4 * loads);
+}
+
 TEST(HeldFriction, IsTheSameWithEveryIntegrator) {
   for (const SupportType support : {SupportType::pin, SupportType::clamp}) {
     for (const bool several : {false, true}) {
