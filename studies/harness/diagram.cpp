@@ -14,7 +14,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr std::size_t longest_key = 21;  // lines beside the diagram
+constexpr std::size_t longest_key = 21, longest_below = 12;  // entries beside the diagram, and below a column's
 constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999999"};
 
 /// In double quotes, as gnuplot reads it: nothing in it is an escape.
@@ -188,7 +188,8 @@ void draw_diagram(const Diagram& diagram, const Look& look, const std::filesyste
   if (!diagram.logarithmic) script += ranges_of(diagram, look);
   if (diagram.equal_scales) script += "set size ratio -1\n";
   if (diagram.series.size() == 1) script += "unset key\n";  // the axis says it
-  const std::size_t each = (diagram.series.size() + longest_key - 1) / longest_key;
+  const std::size_t most = look.column ? longest_below : longest_key;
+  const std::size_t each = (diagram.series.size() + most - 1) / most;
   for (std::size_t i = 0; i < diagram.series.size(); ++i) {
     script += (i == 0 ? "plot data" : ", \\\n  data") + std::string(" index ") + std::to_string(i) +
               " using 1:2 with " + style_of(diagram, i) +
