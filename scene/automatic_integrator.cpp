@@ -32,7 +32,7 @@ constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drive
 // Tolerances of a step over the accuracy asked: errors of many steps add up.
 constexpr double implicit_share = 0.05, explicit_share = 0.05;
 constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
-constexpr double newton_share = 1e-2, relative_share = 1e-3;
+constexpr double newton_share = 0.1, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
 constexpr double whole_motion = 0.1;       // of the beam's length: displacement from which tolerances hold in full
 constexpr double least_tolerance = 1e-11, least_newton_tolerance = 1e-10, rounding = 1e-14;

@@ -13,7 +13,8 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
-constexpr double least_motion = 1e-5;                                     // of Tolerances::motion
+constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
+constexpr double least_motion = 1e-5;  // of Tolerances::motion
 
 class GeneralizedAlpha final : public Stepper {
  public:
@@ -65,10 +66,15 @@ class GeneralizedAlpha final : public Stepper {
     double next = options_.step;
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
-      const double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
+      double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
       if (ratio > 1) {
         dt = h * factor;
+        calm_ = calm_steps;
         return false;
+      }
+      if (calm_ > 0) {
+        --calm_;
+        factor = std::min(factor, 1.0);
       }
       next = std::min(options_.step, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
     }
@@ -92,6 +98,7 @@ class GeneralizedAlpha final : public Stepper {
     memory(motion_);
     memory(motion_until_event_);
     memory(noise_step_);
+    memory(calm_);
     if (memory.reads()) {
       stop_.set_fields(system_.fields());
       for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(system_.coordinates());
@@ -112,6 +119,7 @@ class GeneralizedAlpha final : public Stepper {
       from_q_ = main.from_q_;
       motion_ = main.motion_;
       motion_until_event_ = main.motion_until_event_;
+      calm_ = main.calm_;
     }
     end_ = main.start_;
     started_ = true;
@@ -343,6 +351,7 @@ class GeneralizedAlpha final : public Stepper {
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
   bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
+  int calm_ = 0;             ///< steps that may not be longer than the one before
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;
   StepEnd start_, end_;                        ///< at the start and at the end of the last step
