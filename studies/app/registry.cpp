@@ -22,6 +22,7 @@ Study manufactured_study();
 Study moving_string_study();
 Study quadrature_study();
 Study rational_study();
+Study ropes_study();
 Study rotating_load_study();
 Study semicircle_study();
 Study slender_study();
@@ -35,12 +36,13 @@ Study work_precision_study();
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
-        across_events_study(), defaults_study(),   drill_stem_study(),      energy_drift_study(),
-        equilibria_study(),    exact_arc_study(),  exact_solutions_study(), falling_beam_study(),
-        hard_cases_study(),    joints_study(),     judge_study(),           manufactured_study(),
-        moving_string_study(), quadrature_study(), rational_study(),        rotating_load_study(),
-        semicircle_study(),    slender_study(),    space_study(),           suspended_beam_study(),
-        thresholds_study(),    torsion_study(),    weights_study(),         work_precision_study(),
+        across_events_study(),  defaults_study(),   drill_stem_study(),      energy_drift_study(),
+        equilibria_study(),     exact_arc_study(),  exact_solutions_study(), falling_beam_study(),
+        hard_cases_study(),     joints_study(),     judge_study(),           manufactured_study(),
+        moving_string_study(),  quadrature_study(), rational_study(),        ropes_study(),
+        rotating_load_study(),  semicircle_study(), slender_study(),         space_study(),
+        suspended_beam_study(), thresholds_study(), torsion_study(),         weights_study(),
+        work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;

@@ -1,0 +1,232 @@
+// Ropes: weights over a wheel, around a guide, hoisted, deployed, and hanging, with and without a ground to lie on.
+#include "studies/harness/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/elementary.hpp"
+#include "scene/options.hpp"
+#include "studies/harness/observed_order.hpp"
+#include "studies/harness/scene_json.hpp"
+#include "studies/ropes/closed_forms.hpp"
+
+namespace vlbeam {
+namespace ropes {
+namespace {
+
+constexpr double rounding = 1e-8;  // of strains, times EA over the pull
+
+struct Case {
+  double varied = 0;  ///< by the problem: mass a length, coefficient of friction, length hoisted, step, elements
+  Scene scene;
+};
+
+double height(const Point& pull) { return portable::hypot(pull[0], pull[1]); }
+
+class Report {
+ public:
+  explicit Report(const StudyContext& context) : context_(context) {}
+
+  StudyReport operator()() {
+    atwood();
+    capstan();
+    hoist();
+    tether();
+    hanging();
+    mooring();
+    for (Table* table : {&atwood_, &capstan_, &hoist_, &tether_, &hanging_, &mooring_}) {
+      report_.tables.push_back(std::move(*table));
+    }
+    report_.figures = {{.name = "motions",
+                        .caption = "Ropes beside their closed forms: weights over a guide, friction around it, a "
+                                   "pendulum that is hoisted",
+                        .script = "motions.gp",
+                        .variables = {{"folder", context_.folder.string()}}},
+                       {.name = "errors",
+                        .caption = "Errors of ropes: angular momentum of a deployed tether against the step, pulls of "
+                                   "hanging ropes against the mesh",
+                        .script = "errors.gp",
+                        .variables = {{"folder", context_.folder.string()}}}};
+    return std::move(report_);
+  }
+
+ private:
+  template <class Change>
+  std::vector<Case> cases_of(const char* problem, const Change& change) const {
+    std::vector<Case> cases;
+    for (const double value : context_.config.at("sweeps").at(problem).get<std::vector<double>>()) {
+      Case& item = cases.emplace_back(Case{value, scene_from_json(context_.config.at("scenes").at(problem))});
+      change(item.scene, value);
+    }
+    return cases;
+  }
+  /// Runs a problem once a value of its sweep, and gives what `measure` finds to the report.
+  template <class Change, class Measure>
+  void each(const char* problem, const char* varied, const Change& change, const Measure& measure) {
+    const auto cases = cases_of(problem, change);
+    const auto runs =
+        context_.sweep(cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); });
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const double found = measure(cases[i], *runs[i]);
+      report_.cases.push_back({.options = {{"problem", problem}, {varied, cases[i].varied}},
+                               .results = {{"error", found}, {"steps", runs[i]->solver.steps}}});
+      double& worst = report_.measured[problem];
+      worst = std::max(worst, found);
+      levels_.push_back(cases[i].varied);
+      errors_.push_back(found);
+    }
+  }
+  void fit(const char* problem, double floor, bool steps) {
+    if (steps) {
+      for (double& level : levels_) level = 1 / level;
+    }
+    report_.measured[problem + std::string("_finest")] = errors_.back();
+    report_.fits.push_back(
+        fit_order(problem, levels_, errors_, {.floor = floor, .rule = level_rule_of(context_.config, problem)}));
+  }
+  void forget_levels() {
+    levels_.clear();
+    errors_.clear();
+  }
+
+  /// Of the way at the end, relative to it.
+  void atwood() {
+    each(
+        "atwood", "rhoA", [](Scene& scene, double rhoA) { scene.beam.section.rhoA = rhoA; },
+        [&](const Case& item, const RunResult& run) {
+          const double half = *run.samples.front().joint_position;
+          const AtwoodMachine exact{.heavy = item.scene.point_masses[1].mass,
+                                    .light = item.scene.point_masses[0].mass,
+                                    .rope = item.varied * 2 * half,
+                                    .length = 2 * half};
+          double error = 0;
+          for (const Sample& sample : run.samples) {
+            const double way = half - *sample.joint_position;
+            error = std::abs(way - exact.way(sample.t));
+            atwood_.rows.push_back({item.varied, sample.t, way, exact.way(sample.t)});
+          }
+          return error / exact.way(run.samples.back().t);
+        });
+    forget_levels();
+  }
+
+  /// The worst over all angles around the guide, once the rope slips.
+  void capstan() {
+    const double load = 10;
+    each(
+        "capstan", "coefficient",
+        [&](Scene& scene, double mu) {
+          scene.sliding_joints.front().friction->coefficient = mu;
+          scene.loads.front().magnitude.value = load;
+        },
+        [&](const Case& item, const RunResult& run) {
+          double worst = 0;
+          for (const Sample& sample : run.samples) {
+            if (sample.t < context_.config.at("slips_from").get<double>()) continue;
+            const double angle = portable::atan2(sample.end[1], sample.end[0]);
+            const double ratio = height(sample.reactions[1].position) / load;
+            const double exact = portable::exp(item.varied * angle);
+            worst = std::max(worst, std::abs(ratio / exact - 1));
+            capstan_.rows.push_back({item.varied, angle, ratio, exact});
+          }
+          return worst;
+        });
+    forget_levels();
+  }
+
+  /// The amplitude behind the hoist over that before it.
+  void hoist() {
+    each(
+        "hoist", "hoisted", [](Scene& scene, double length) { scene.start.feed->table[1][1] = -length; },
+        [&](const Case& item, const RunResult& run) {
+          const Sample& first = run.samples.front();
+          const double before = std::abs(portable::atan2(first.end[0], -first.end[1]));
+          double after = 0;
+          const double end = item.scene.start.feed->table[1][0];
+          for (const Sample& sample : run.samples) {
+            if (sample.t > end + 1) after = std::max(after, std::abs(portable::atan2(sample.end[0], -sample.end[1])));
+          }
+          const double length = portable::hypot(first.end[0], first.end[1]), shorter = length / (length - item.varied);
+          const double exact = portable::pow(shorter, 0.75);
+          hoist_.rows.push_back({shorter, after / before, exact});
+          return std::abs(after / before / exact - 1);
+        });
+    forget_levels();
+  }
+
+  /// The largest change of the angular momentum, relative to it.
+  void tether() {
+    each(
+        "tether", "step", [](Scene& scene, double step) { scene.integrator.step = step; },
+        [&](const Case& item, const RunResult& run) {
+          const double first = run.samples.front().angular_momentum[2];
+          double worst = 0;
+          for (const Sample& sample : run.samples) {
+            worst = std::max(worst, std::abs(sample.angular_momentum[2] / first - 1));
+          }
+          tether_.rows.push_back({item.varied, worst});
+          return worst;
+        });
+    fit("tether", 1e-10, true);
+    forget_levels();
+  }
+
+  /// Of the pull at the lower or the right support, relative to the closed form.
+  void pulls(const char* problem, Table& table, const Pull& exact) {
+    each(
+        problem, "elements", [](Scene& scene, double n) { scene.beam.elements = static_cast<int>(std::lround(n)); },
+        [&](const Case& item, const RunResult& run) {
+          const Point& pull = run.samples.back().reactions[1].position;
+          const double across = std::abs(std::abs(pull[0]) / exact.along - 1),
+                       up = std::abs(std::abs(pull[1]) / exact.up - 1), error = std::max(across, up);
+          table.rows.push_back({item.varied, std::abs(pull[0]), std::abs(pull[1]), error});
+          report_.measured[problem + ("_" + number_text(item.varied))] = error;
+          return error;
+        });
+  }
+  void hanging() {
+    const Scene scene = scene_from_json(context_.config.at("scenes").at("hanging"));
+    pulls("hanging", hanging_, hanging_rope(scene));
+    fit("hanging", rounding, false);
+    forget_levels();
+  }
+  void mooring() {
+    const Scene scene = scene_from_json(context_.config.at("scenes").at("mooring"));
+    pulls("mooring", mooring_, rope_from_the_ground(scene));
+    report_.measured["mooring_finest"] = errors_.back();
+    forget_levels();
+  }
+
+  const StudyContext& context_;
+  std::vector<double> levels_, errors_;
+  Table atwood_{.name = "atwood",
+                .caption = "Weights on a rope over a guide: the rope's mass a length [kg/m], time [s], way [m]",
+                .columns = {"rhoA", "t", "way", "exact"}};
+  Table capstan_{.name = "capstan",
+                 .caption = "Ratio of the tensions on the two sides of a guide, against the angle around it [rad]",
+                 .columns = {"coefficient", "angle", "ratio", "exact"}};
+  Table hoist_{.name = "hoist",
+               .caption = "Amplitude of a pendulum that was hoisted, over that before, against the ratio of lengths",
+               .columns = {"lengths", "amplitudes", "exact"}};
+  Table tether_{.name = "tether",
+                .caption = "A tether deployed from a hub that spins: change of angular momentum against the step [s]",
+                .columns = {"step", "change"}};
+  Table hanging_{.name = "hanging",
+                 .caption = "A rope between two supports: pull [N] and its error, against the mesh",
+                 .columns = {"elements", "along", "up", "error"}};
+  Table mooring_{.name = "mooring",
+                 .caption = "A chain from the ground to a fairlead: pull [N] and its error, against the mesh",
+                 .columns = {"elements", "along", "up", "error"}};
+  StudyReport report_;
+};
+
+StudyReport run(const StudyContext& context) { return Report(context)(); }
+
+}  // namespace
+}  // namespace ropes
+
+Study ropes_study();
+
+Study ropes_study() { return {.name = "ropes", .title = "Ropes move and hang as closed forms say", .run = ropes::run}; }
+
+}  // namespace vlbeam
