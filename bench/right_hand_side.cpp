@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/element/circular_shaft.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "scene/build.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/dynamics/stepper.hpp"
 #include "core/error.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "scene/build.hpp"
 #include "scene/time_function.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "core/system/moving_mesh.hpp"
-#include "core/system/steady_flow.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/options.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/element/circular_shaft.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 
 namespace vlbeam {
 namespace drill_stem {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/elementary.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "studies/exact_solutions/balance.hpp"
 #include "studies/exact_solutions/motion.hpp"
 #include "studies/moving_string/transverse.hpp"

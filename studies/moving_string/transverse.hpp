@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 
 namespace vlbeam::moving_string {
 

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/rotating_load/closed_form.hpp"

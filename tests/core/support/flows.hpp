@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/element/circular_shaft.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/system/static_equations.hpp"
+#include "core/statics/static_equations.hpp"
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/system/equilibrium.hpp"
+#include "core/statics/equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/system/joint_release.hpp"
-#include "core/system/static_modes.hpp"
-#include "core/system/static_search.hpp"
+#include "core/statics/joint_release.hpp"
+#include "core/statics/static_modes.hpp"
+#include "core/statics/static_search.hpp"
 
 namespace vlbeam {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/system/steady_flow.hpp"
+#include "core/statics/steady_flow.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/system/static_equations.hpp"
+#include "core/statics/static_equations.hpp"
 
 namespace vlbeam {
 

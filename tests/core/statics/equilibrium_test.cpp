@@ -1,4 +1,4 @@
-#include "core/system/equilibrium.hpp"
+#include "core/statics/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/system/static_modes.hpp"
+#include "core/statics/static_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/system/equilibrium.hpp"
-#include "core/system/steady_flow.hpp"
+#include "core/statics/equilibrium.hpp"
+#include "core/statics/steady_flow.hpp"
 
 namespace vlbeam {
 namespace {

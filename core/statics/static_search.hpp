@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/system/equilibrium.hpp"
-#include "core/system/static_equations.hpp"
+#include "core/statics/equilibrium.hpp"
+#include "core/statics/static_equations.hpp"
 
 namespace vlbeam {
 

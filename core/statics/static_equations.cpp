@@ -1,4 +1,4 @@
-#include "core/system/static_equations.hpp"
+#include "core/statics/static_equations.hpp"
 
 #include "core/geometry/dense.hpp"
 

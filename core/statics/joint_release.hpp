@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/system/static_search.hpp"
+#include "core/statics/static_search.hpp"
 
 namespace vlbeam {
 

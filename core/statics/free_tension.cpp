@@ -1,4 +1,4 @@
-#include "core/system/free_tension.hpp"
+#include "core/statics/free_tension.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/joint/kinks.hpp"
+#include "core/statics/free_tension.hpp"
 #include "core/system/equations.hpp"
-#include "core/system/free_tension.hpp"
 
 namespace vlbeam {
 
