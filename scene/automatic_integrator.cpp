@@ -22,7 +22,7 @@ constexpr double turn = 2 * std::numbers::pi;
 
 // The longest step at an accuracy of 1e-4; it goes with the root of the accuracy, for the method is of second order.
 constexpr double usual_accuracy = 1e-4;
-constexpr double steps_a_swing = 650;     // under gravity, over the beam's length
+constexpr double steps_a_swing = 650;     // under gravity, over the beam's length, or of what turns from the start
 constexpr double steps_a_ramp = 80;       // of what grows
 constexpr double steps_a_period = 160;    // of what is driven or loaded periodically
 constexpr double steps_an_element = 5;    // while something that is driven passes it
@@ -151,6 +151,7 @@ double longest_implicit_step(const Scene& scene) {
   };
   const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
   at_most(turn * std::sqrt(L / g) / steps_a_swing);
+  if (scene.initial_velocity) at_most(turn / std::abs(scene.initial_velocity->rotation) / steps_a_swing);
   at_most(scene.gravity_ramp / steps_a_ramp);
   for (const SlidingJointSpec& joint : sliding_joints(scene)) {
     at_most(element / std::abs(joint.velocity) / steps_an_element);

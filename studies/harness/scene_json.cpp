@@ -406,7 +406,8 @@ bool asks_for_accuracy(const Json& integrator) {
 
 Scene scene_from_json(Json json) {
   const bool in_time = !json.is_object() || !json.contains("analysis") || json.at("analysis") != "statics";
-  const bool left_out = in_time && json.is_object() && !json.contains("integrator");
+  const bool left_out =
+      in_time && json.is_object() && (!json.contains("integrator") || json.at("integrator") == Json::object());
   const bool asked_for = in_time && json.is_object() && !left_out && asks_for_accuracy(json.at("integrator"));
   const bool automatic = left_out || asked_for || (in_time && json.is_object() && json.at("integrator") == "auto");
   if (automatic && !asked_for) json.erase("integrator");

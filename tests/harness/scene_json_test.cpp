@@ -96,6 +96,8 @@ TEST(SceneJson, AutoStandsForTheIntegratorThatTheEchoShows) {
   EXPECT_EQ(scene_to_json(scene_from_json(json))["integrator"]["type"], "generalized-alpha");
   const Json echo = scene_to_json(scene_from_json(json));
   EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo) << "it says all that was chosen";
+  json["integrator"] = Json::object();
+  EXPECT_EQ(scene_to_json(scene_from_json(json)), echo) << "nothing is asked for";
   json["integrator"] = {{"accuracy", 1e-4}};
   EXPECT_EQ(scene_to_json(scene_from_json(json)), echo);
   json["integrator"] = {{"accuracy", 1e-3}};
