@@ -42,7 +42,8 @@ Vec<Number, 3> seeded_direction(const Vec<double, 3>& d, const Vec<double, 3>& s
 
 }  // namespace
 
-FrameTable::FrameTable(double l, const Weights<double>& w) : length(l) {
+FrameTable::FrameTable(double l, const Weights<double>& w) {
+  length = l;
   const auto& gauss = gauss_legendre(2);
   const BeamRule rule{{gauss[0].u, gauss[0].weight}, {gauss[1].u, gauss[1].weight}, {0.5, 1}};
   const FixedBasis<double> basis = fixed_basis(l, w, rule);
