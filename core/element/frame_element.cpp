@@ -30,17 +30,18 @@ FrameVector frame_gradient(const FrameTable& table, const FrameSection& section,
   return result;
 }
 
+void add_turned_reference(const FrameNode& node, double torque, int slope, FrameMatrix& tangent) {
+  const Eigen::Matrix3d by = node.reference->spin_by_slope_gradient<double>(node.s);
+  tangent.block<3, 3>(slope, slope) += (torque / 2) * (by + by.transpose());
+}
+
 FrameMatrix frame_tangent(const FrameTable& table, const FrameSection& section, const FrameNode& a, const FrameNode& b,
                           double turned) {
   const FrameElement<double> element(table, section, frame_ends(a, b, turned));
   const FrameStiffness<double> k(element, element.inner(), a.spin_by_slope, b.spin_by_slope);
   FrameMatrix result = k.in_order();
-  const auto add = [&](const FrameNode& node, int slope, double torque) {
-    const Eigen::Matrix3d by = node.reference->spin_by_slope_gradient<double>(node.s);
-    result.block<3, 3>(slope, slope) += (torque / 2) * (by + by.transpose());
-  };
-  add(a, 3, k.torques[0]);
-  add(b, 10, k.torques[1]);
+  add_turned_reference(a, k.torques[0], 3, result);
+  add_turned_reference(b, k.torques[1], 10, result);
   return result;
 }
 

@@ -355,16 +355,24 @@ struct FrameNode {
   Vec<double, 3> spin_by_slope;  ///< A
 
   FrameNode(const TriadReference& from, const Vec<double, 3>& place, const Vec<double, 3>& slope, double phi)
-      : reference(&from),
-        r(place),
-        s(slope),
-        direction(from.direction(slope, phi)),
-        spin_by_slope(from.spin_by_slope<double>(slope)) {}
+      : reference(&from), r(place), s(slope) {
+    const double per = 1 / std::sqrt(slope.dot(slope));
+    const Vec<double, 3> t = slope * per, across = t.cross(from.t);
+    const double near = 1 / (1 + from.t.dot(t));
+    spin_by_slope = across * (per * near);
+    const Vec<double, 3> d = from.d - (from.t + t) * (t.dot(from.d) * near);
+    const auto [sine, cosine] = sine_cosine(phi);
+    direction = d * cosine + t.cross(d) * sine;
+  }
 };
 
 /// Unknowns of an element: r_A, s_A, phi_A, r_B, s_B, phi_B.
 using FrameVector = Eigen::Matrix<double, 14, 1>;
 using FrameMatrix = Eigen::Matrix<double, 14, 14>;
+
+/// Adds what a torque on the angle of an end adds to the second derivative by its slope, whose unknowns begin at
+/// `slope`, because the angle is not counted from where the smallest rotation takes the present direction.
+void add_turned_reference(const FrameNode& node, double torque, int slope, FrameMatrix& tangent);
 
 /// `turned` is the twist of the element to within half a turn [rad].
 FrameEnds<double> frame_ends(const FrameNode& a, const FrameNode& b, double turned);

@@ -47,8 +47,10 @@ Frames::Frames(const FrameModel& model, const Mesh& mesh, const double* rest,
   }
   for (int k = 0; k <= mesh.last(); ++k) references_.push_back(stands(q, sections, k));
   between_.assign(count, 0);
+  for (std::size_t k = 0; k < count; ++k) packs_.add(static_cast<int>(k), tables_[k]);
   held_.assign(count + 1, false);
   nodes_.reserve(count + 1);
+  turned_.resize(count);
   for (auto* work : {&spins_, &momenta_, &spin_rates_, &momentum_rates_, &diagonal_, &beside_}) work->resize(count + 1);
 }
 
@@ -58,9 +60,19 @@ FrameNode Frames::node(const double* q, int k) const {
 
 Frames::~Frames() = default;
 
+bool Frames::seen(const double* q) const {
+  const std::size_t moving = std::size_t{node_size<3>} * static_cast<std::size_t>(nodes());
+  return looked_at_.size() > moving && std::equal(q, q + moving, looked_at_.begin()) &&
+         std::equal(q + angle(0), q + angle(nodes()), looked_at_.begin() + static_cast<std::ptrdiff_t>(moving));
+}
+
 void Frames::look(const double* q) const {
+  if (seen(q)) return;
+  looked_at_.assign(q, q + Eigen::Index{node_size<3>} * nodes());
+  looked_at_.insert(looked_at_.end(), q + angle(0), q + angle(nodes()));
   nodes_.clear();
   for (int k = 0; k < nodes(); ++k) nodes_.push_back(node(q, k));
+  for (int k = 0; k < elements(); ++k) turned_[static_cast<std::size_t>(k)] = turned(q, k);
 }
 
 template <class Visit>
@@ -80,14 +92,7 @@ void Frames::at_torques(double t, const Visit& visit) const {
 Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate;
   look(q);
-  for (int k = 0; k < elements(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const FrameVector f = frame_gradient(tables_[i], model_.section, nodes_[i], nodes_[i + 1], turned(q, k));
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(force + 6 * k) -= f.head<6>();
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(force + 6 * (k + 1)) -= f.segment<6>(7);
-    force[angle(k)] -= f[6];
-    force[angle(k + 1)] -= f[13];
-  }
+  packs_.add_forces(model_.section, nodes_, turned_, force, force + angle(0));
   Tally power;
   if (!model_.torques.present()) return power;
   const auto turn = [&](int k, double torque) {
@@ -146,11 +151,7 @@ void Frames::add_inertia(const double* q, const double* rate, const double* a, d
 void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate, *a = motion.a;
   look(q);
-  for (int k = 0; k < elements() && by.q != 0; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    tangent.add_turning_element(
-        k, by.q * frame_tangent(tables_[i], model_.section, nodes_[i], nodes_[i + 1], turned(q, k)));
-  }
+  if (by.q != 0) packs_.add_tangents(model_.section, nodes_, turned_, by.q, tangent);
   if (model_.torques.present() && by.q != 0) {
     const auto turn = [&](int k, double torque) {
       tangent.add_slope_stiffness(
@@ -263,6 +264,7 @@ void Frames::follow(const double* q, double* rate) {
     TriadReference& from = references_[static_cast<std::size_t>(k)];
     from = from.at(slope<3>(q, k));
   }
+  looked_at_.clear();
 }
 
 void Frames::exchange(Memory& memory) {
@@ -271,6 +273,7 @@ void Frames::exchange(Memory& memory) {
     for (double& number : from.d) memory(number);
   }
   for (double& number : between_) memory(number);
+  looked_at_.clear();
 }
 
 std::vector<SectionState> Frames::sections(const double* q, const double* rate) const {
