@@ -16,12 +16,20 @@ Eigen::Matrix3d cross_matrix(const Vec<double, 3>& v) {
   return matrix;
 }
 
-/// s'.(dA/ds) s' with its gradient by s: what the spin's rate has of velocities.
-Active<3> quadratic(const TriadReference& from, const Vec<double, 3>& s, const Vec<double, 3>& rate) {
+/// s'.(dA/ds) s': what the spin's rate has of velocities.
+template <class Real>
+Real quadratic(const TriadReference& from, const Vec<Real, 3>& s, const Vec<double, 3>& rate) {
+  using std::sqrt;
+  const Vec<Real, 3> t = from.t.cast<Real>(), v = rate.cast<Real>();
+  const Real size = sqrt(s.dot(s)), along = t.dot(s), below = size * (size + along);
+  return t.cross(s).dot(v) * (s.dot(v) * (Real(2) + along / size) + t.dot(v) * size) / (below * below);
+}
+
+/// With its gradient by s.
+Active<3> active_quadratic(const TriadReference& from, const Vec<double, 3>& s, const Vec<double, 3>& rate) {
   Vec<Active<3>, 3> at;
   for (int c = 0; c < 3; ++c) at[c] = Active<3>(s[c], c);
-  const Vec<Active<3>, 3> moving = rate.cast<Active<3>>();
-  return moving.dot(from.spin_by_slope_gradient<Active<3>>(at) * moving);
+  return quadratic<Active<3>>(from, at, rate);
 }
 
 }  // namespace
@@ -115,7 +123,7 @@ double Frames::bent_spin_rate(const double* q, const double* rate, const double*
   const auto i = static_cast<std::size_t>(k);
   const Vec<double, 3> v = slope<3>(rate, k);
   return nodes_[i].spin_by_slope.dot(slope<3>(a, k)) +
-         v.dot(references_[i].spin_by_slope_gradient<double>(slope<3>(q, k)) * v);
+         quadratic<double>(references_[i], slope<3>(q, k), v);
 }
 
 void Frames::times_inertia(const std::vector<double>& x, std::vector<double>& result) const {
@@ -175,7 +183,7 @@ void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, Beam
     const Vec<double, 3> s = slope<3>(q, k), v = slope<3>(rate, k), c = slope<3>(a, k);
     const Vec<double, 3> A = from.spin_by_slope<double>(s);
     const Eigen::Matrix3d G = from.spin_by_slope_gradient<double>(s);
-    const Active<3> D = quadratic(from, s, v);
+    const Active<3> D = active_quadratic(from, s, v);
     const double size2 = s.squaredNorm(), size3 = size2 * std::sqrt(size2);
     const Eigen::Matrix3d curl_by = (Eigen::Matrix3d::Identity() - 3 * s * s.transpose() / size2) / size3;
     const double p = momenta_[static_cast<std::size_t>(k)];
