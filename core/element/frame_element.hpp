@@ -79,7 +79,8 @@ struct FrameForce {
 ///
 /// All is computed in components along e_1, the direction of end A brought to the middle, e_2 = m x e_1 and e_3 = m.
 /// With c = r_x x r_xx and q = 1/(|r_x| + r_x.m) the strains before the frame turns about the tangent are
-///   k.f_1 = (c_1 - c_3 q r_x1)/|r_x|^n,  k.f_2 = (c_2 - c_3 q r_x2)/|r_x|^n,  -m.k/(1 + m.t) = (-c_3 + c_3 q r_x3)/|r_x|^n,
+///   k.f_1 = (c_1 - c_3 q r_x1)/|r_x|^n,  k.f_2 = (c_2 - c_3 q r_x2)/|r_x|^n,  -m.k/(1 + m.t) = (-c_3 + c_3 q
+///   r_x3)/|r_x|^n,
 /// so that with a vector n any sum of them is (n.c - c_3 q n.r_x)/|r_x|^n. `Real` may be a Pack.
 template <class Real>
 class FrameElement {
@@ -137,11 +138,11 @@ class FrameElement {
   };
   struct Seen {
     Vector r_x, r_xx, c;
-    Real per_stretch, over, near;     ///< 1/|r_x|, 1/|r_x|^n, q
-    Real per_length;                  ///< of torsion, by the twist [1/m]
-    Real sine, cosine;                ///< of u times the twist
-    Real y, z, torsion, by_inner;     ///< without the inner angle
-    Real own;                         ///< what of torsion is the smallest rotation's
+    Real per_stretch, over, near;  ///< 1/|r_x|, 1/|r_x|^n, q
+    Real per_length;               ///< of torsion, by the twist [1/m]
+    Real sine, cosine;             ///< of u times the twist
+    Real y, z, torsion, by_inner;  ///< without the inner angle
+    Real own;                      ///< what of torsion is the smallest rotation's
   };
   /// What a point does: n, and what follows of it; M_y, M_z and the torque, times the weight.
   struct Pull {
@@ -269,7 +270,8 @@ Real FrameElement<Real>::inner() const {
       const Real w(point.weight), bump(point.bump()), by = points_[g].by_inner;
       const Real y = EI_y * (strain.y - point.rest.y), z = EI_z * (strain.z - point.rest.z);
       pull += w * ((y * strain.z - z * strain.y) * bump + GIp * (strain.torsion - point.rest.torsion) * by);
-      slope += w * (bump * bump) * (EI_y * strain.z * strain.z + EI_z * strain.y * strain.y - y * strain.y - z * strain.z);
+      slope +=
+          w * (bump * bump) * (EI_y * strain.z * strain.z + EI_z * strain.y * strain.y - y * strain.y - z * strain.z);
     }
     if (!newton::go_on(angle, newton::divided(pull, slope, stiff), done)) break;
   }
@@ -335,8 +337,8 @@ FrameForce<Real> FrameElement<Real>::force(const Real& inner) const {
     force.s_a += here.on_x * Real(point.s_x[1]) + here.on_xx * Real(point.s_xx[1]);
     force.s_b += here.on_x * Real(point.s_x[2]) + here.on_xx * Real(point.s_xx[2]);
     for (int i = 0; i < 2; ++i) {
-      on_middle[i] += at.r_x[i] * here.on_x[2] - at.r_x[2] * here.on_x[i] + at.r_xx[i] * here.on_xx[2] -
-                      at.r_xx[2] * here.on_xx[i];
+      on_middle[i] +=
+          at.r_x[i] * here.on_x[2] - at.r_x[2] * here.on_x[i] + at.r_xx[i] * here.on_xx[2] - at.r_xx[2] * here.on_xx[i];
     }
   }
   on_middle += a_.by_middle() * force.spin_a + b_.by_middle() * force.spin_b;

@@ -9,10 +9,10 @@ namespace vlbeam {
 /// The second derivative of an element's energy by c = r_B - r_A, s_A, s_B and the angles of its ends, where the inner
 /// angle is that of the least energy. No branch on values: `Real` may be a Pack.
 ///
-/// The triad in the middle turns by w = e_3 x mu as its tangent changes by mu, mu_i = N_i/|N|, N = r_x there. What is seen
-/// from it, r_x and r_xx at a point, changes by -w x r + w x (w x r)/2. With the derivatives b_S of the strains S, all but
-/// those, the tangent is the sum of k_S b_S b_S^T, of the stresses times the second derivatives of strains by r_x and
-/// r_xx, and of what acts on mu, and on the angles of the ends in the middle, times theirs.
+/// The triad in the middle turns by w = e_3 x mu as its tangent changes by mu, mu_i = N_i/|N|, N = r_x there. What is
+/// seen from it, r_x and r_xx at a point, changes by -w x r + w x (w x r)/2. With the derivatives b_S of the strains S,
+/// all but those, the tangent is the sum of k_S b_S b_S^T, of the stresses times the second derivatives of strains by
+/// r_x and r_xx, and of what acts on mu, and on the angles of the ends in the middle, times theirs.
 template <class Real>
 class FrameStiffness {
  public:

@@ -122,8 +122,7 @@ double Frames::spin_of(const double* rate, int k) const {
 double Frames::bent_spin_rate(const double* q, const double* rate, const double* a, int k) const {
   const auto i = static_cast<std::size_t>(k);
   const Vec<double, 3> v = slope<3>(rate, k);
-  return nodes_[i].spin_by_slope.dot(slope<3>(a, k)) +
-         quadratic<double>(references_[i], slope<3>(q, k), v);
+  return nodes_[i].spin_by_slope.dot(slope<3>(a, k)) + quadratic<double>(references_[i], slope<3>(q, k), v);
 }
 
 void Frames::times_inertia(const std::vector<double>& x, std::vector<double>& result) const {

@@ -94,8 +94,8 @@ class Frames final : public Part<3> {
   std::vector<FrameTable> tables_;
   std::vector<TriadReference> references_;
   std::vector<bool> held_;
-  FramePacks packs_;                      ///< of elements whose nodes rest
-  mutable std::vector<FrameNode> nodes_;  ///< where look() was told
+  FramePacks packs_;                                ///< of elements whose nodes rest
+  mutable std::vector<FrameNode> nodes_;            ///< where look() was told
   mutable std::vector<double> looked_at_, turned_;  ///< the coordinates there; twists of elements, as turned() has them
   mutable std::vector<double> spins_, momenta_, spin_rates_, momentum_rates_, diagonal_, beside_;  ///< of nodes
   std::vector<double> between_;  ///< of an element: its twist less the difference of its angles, when last followed
