@@ -64,7 +64,7 @@ class FrameStiffness {
 
   /// Of the element in lane `lane`, where this is a pack: by r_A, s_A, phi_A, r_B, s_B, phi_B.
   FrameMatrix in_order(int lane = 0) const {
-    const auto of = [lane](const Real& x) -> double {
+    const auto of = [&](const Real& x) -> double {
       if constexpr (std::is_same_v<Real, Pack>) {
         return x[lane];
       } else {

@@ -18,9 +18,9 @@ Eigen::Matrix3d cross_matrix(const Vec<double, 3>& v) {
 
 /// s'.(dA/ds) s': what the spin's rate has of velocities.
 template <class Real>
-Real quadratic(const TriadReference& from, const Vec<Real, 3>& s, const Vec<double, 3>& rate) {
+Real quadratic(const TriadReference& from, const Vec<Real, 3>& s, const Vec<Real, 3>& v) {
   using std::sqrt;
-  const Vec<Real, 3> t = from.t.cast<Real>(), v = rate.cast<Real>();
+  const Vec<Real, 3> t = from.t.cast<Real>();
   const Real size = sqrt(s.dot(s)), along = t.dot(s), below = size * (size + along);
   return t.cross(s).dot(v) * (s.dot(v) * (Real(2) + along / size) + t.dot(v) * size) / (below * below);
 }
@@ -29,7 +29,7 @@ Real quadratic(const TriadReference& from, const Vec<Real, 3>& s, const Vec<doub
 Active<3> active_quadratic(const TriadReference& from, const Vec<double, 3>& s, const Vec<double, 3>& rate) {
   Vec<Active<3>, 3> at;
   for (int c = 0; c < 3; ++c) at[c] = Active<3>(s[c], c);
-  return quadratic<Active<3>>(from, at, rate);
+  return quadratic<Active<3>>(from, at, rate.cast<Active<3>>());
 }
 
 }  // namespace
