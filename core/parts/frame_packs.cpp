@@ -7,14 +7,14 @@ namespace {
 
 using Elements = std::array<std::size_t, Pack::width>;
 
-void set_lane(FrameTableOf<Pack>& table, int lane, const FrameTable& from, double weight) {
+void set_lane(FrameTableOf<Pack>& table, int lane, const FrameTable& from) {
   table.length.set(lane, from.length);
   for (std::size_t c = 0; c < 3; ++c) table.middle[c].set(lane, from.middle[c]);
   for (std::size_t g = 0; g < 2; ++g) {
     auto& point = table.points[g];
     const auto& one = from.points[g];
     point.u = one.u;
-    point.weight.set(lane, weight * one.weight);
+    point.weight.set(lane, one.weight);
     for (std::size_t c = 0; c < 3; ++c) {
       point.s_x[c].set(lane, one.s_x[c]);
       point.s_xx[c].set(lane, one.s_xx[c]);
@@ -69,7 +69,7 @@ void FramePacks::add(int k, const FrameTable& table) {
   Four& pack = packs_.back();
   for (int lane = pack.count; lane < Pack::width; ++lane) {
     pack.elements[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(k);
-    set_lane(pack.table, lane, table, lane == pack.count ? 1 : 0);
+    set_lane(pack.table, lane, table);
   }
   ++pack.count;
 }

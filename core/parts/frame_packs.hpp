@@ -29,7 +29,7 @@ class FramePacks {
  private:
   struct Four {
     int count = 0;
-    std::array<std::size_t, Pack::width> elements{};  ///< lanes beyond the last repeat it, without weight
+    std::array<std::size_t, Pack::width> elements{};  ///< lanes beyond the last repeat it
     FrameTableOf<Pack> table;
   };
   std::vector<Four> packs_;
