@@ -63,16 +63,21 @@ void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
 }
 
 /// What a kernel is compiled for: branches on the section cost much between the few operations of a pack. Bending
-/// without damping, by either law, has its own; all else shares one.
-enum class Kernel { green, engineering, general };
+/// without damping, by either law, has its own, and so has stretching alone; all else shares one.
+enum class Kernel { green, engineering, axial_green, axial_engineering, general };
 
 /// Tells the compiler so.
 template <Kernel K>
 BeamSection known(BeamSection section) {
   if constexpr (K != Kernel::general) {
-    section.stiffness.law = K == Kernel::green ? StrainLaw::green : StrainLaw::engineering;
+    constexpr bool green = K == Kernel::green || K == Kernel::axial_green;
+    section.stiffness.law = green ? StrainLaw::green : StrainLaw::engineering;
     section.damping = section.stiffness.slack_over = 0;
-    if (!section.bends()) __builtin_unreachable();
+    if constexpr (K == Kernel::axial_green || K == Kernel::axial_engineering) {
+      section.stiffness.EI = 0;
+    } else {
+      if (!section.bends()) __builtin_unreachable();
+    }
   }
   return section;
 }
@@ -80,7 +85,12 @@ BeamSection known(BeamSection section) {
 /// Calls f with the kernel for the section.
 template <class Function>
 auto with_kernel(const BeamSection& section, const Function& f) {
-  if (section.damped() || !section.bends()) return f.template operator()<Kernel::general>();
+  if (section.damped()) return f.template operator()<Kernel::general>();
+  if (!section.bends()) {
+    if (section.stiffness.slackens()) return f.template operator()<Kernel::general>();
+    return section.stiffness.green() ? f.template operator()<Kernel::axial_green>()
+                                     : f.template operator()<Kernel::axial_engineering>();
+  }
   return section.stiffness.green() ? f.template operator()<Kernel::green>()
                                    : f.template operator()<Kernel::engineering>();
 }

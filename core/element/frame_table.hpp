@@ -24,19 +24,23 @@ struct FrameStrain {
 
 /// What an element of fixed length needs to know of itself: its shape functions in its middle and at two Gauss points,
 /// three of which would lock where torsion is stiff, and its strains there at rest. r_x and r_xx need the columns of
-/// r_B - r_A, s_A and s_B only.
-struct FrameTable {
+/// r_B - r_A, s_A and s_B only. `Number` may be a Pack: four elements, then.
+template <class Number>
+struct FrameTableOf {
   struct Point {
-    double u, weight;  ///< weight times length [m]
-    std::array<double, 3> s_x, s_xx;
-    FrameStrain<double> rest{0, 0, 0};
+    double u;
+    Number weight;  ///< weight times length [m]
+    std::array<Number, 3> s_x, s_xx;
+    FrameStrain<Number> rest{Number(0), Number(0), Number(0)};
 
     double bump() const { return 4 * u * (1 - u); }
   };
-  double length;
-  std::array<double, 3> middle;
+  Number length;
+  std::array<Number, 3> middle;
   std::array<Point, 2> points;
+};
 
+struct FrameTable : FrameTableOf<double> {
   FrameTable(double l, const Weights<double>& w);
 };
 

@@ -16,12 +16,20 @@ Eigen::Matrix3d cross_matrix(const Vec<double, 3>& v) {
   return matrix;
 }
 
-/// s'.(dA/ds) s' with its gradient by s: what the spin's rate has of velocities.
-Active<3> quadratic(const TriadReference& from, const Vec<double, 3>& s, const Vec<double, 3>& rate) {
+/// s'.(dA/ds) s': what the spin's rate has of velocities.
+template <class Real>
+Real quadratic(const TriadReference& from, const Vec<Real, 3>& s, const Vec<Real, 3>& v) {
+  using std::sqrt;
+  const Vec<Real, 3> t = from.t.cast<Real>();
+  const Real size = sqrt(s.dot(s)), along = t.dot(s), below = size * (size + along);
+  return t.cross(s).dot(v) * (s.dot(v) * (Real(2) + along / size) + t.dot(v) * size) / (below * below);
+}
+
+/// With its gradient by s.
+Active<3> active_quadratic(const TriadReference& from, const Vec<double, 3>& s, const Vec<double, 3>& rate) {
   Vec<Active<3>, 3> at;
   for (int c = 0; c < 3; ++c) at[c] = Active<3>(s[c], c);
-  const Vec<Active<3>, 3> moving = rate.cast<Active<3>>();
-  return moving.dot(from.spin_by_slope_gradient<Active<3>>(at) * moving);
+  return quadratic<Active<3>>(from, at, rate.cast<Active<3>>());
 }
 
 }  // namespace
@@ -47,8 +55,10 @@ Frames::Frames(const FrameModel& model, const Mesh& mesh, const double* rest,
   }
   for (int k = 0; k <= mesh.last(); ++k) references_.push_back(stands(q, sections, k));
   between_.assign(count, 0);
+  for (std::size_t k = 0; k < count; ++k) packs_.add(static_cast<int>(k), tables_[k]);
   held_.assign(count + 1, false);
   nodes_.reserve(count + 1);
+  turned_.resize(count);
   for (auto* work : {&spins_, &momenta_, &spin_rates_, &momentum_rates_, &diagonal_, &beside_}) work->resize(count + 1);
 }
 
@@ -58,9 +68,19 @@ FrameNode Frames::node(const double* q, int k) const {
 
 Frames::~Frames() = default;
 
+bool Frames::seen(const double* q) const {
+  const std::size_t moving = std::size_t{node_size<3>} * static_cast<std::size_t>(nodes());
+  return looked_at_.size() > moving && std::equal(q, q + moving, looked_at_.begin()) &&
+         std::equal(q + angle(0), q + angle(nodes()), looked_at_.begin() + static_cast<std::ptrdiff_t>(moving));
+}
+
 void Frames::look(const double* q) const {
+  if (seen(q)) return;
+  looked_at_.assign(q, q + Eigen::Index{node_size<3>} * nodes());
+  looked_at_.insert(looked_at_.end(), q + angle(0), q + angle(nodes()));
   nodes_.clear();
   for (int k = 0; k < nodes(); ++k) nodes_.push_back(node(q, k));
+  for (int k = 0; k < elements(); ++k) turned_[static_cast<std::size_t>(k)] = turned(q, k);
 }
 
 template <class Visit>
@@ -80,14 +100,7 @@ void Frames::at_torques(double t, const Visit& visit) const {
 Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate;
   look(q);
-  for (int k = 0; k < elements(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const FrameVector f = frame_gradient(tables_[i], model_.section, nodes_[i], nodes_[i + 1], turned(q, k));
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(force + 6 * k) -= f.head<6>();
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(force + 6 * (k + 1)) -= f.segment<6>(7);
-    force[angle(k)] -= f[6];
-    force[angle(k + 1)] -= f[13];
-  }
+  packs_.add_forces(model_.section, nodes_, turned_, force, force + angle(0));
   Tally power;
   if (!model_.torques.present()) return power;
   const auto turn = [&](int k, double torque) {
@@ -109,8 +122,7 @@ double Frames::spin_of(const double* rate, int k) const {
 double Frames::bent_spin_rate(const double* q, const double* rate, const double* a, int k) const {
   const auto i = static_cast<std::size_t>(k);
   const Vec<double, 3> v = slope<3>(rate, k);
-  return nodes_[i].spin_by_slope.dot(slope<3>(a, k)) +
-         v.dot(references_[i].spin_by_slope_gradient<double>(slope<3>(q, k)) * v);
+  return nodes_[i].spin_by_slope.dot(slope<3>(a, k)) + quadratic<double>(references_[i], slope<3>(q, k), v);
 }
 
 void Frames::times_inertia(const std::vector<double>& x, std::vector<double>& result) const {
@@ -146,11 +158,7 @@ void Frames::add_inertia(const double* q, const double* rate, const double* a, d
 void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate, *a = motion.a;
   look(q);
-  for (int k = 0; k < elements() && by.q != 0; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    tangent.add_turning_element(
-        k, by.q * frame_tangent(tables_[i], model_.section, nodes_[i], nodes_[i + 1], turned(q, k)));
-  }
+  if (by.q != 0) packs_.add_tangents(model_.section, nodes_, turned_, by.q, tangent);
   if (model_.torques.present() && by.q != 0) {
     const auto turn = [&](int k, double torque) {
       tangent.add_slope_stiffness(
@@ -174,7 +182,7 @@ void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, Beam
     const Vec<double, 3> s = slope<3>(q, k), v = slope<3>(rate, k), c = slope<3>(a, k);
     const Vec<double, 3> A = from.spin_by_slope<double>(s);
     const Eigen::Matrix3d G = from.spin_by_slope_gradient<double>(s);
-    const Active<3> D = quadratic(from, s, v);
+    const Active<3> D = active_quadratic(from, s, v);
     const double size2 = s.squaredNorm(), size3 = size2 * std::sqrt(size2);
     const Eigen::Matrix3d curl_by = (Eigen::Matrix3d::Identity() - 3 * s * s.transpose() / size2) / size3;
     const double p = momenta_[static_cast<std::size_t>(k)];
@@ -263,6 +271,7 @@ void Frames::follow(const double* q, double* rate) {
     TriadReference& from = references_[static_cast<std::size_t>(k)];
     from = from.at(slope<3>(q, k));
   }
+  looked_at_.clear();
 }
 
 void Frames::exchange(Memory& memory) {
@@ -271,6 +280,7 @@ void Frames::exchange(Memory& memory) {
     for (double& number : from.d) memory(number);
   }
   for (double& number : between_) memory(number);
+  looked_at_.clear();
 }
 
 std::vector<SectionState> Frames::sections(const double* q, const double* rate) const {

@@ -5,12 +5,11 @@
 #include "core/dynamics/memory.hpp"
 #include "core/element/frame_table.hpp"
 #include "core/element/triad.hpp"
+#include "core/parts/frame_packs.hpp"
 #include "core/parts/part.hpp"
 #include "core/parts/spin.hpp"
 
 namespace vlbeam {
-
-struct FrameNode;
 
 /// What frames add to a beam in space.
 struct FrameModel {
@@ -78,8 +77,10 @@ class Frames final : public Part<3> {
   /// Calls visit(k, on A, on B) for what torques do at the ends of elements.
   template <class Visit>
   void at_torques(double t, const Visit& visit) const;
-  /// Looks at all nodes, for what is asked below.
+  /// Looks at all nodes and elements, for what is asked below.
   void look(const double* q) const;
+  /// Whether that is where it looked last.
+  bool seen(const double* q) const;
   /// The spin of a node, and its rate but for what the angle's acceleration adds.
   double spin_of(const double* rate, int k) const;
   double bent_spin_rate(const double* q, const double* rate, const double* a, int k) const;
@@ -93,7 +94,9 @@ class Frames final : public Part<3> {
   std::vector<FrameTable> tables_;
   std::vector<TriadReference> references_;
   std::vector<bool> held_;
-  mutable std::vector<FrameNode> nodes_;  ///< where look() was told
+  FramePacks packs_;                                ///< of elements whose nodes rest
+  mutable std::vector<FrameNode> nodes_;            ///< where look() was told
+  mutable std::vector<double> looked_at_, turned_;  ///< the coordinates there; twists of elements, as turned() has them
   mutable std::vector<double> spins_, momenta_, spin_rates_, momentum_rates_, diagonal_, beside_;  ///< of nodes
   std::vector<double> between_;  ///< of an element: its twist less the difference of its angles, when last followed
 };

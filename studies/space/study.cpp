@@ -1,13 +1,15 @@
-// Beams in space whose sections have frames: an arc across its plane, a bend that goes far, buckling, frequencies, and
-// a free beam that tumbles.
+// Beams in space whose sections have frames: an arc across its plane, a bend that goes far, buckling, frequencies of a
+// straight and of a curved beam, and a free beam that tumbles.
 #include "studies/harness/study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "core/geometry/elementary.hpp"
 #include "scene/options.hpp"
+#include "studies/harness/files.hpp"
 #include "studies/harness/observed_order.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -58,10 +60,12 @@ class Report {
     bend();
     buckling();
     modes();
+    arc_modes();
     tumbling();
     report_.tables.push_back(std::move(arcs_));
     report_.tables.push_back(std::move(buckled_));
     report_.tables.push_back(std::move(steps_));
+    report_.tables.push_back(std::move(arc_modes_));
     report_.figures = {{.name = "errors",
                         .caption =
                             "A quarter arc across its plane: error of its end against mesh and torsional stiffness; "
@@ -168,6 +172,43 @@ class Report {
     }
   }
 
+  /// A clamped arc, against the linear equations of a curved beam.
+  void arc_modes() {
+    const Json known =
+        parse_json(read_text(context_.folder.parent_path().parent_path() / "reference" / "arc_frequencies.json"));
+    struct Mode {
+      double frequency;
+      std::size_t kind;
+    };
+    const std::array<const char*, 2> kinds{"in_plane", "across"};
+    std::vector<Mode> exact;
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      for (const double f : known.at(kinds[kind]).get<std::vector<double>>()) exact.push_back({f, kind});
+    }
+    std::ranges::sort(exact, {}, &Mode::frequency);
+    std::vector<double> levels;
+    std::array<std::vector<double>, 2> errors;
+    for (const int n : meshes("arc_modes")) {
+      const Scene scene = scene_of("arc_modes", n);
+      const RunResult run = StudyContext::simulate_to_the_end(scene);
+      std::array<double, 2> most{};
+      for (std::size_t i = 0; i < run.frequencies.size(); ++i) {
+        double& of_kind = most[exact[i].kind];
+        of_kind = std::max(of_kind, std::abs(run.frequencies[i] / exact[i].frequency - 1));
+      }
+      levels.push_back(n);
+      for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        errors[kind].push_back(most[kind]);
+        report_.measured["arc_" + std::string(kinds[kind]) + "_n" + std::to_string(n)] = most[kind];
+      }
+      arc_modes_.rows.push_back({n, most[0], most[1]});
+      keep({{"problem", "arc_modes"}, {"elements", n}}, {{"frequencies", run.frequencies}});
+    }
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      report_.fits.push_back(fit_order("arc_" + std::string(kinds[kind]), levels, errors[kind]));
+    }
+  }
+
   void tumbling() {
     const Scene free = scene_of("tumbling", 4), driven = scene_of("driven", 4);
     const RunResult fine = StudyContext::simulate_to_the_end(free);
@@ -208,6 +249,11 @@ class Report {
   Table steps_{.name = "steps",
                .caption = "A free arc that a force and a torque drive: error of its end [m] against the step [s]",
                .columns = {"step", "error"}};
+  Table arc_modes_{.name = "arc_modes",
+                   .caption =
+                       "Clamped arc of 120 degrees: largest relative error of its first two frequencies in its "
+                       "plane, of its first three across it",
+                   .columns = {"elements", "in_plane", "across"}};
   StudyReport report_;
 };
 
