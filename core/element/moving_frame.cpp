@@ -228,9 +228,9 @@ double MovingFrame::curvature() const {
   return exponent() > 0 ? largest : largest / l_;
 }
 
-TriadReference MovingFrame::section_at(double u, const Weights<double>& weights) const {
+std::array<double, 2> MovingFrame::angles() const {
   const FrameElement<double> element(table_, section_, ends_);
-  return frame_at(u, 1, weights, ends_, element.twist(), element.inner());
+  return {element.twist(), element.inner()};
 }
 
 TriadReference frame_at(double u, double length, const Weights<double>& weights, const FrameEnds<double>& ends,

@@ -42,15 +42,14 @@ class MovingFrame {
               double x_b, double turned, const MovingFrameRest* rest);
 
   double length() const { return l_; }
-  double twist() const { return FrameElement<double>(table_, section_, ends_).twist(); }
+  /// The twist, and the inner angle [rad].
+  std::array<double, 2> angles() const;
   MovingFrameVector gradient() const;
   MovingFrameMatrix tangent() const;
   /// [J], of bending and of torsion.
   std::array<double, 2> energy() const;
   /// Largest curvature, from the rest shape [1/m].
   double curvature() const;
-  /// The y axis at u, and the tangent, of the element's own frame.
-  TriadReference section_at(double u, const Weights<double>& weights) const;
 
  private:
   /// Power of l in the energy.

@@ -91,24 +91,38 @@ struct MovingFrameInertia {
   double turned, rhoIp;
 
   template <class Real>
+  struct Node {
+    Vec<Real, 3> s, A, d;
+  };
+  template <class Real>
+  static Node<Real> node(const TriadReference& from, const Eigen::Matrix<Real, 16, 1>& q, int at) {
+    using std::sqrt;
+    Node<Real> node;
+    node.s = q.template segment<3>(at + 3);
+    node.A = from.spin_by_slope<Real>(node.s);
+    const Vec<Real, 3> t = node.s / Real(sqrt(node.s.dot(node.s)));
+    const Vec<Real, 3> d = carried<Real>(from.t.cast<Real>(), t, from.d.cast<Real>());
+    const auto [sine, cosine] = sine_cosine(q[at + 6]);
+    node.d = d * cosine + t.cross(d) * sine;
+    return node;
+  }
+  template <class Real>
+  TwistRate<Real> twist(const Node<Real>& a, const Node<Real>& b, const Eigen::Matrix<Real, 16, 1>& q) const {
+    const Vec<Real, 3> chord = q.template segment<3>(7) - q.template segment<3>(0);
+    return {middle, FrameEnds<Real>{chord, a.s, b.s, a.d, b.d, turned}, Real(q[15] - q[14])};
+  }
+
+  template <class Real>
   Eigen::Matrix<Real, 16, 1> residual(const Eigen::Matrix<Real, 16, 1>& q, const Eigen::Matrix<Real, 16, 1>& rate,
                                       const Eigen::Matrix<Real, 16, 1>& a) const {
     using Vector = Vec<Real, 3>;
     const Real l = q[15] - q[14];
-    struct Seen {
-      Vector s, v, A, d;
+    struct Seen : Node<Real> {
+      Vector v;
       Real bent;  ///< of the spin's rate what s'' and s' s' do
     };
     const auto see = [&](const TriadReference& from, int at) {
-      using std::sqrt;
-      Seen seen;
-      seen.s = q.template segment<3>(at + 3);
-      seen.v = rate.template segment<3>(at + 3);
-      seen.A = from.spin_by_slope<Real>(seen.s);
-      const Vector t = seen.s / Real(sqrt(seen.s.dot(seen.s)));
-      const Vector d = carried<Real>(from.t.cast<Real>(), t, from.d.cast<Real>());
-      const auto [sine, cosine] = sine_cosine(q[at + 6]);
-      seen.d = d * cosine + t.cross(d) * sine;
+      Seen seen{node<Real>(from, q, at), rate.template segment<3>(at + 3), Real(0)};
       const Vector turning = from.spin_by_slope_gradient<Real>(seen.s) * seen.v,
                    bending = a.template segment<3>(at + 3);
       seen.bent = seen.A.dot(bending) + seen.v.dot(turning);
@@ -118,11 +132,8 @@ struct MovingFrameInertia {
     const auto rates = [&](const Seen& seen, int at, int x) -> FrameEndRates<Real> {
       return {rate.template segment<3>(at), seen.v, rate[at + 6] + seen.A.dot(seen.v), rate[x]};
     };
-    const Vector chord = q.template segment<3>(7) - q.template segment<3>(0);
     const FrameEndRates<Real> rates_a = rates(at_a, 0, 14), rates_b = rates(at_b, 7, 15);
-    const MovingFrameSpin<Real> spin(
-        TwistRate<Real>(middle, FrameEnds<Real>{chord, at_a.s, at_b.s, at_a.d, at_b.d, turned}, l), rates_a, rates_b,
-        rhoIp);
+    const MovingFrameSpin<Real> spin(twist<Real>(at_a, at_b, q), rates_a, rates_b, rhoIp);
     Eigen::Matrix<Real, 16, 1> r;
     const auto put = [&](const Seen& seen, int at, int x, const Real& omega, const Vector& on_s, const Real& on_x,
                          double sign) {
@@ -138,6 +149,23 @@ struct MovingFrameInertia {
     put(at_a, 0, 14, spin.omega_a, spin.on_s_a, spin.on_x_a, -1);
     put(at_b, 7, 15, spin.omega_b, spin.on_s_b, spin.on_x_b, 1);
     return r;
+  }
+
+  /// What a torque about the tangent at u does, on the material point there.
+  template <class Real>
+  Eigen::Matrix<Real, 16, 1> torque(const Eigen::Matrix<Real, 16, 1>& q, const Real& u, const Real& size) const {
+    const Node<Real> a = node<Real>(from_a, q, 0), b = node<Real>(from_b, q, 7);
+    const Real on_a = (Real(1) - u) * size, on_b = u * size, tau = twist<Real>(a, b, q).tau;
+    Eigen::Matrix<Real, 16, 1> f;
+    f.template segment<3>(0).setZero();
+    f.template segment<3>(7).setZero();
+    f.template segment<3>(3) = a.A * on_a;
+    f.template segment<3>(10) = b.A * on_b;
+    f[6] = on_a;
+    f[13] = on_b;
+    f[14] = -(tau * on_a);
+    f[15] = -(tau * on_b);
+    return f;
   }
 };
 

@@ -222,7 +222,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
   impose(y, t);
   orient(t);
-  if (frames_) return frames_->follow(y.data(), y.data() + coordinates());  // it has no other events
+  if (turns_away(index, y, t)) return frames_->follow(y.data(), y.data() + coordinates());
   const bool ramped = ramp_.due(model_.gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
   const std::vector<PendingEvent> dues = all_due(index, y, t);
@@ -261,7 +261,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
                         type == EventType::end_cut;
   const bool transfers = remeshes && model_.length_control.velocities != VelocityTransfer::nodal;
   // a projection or an impact changes velocities everywhere, and a rider's is not a node's
-  const bool everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider_;
+  const bool everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider_ || frames_;
   const Energy before = everywhere ? observe(y, t, ledger_points).energy : energies(record.before, ledger_points);
   const double own_before =
       (everywhere ? observe(y, t, model_.quadrature_points).energy : energies(record.before, model_.quadrature_points))
@@ -283,6 +283,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
       if (dues[i].remeshing.merge) records[i].merged = remesh(dues[i], {false, true});
     }
   }
+  if (frames_) turn_sections(record.before, y, record.after);
   if (remeshes && relaxes(model_.length_control)) {
     const auto stored = [&](const ChainState<D>& state) {
       const Energy energy = energies(state, model_.quadrature_points);

@@ -275,15 +275,17 @@ TEST(MovingFrame, SpinsObeyLagrange) {
 }
 
 /// The section that new nodes take is the element's own at its ends.
-TEST(MovingFrame, ItsFrameStartsAndEndsAsItsSectionsStand) {
+TEST(MovingFrame, AFrameStartsAndEndsAsSectionsStand) {
   for (const MovingOracle& oracle : moving_oracles()) {
     const MovingColumn q = some_place(oracle, 11);
+    FrameEnds<double> ends{q.segment<3>(7) - q.segment<3>(0), q.segment<3>(3), q.segment<3>(10), {}, {}, 0};
+    ends.d_a = oracle.direction<double>(0, ends.s_a, q[6]);
+    ends.d_b = oracle.direction<double>(1, ends.s_b, q[13]);
+    const auto angles = oracle.with(q, [](const MovingFrame& element) { return element.angles(); });
     for (const int end : {0, 1}) {
-      const auto at =
-          oracle.with(q, [&](const MovingFrame& element) { return element.section_at(end, oracle.weights); });
-      const Spatial<double> s = q.segment<3>(7 * end + 3);
-      EXPECT_LE((at.t - s.normalized()).norm(), 1e-14);
-      EXPECT_LE((at.d - oracle.direction<double>(static_cast<std::size_t>(end), s, q[7 * end + 6])).norm(), 1e-14);
+      const TriadReference at = frame_at(end, q[15] - q[14], oracle.weights, ends, angles[0], angles[1]);
+      EXPECT_LE((at.t - (end == 0 ? ends.s_a : ends.s_b).normalized()).norm(), 1e-14);
+      EXPECT_LE((at.d - (end == 0 ? ends.d_a : ends.d_b)).norm(), 1e-14);
     }
   }
 }
