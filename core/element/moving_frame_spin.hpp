@@ -7,9 +7,9 @@ namespace vlbeam {
 // Spin about the tangent along an element of a beam with frames whose ends move. The triad of a node spins by
 // Omega = phi' + A.s'. It is that of the material point at the mark; the material point itself spins by
 //   omega = Omega - tau x',  tau = Delta/l,
-// Delta the twist of the element. The kinetic energy is that of the spins at the ends, each with half the element:
-//   T = rho I_p l (omega_A^2 + omega_B^2)/4.
-// With mu = rho I_p l/2, p = mu omega and P = p_A x_A' + p_B x_B' Lagrange's equations are
+// Delta the twist of the element. It is linear between the ends, as it is in elements whose ends rest:
+//   T = rho I_p l (omega_A^2 + omega_A omega_B + omega_B^2)/6.
+// With the momenta p_A = rho I_p l (2 omega_A + omega_B)/6, p_B, and P = p_A x_A' + p_B x_B' Lagrange's equations are
 //   p_A' + P dtau/dchi_A                                     on phi_A,
 //   A (that) + p_A s_A' x C + P dtau/ds_A                    on s_A,
 //   P dtau/dr_A                                              on r_A,
@@ -55,32 +55,41 @@ struct FrameEndRates {
 /// Spins and momenta of an element, and what of the equations above knows no acceleration.
 template <class Real>
 struct MovingFrameSpin {
-  Real mu, mu_rate, tau, tau_rate, omega_a, omega_b, kinetic, flux;
+  Real share, grows;  ///< rho I_p l/6 [kg m^2], rate of l over l [1/s]
+  Real tau, tau_rate, omega_a, omega_b, p_a, p_b, kinetic, flux;
   Vec<Real, 3> on_r_b, on_s_a, on_s_b;  ///< P dtau/d.; on r_A the opposite
   Real on_x_a, on_x_b;                  ///< -tau' p + P dtau/dx and T/l
 
   MovingFrameSpin(const TwistRate<Real>& twist, const FrameEndRates<Real>& a, const FrameEndRates<Real>& b,
                   double rhoIp)
-      : mu(twist.l * Real(rhoIp / 2)),
-        mu_rate((b.x - a.x) * Real(rhoIp / 2)),
+      : share(twist.l * Real(rhoIp / 6)),
+        grows((b.x - a.x) / twist.l),
         tau(twist.tau),
         tau_rate(twist.by_chord.dot(b.r - a.r) + twist.by_s_a.dot(a.s) + twist.by_s_b.dot(b.s) +
                  (b.spin - a.spin) / twist.l + twist.by_length * (b.x - a.x)),
         omega_a(a.spin - tau * a.x),
         omega_b(b.spin - tau * b.x),
-        kinetic((omega_a * omega_a + omega_b * omega_b) * mu * Real(0.5)),
-        flux((omega_a * a.x + omega_b * b.x) * mu) {
+        p_a(share * (omega_a + omega_a + omega_b)),
+        p_b(share * (omega_a + omega_b + omega_b)),
+        kinetic((omega_a * p_a + omega_b * p_b) * Real(0.5)),
+        flux(p_a * a.x + p_b * b.x),
+        x_rate_a(a.x),
+        x_rate_b(b.x) {
     on_r_b = twist.by_chord * flux;
     on_s_a = twist.by_s_a * flux;
     on_s_b = twist.by_s_b * flux;
     const Real per_length = kinetic / twist.l, longer = flux * twist.by_length;
-    on_x_a = per_length - longer - tau_rate * mu * omega_a;
-    on_x_b = longer - per_length - tau_rate * mu * omega_b;
+    on_x_a = per_length - longer - tau_rate * p_a;
+    on_x_b = longer - per_length - tau_rate * p_b;
   }
-  /// Of p' at an end whose triad spins up by `spin` and whose mark is accelerated by `x_acceleration`.
-  Real momentum_rate(const Real& omega, const Real& x_rate, const Real& spin, const Real& x_acceleration) const {
-    return mu * (spin - tau * x_acceleration - tau_rate * x_rate) + mu_rate * omega;
+  /// p' of both ends, whose triads spin up by these, and whose marks are accelerated so.
+  std::array<Real, 2> momentum_rates(const Real& spin_a, const Real& spin_b, const Real& x_a, const Real& x_b) const {
+    const Real a = spin_a - tau * x_a - tau_rate * x_rate_a, b = spin_b - tau * x_b - tau_rate * x_rate_b;
+    return {share * (a + a + b) + grows * p_a, share * (a + b + b) + grows * p_b};
   }
+
+ private:
+  Real x_rate_a, x_rate_b;
 };
 
 /// M a - Q of the spin of one element, without elasticity, and its tangent with weights `by`. The arrays are those of
@@ -135,19 +144,19 @@ struct MovingFrameInertia {
     const FrameEndRates<Real> rates_a = rates(at_a, 0, 14), rates_b = rates(at_b, 7, 15);
     const MovingFrameSpin<Real> spin(twist<Real>(at_a, at_b, q), rates_a, rates_b, rhoIp);
     Eigen::Matrix<Real, 16, 1> r;
-    const auto put = [&](const Seen& seen, int at, int x, const Real& omega, const Vector& on_s, const Real& on_x,
-                         double sign) {
+    const auto p_rates = spin.momentum_rates(a[6] + at_a.bent, a[13] + at_b.bent, a[14], a[15]);
+    const auto put = [&](const Seen& seen, int at, int x, const Real& p, const Real& p_rate, const Vector& on_s,
+                         const Real& on_x, double sign) {
       using std::sqrt;
-      const Real p_rate = spin.momentum_rate(omega, rate[x], a[at + 6] + seen.bent, a[x]);
       const Real on_angle = p_rate + spin.flux / l * Real(sign), size = sqrt(seen.s.dot(seen.s));
       const Vector curl = seen.s / Real(size * size * size);
       r.template segment<3>(at) = spin.on_r_b * Real(sign);
-      r.template segment<3>(at + 3) = seen.A * on_angle + seen.v.cross(curl) * Real(spin.mu * omega) + on_s;
+      r.template segment<3>(at + 3) = seen.A * on_angle + seen.v.cross(curl) * p + on_s;
       r[at + 6] = on_angle;
       r[x] = on_x - spin.tau * p_rate;
     };
-    put(at_a, 0, 14, spin.omega_a, spin.on_s_a, spin.on_x_a, -1);
-    put(at_b, 7, 15, spin.omega_b, spin.on_s_b, spin.on_x_b, 1);
+    put(at_a, 0, 14, spin.p_a, p_rates[0], spin.on_s_a, spin.on_x_a, -1);
+    put(at_b, 7, 15, spin.p_b, p_rates[1], spin.on_s_b, spin.on_x_b, 1);
     return r;
   }
 

@@ -244,17 +244,10 @@ void Frames::solve_spins(const double* q, const double* rate, double* force) con
   }
   for (std::size_t k = 0; k < n; ++k) spin_rates_[k] = force[angle(static_cast<int>(k))];
   start_sliding_spins(q, rate);
-  for (std::size_t k = 0; k < n; ++k) spin_rates_[k] = held_[k] ? 0 : spin_rates_[k];
-  for (std::size_t k = 1; k < n; ++k) {
-    const double factor = beside_[k - 1] / diagonal_[k - 1];
-    diagonal_[k] -= factor * beside_[k - 1];
-    spin_rates_[k] -= factor * spin_rates_[k - 1];
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    spin_rates_[k] = (spin_rates_[k] - (k + 1 < n ? beside_[k] * spin_rates_[k + 1] : 0)) / diagonal_[k];
-  }
+  for (std::size_t k = 1; k < n; ++k) diagonal_[k] -= beside_[k - 1] / diagonal_[k - 1] * beside_[k - 1];
+  solve_for_spins(spin_rates_);
   times_inertia(spin_rates_, momentum_rates_);
-  finish_sliding_spins(q, rate, force);
+  finish_sliding_spins(force);
   for (std::size_t k = 0; k < n; ++k) {
     const int i = static_cast<int>(k);
     const Vec<double, 3> s = slope<3>(q, i), v = slope<3>(rate, i);
@@ -264,9 +257,10 @@ void Frames::solve_spins(const double* q, const double* rate, double* force) con
 }
 
 void Frames::complete(const double* q, const double* rate, double* a) const {
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    a[angle(joint_nodes_[j])] += joints_[j].spin_by_x * a[joints_[j].mark];
+  for (const AtJoint& joint : joints_) {
+    for (int k = 0; k < nodes(); ++k) a[angle(k)] += joint.response[static_cast<std::size_t>(k)] * a[joint.mark];
   }
+
   for (int k = 0; k < nodes(); ++k) a[angle(k)] -= bent_spin_rate(q, rate, a, k);
 }
 

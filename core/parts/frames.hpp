@@ -60,8 +60,11 @@ class Frames final : public Part<3> {
   /// In an array of forces: keeps on slopes the part that moves the axis, and replaces torques by the accelerations of
   /// spin that they cause, 0 where the angle is `held`.
   void solve_spins(const double* q, const double* rate, double* force) const;
-  /// What it has left of inertia against x'' of joint `which` [kg]: that of spins that a mark which moves sweeps along.
-  double mark_inertia(std::size_t which) const { return joints_[which].inertia; }
+  /// What solve_spins() has left of inertia of joint `on` against x'' of joint `by` [kg]: that of spins which marks
+  /// that
+  /// move sweep along.
+  double mark_inertia(std::size_t on, std::size_t by) const { return mark_inertia_[on * joints_.size() + by]; }
+
   /// In place: makes of these, and of the accelerations of slopes, those of the angles.
   void complete(const double* q, const double* rate, double* a) const;
 
@@ -118,8 +121,7 @@ class Frames final : public Part<3> {
   };
   struct AtJoint {
     Eigen::Index mark = 0;         ///< where its material coordinate stands
-    mutable double inertia = 0;    ///< see mark_inertia()
-    mutable double spin_by_x = 0;  ///< what the triad's spin is accelerated by with x''
+    std::vector<double> response;  ///< of triads: what accelerates their spins with x'' [rad/m]
   };
   bool slides(int k) const { return !slides_.empty() && slides_[static_cast<std::size_t>(k)]; }
   MovingFrame element_at(const Sliding& sliding, const double* q) const;
@@ -136,7 +138,10 @@ class Frames final : public Part<3> {
   /// Adds their inertia to the rows of spins, and what of these knows no acceleration to the right-hand sides.
   void start_sliding_spins(const double* q, const double* rate) const;
   /// Once the triads' accelerations of spin are known, but for those that come with x'': forces on all else.
-  void finish_sliding_spins(const double* q, const double* rate, double* force) const;
+  void finish_sliding_spins(double* force) const;
+  /// In place, the matrix of their inertia being factored; 0 where an angle is held.
+  void solve_for_spins(std::vector<double>& x) const;
+
   /// The ends of element k at rest, as they are now.
   std::array<FrameRestEnd, 2> rest_ends(int k) const;
   /// Twist and inner angle of element k [rad], once look() was told.
@@ -155,9 +160,10 @@ class Frames final : public Part<3> {
   std::vector<bool> held_;
   mutable std::vector<FrameNode> nodes_;  ///< where look() was told
   mutable std::vector<double> spins_, momenta_, spin_rates_, momentum_rates_, diagonal_, beside_;  ///< of nodes
-  mutable std::vector<double> swept_;
+  mutable std::vector<MovingFrameSpin<double>> seen_spins_;
+  mutable std::vector<double> mark_inertia_, by_x_;
   Eigen::Index first_angle_ = -1;
-  std::vector<AtJoint> joints_;
+  mutable std::vector<AtJoint> joints_;
   std::vector<int> joint_nodes_;
   std::vector<Sliding> sliding_;
   std::vector<bool> slides_;  ///< of elements; empty where none does

@@ -33,9 +33,10 @@ void Frames::let_slide(std::span<const JointPlace> joints, Eigen::Index angles, 
   sliding_.clear();
   slides_.assign(static_cast<std::size_t>(elements()), false);
   for (const JointPlace& joint : joints) {
-    joints_.push_back({joint.mark});
+    joints_.push_back({joint.mark, {}});
     joint_nodes_.push_back(joint.node);
   }
+  mark_inertia_.assign(joints_.size() * joints_.size(), 0);
   const auto joint_at = [&](int node) {
     const auto at = std::ranges::find(joint_nodes_, node);
     return at == joint_nodes_.end() ? -1 : static_cast<int>(at - joint_nodes_.begin());
@@ -167,52 +168,76 @@ void Frames::add_sliding_tangent(const Motion<3>& motion, const TangentWeights& 
 }
 
 void Frames::start_sliding_spins(const double* q, const double* rate) const {
-  for (const AtJoint& joint : joints_) joint.inertia = joint.spin_by_x = 0;
+  seen_spins_.clear();
+  for (AtJoint& joint : joints_) joint.response.assign(x_.size(), 0);
+  std::ranges::fill(mark_inertia_, 0);
   for (const Sliding& sliding : sliding_) {
-    const MovingFrameSpin<double> spin = spin_of(sliding, q, rate);
-    for (int e = 0; e < 2; ++e) {
-      const auto k = static_cast<std::size_t>(sliding.element + e);
-      const double omega = e == 0 ? spin.omega_a : spin.omega_b, x_rate = gathered(sliding, rate, true)[14 + e];
-      const double length =
-          x_[static_cast<std::size_t>(sliding.element) + 1] - x_[static_cast<std::size_t>(sliding.element)];
-      diagonal_[k] += spin.mu;
-      spin_rates_[k] -= spin.momentum_rate(omega, x_rate, 0, 0) + (e == 0 ? -1 : 1) * spin.flux / length;
+    const MovingFrameSpin<double>& spin = seen_spins_.emplace_back(spin_of(sliding, q, rate));
+    const auto k = static_cast<std::size_t>(sliding.element);
+    const double share = spin.share, flux = spin.flux / (x_[k + 1] - x_[k]);
+    diagonal_[k] += 2 * share;
+    diagonal_[k + 1] += 2 * share;
+    beside_[k] = held_[k] || held_[k + 1] ? 0 : share;
+    const auto known = spin.momentum_rates(0, 0, 0, 0);
+    spin_rates_[k] -= known[0] - flux;
+    spin_rates_[k + 1] -= known[1] + flux;
+    // spins by x'', and x'' by itself and by that of the other end
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (sliding.joints[e] < 0) continue;
+      const auto j = static_cast<std::size_t>(sliding.joints[e]);
+      joints_[j].response[k + e] += 2 * share * spin.tau;
+      joints_[j].response[k + 1 - e] += share * spin.tau;
+      for (std::size_t f = 0; f < 2; ++f) {
+        if (sliding.joints[f] < 0) continue;
+        mark_inertia_[j * joints_.size() + static_cast<std::size_t>(sliding.joints[f])] +=
+            (e == f ? 2 : 1) * share * spin.tau * spin.tau;
+      }
     }
   }
 }
 
-void Frames::finish_sliding_spins(const double* q, const double* rate, double* force) const {
-  std::vector<double>& swept = swept_;  // by x'' of joints, of spins' momenta, and the inertia of these
-  swept.assign(2 * joints_.size(), 0);
-  for (const Sliding& sliding : sliding_) {
-    const MovingFrameSpin<double> spin = spin_of(sliding, q, rate);
+void Frames::finish_sliding_spins(double* force) const {
+  for (std::size_t i = 0; i < sliding_.size(); ++i) {
+    const Sliding& sliding = sliding_[i];
+    const MovingFrameSpin<double>& spin = seen_spins_[i];
     const int k = sliding.element;
-    const double length = x_[static_cast<std::size_t>(k) + 1] - x_[static_cast<std::size_t>(k)];
+    const auto at = static_cast<std::size_t>(k);
+    const double flux = spin.flux / (x_[at + 1] - x_[at]);
     position<3>(force, k) += spin.on_r_b;
     position<3>(force, k + 1) -= spin.on_r_b;
     slope<3>(force, k) -= spin.on_s_a;
     slope<3>(force, k + 1) -= spin.on_s_b;
-    const MovingFrameVector rates = gathered(sliding, rate, true);
-    for (int e = 0; e < 2; ++e) {
-      const auto i = static_cast<std::size_t>(k + e);
-      const double omega = e == 0 ? spin.omega_a : spin.omega_b, x_rate = rates[14 + e];
-      const double p_rate = spin.momentum_rate(omega, x_rate, spin_rates_[i], 0);
-      momenta_[i] += spin.mu * omega;
-      momentum_rates_[i] += p_rate + (e == 0 ? -1 : 1) * spin.flux / length;
-      const int joint = sliding.joints[static_cast<std::size_t>(e)];
-      if (joint < 0) continue;
-      const auto j = static_cast<std::size_t>(joint);
-      force[joints_[j].mark] -= (e == 0 ? spin.on_x_a : spin.on_x_b) - spin.tau * p_rate;
-      joints_[j].inertia += spin.mu * spin.tau * spin.tau;
-      swept[2 * j] += spin.mu * spin.tau;
-      swept[2 * j + 1] += spin.mu;
+    const auto p_rates = spin.momentum_rates(spin_rates_[at], spin_rates_[at + 1], 0, 0);
+    momenta_[at] += spin.p_a;
+    momenta_[at + 1] += spin.p_b;
+    momentum_rates_[at] += p_rates[0] - flux;
+    momentum_rates_[at + 1] += p_rates[1] + flux;
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (sliding.joints[e] < 0) continue;
+      force[joints_[static_cast<std::size_t>(sliding.joints[e])].mark] +=
+          spin.tau * p_rates[e] - (e == 0 ? spin.on_x_a : spin.on_x_b);
     }
   }
+  // with spins that follow x'', less is left of its inertia
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    if (held_[static_cast<std::size_t>(joint_nodes_[j])]) continue;
-    joints_[j].spin_by_x = swept[2 * j] / swept[2 * j + 1];
-    joints_[j].inertia -= swept[2 * j] * joints_[j].spin_by_x;
+    by_x_ = joints_[j].response;
+    for (std::size_t k = 0; k < by_x_.size(); ++k) by_x_[k] = held_[k] ? 0 : by_x_[k];
+    solve_for_spins(joints_[j].response);
+    for (std::size_t i = j; i < joints_.size(); ++i) {
+      double sum = 0;
+      const std::vector<double>& of_other = i == j ? by_x_ : joints_[i].response;  // not solved for yet
+      for (std::size_t k = 0; k < by_x_.size(); ++k) sum += held_[k] ? 0 : of_other[k] * joints_[j].response[k];
+      mark_inertia_[i * joints_.size() + j] -= sum;
+      if (i != j) mark_inertia_[j * joints_.size() + i] -= sum;
+    }
   }
+}
+
+void Frames::solve_for_spins(std::vector<double>& x) const {
+  const std::size_t n = x.size();
+  for (std::size_t k = 0; k < n; ++k) x[k] = held_[k] ? 0 : x[k];
+  for (std::size_t k = 1; k < n; ++k) x[k] -= beside_[k - 1] / diagonal_[k - 1] * x[k - 1];
+  for (std::size_t k = n; k-- > 0;) x[k] = (x[k] - (k + 1 < n ? beside_[k] * x[k + 1] : 0)) / diagonal_[k];
 }
 
 std::array<double, 2> Frames::angles_in(const double* q, int k) const {
@@ -283,8 +308,8 @@ void Frames::observe_sliding(const double* q, const double* rate, Seen& seen) co
     seen.curvature = std::max(seen.curvature, element.curvature());
     const MovingFrameSpin<double> spin = spin_of(sliding, q, rate);
     seen.kinetic += spin.kinetic;
-    seen.momentum += spin.mu * (spin.omega_a * slope<3>(q, sliding.element).normalized() +
-                                spin.omega_b * slope<3>(q, sliding.element + 1).normalized());
+    seen.momentum +=
+        spin.p_a * slope<3>(q, sliding.element).normalized() + spin.p_b * slope<3>(q, sliding.element + 1).normalized();
   }
 }
 

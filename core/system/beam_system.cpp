@@ -251,6 +251,34 @@ std::optional<JointPower> BeamSystem<D>::solve_joints(const JointElements& eleme
   return lost ? std::optional(JointPower{.dissipated = *lost}) : std::nullopt;
 }
 
+/// Spins tie each joint's x'' to those of all others, but little: by rounds.
+template <int D>
+std::optional<JointPower> BeamSystem<D>::solve_with_frames(double* force) {
+  constexpr int most_rounds = 50;
+  constexpr double settled = 1e-14;
+  const std::size_t count = places_.size();
+  const Eigen::VectorXd forces = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
+  std::vector<double> x(count, 0);
+  for (int round = 0; round < most_rounds; ++round) {
+    Eigen::Map<Eigen::VectorXd>(force, coordinates()) = forces;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        if (j != i) force[places_[i].mark] -= frames_->mark_inertia(i, j) * x[j];
+      }
+    }
+    const auto power = solve_joints(elements_, motions_, force);
+    if (!power) return power;
+    double change = 0, largest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      change = std::max(change, std::abs(force[places_[i].mark] - x[i]));
+      largest = std::max(largest, std::abs(force[places_[i].mark]));
+      x[i] = force[places_[i].mark];
+    }
+    if (!(change > settled * largest)) return power;
+  }
+  return std::nullopt;
+}
+
 template <int D>
 void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
   if (const auto which = nut_place()) {
@@ -382,7 +410,7 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     motions_.clear();
     for (std::size_t i = 0; i < places_.size(); ++i) {
       motions_.push_back(joint_motion(i, q, rate, t));
-      if (frames_) motions_[i].x_inertia = frames_->mark_inertia(i);
+      if (frames_) motions_[i].x_inertia = frames_->mark_inertia(i, i);
     }
     if (nut) {
       const Eigen::Index mark = places_[*nut].mark;
@@ -391,7 +419,9 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       force[mark] += nut_->load().force;
     }
     if (driven) pull.emplace(*this, elements_, q, rate, force, t);
-    const auto at_joints = solve_joints(elements_, motions_, force);
+    const auto at_joints =
+        frames_ && places_.size() > 1 ? solve_with_frames(force) : solve_joints(elements_, motions_, force);
+
     if (!at_joints) return invalid();
     power.dissipated += at_joints->dissipated;
     power.supports += at_joints->guided;

@@ -406,6 +406,8 @@ class BeamSystem final : public EventedOde {
   /// entry a joint.
   std::optional<JointPower> solve_joints(const JointElements& elements, const std::vector<JointMotion<D>>& motions,
                                          double* force) const;
+  /// The same of what rhs() has evaluated, of several joints on a beam with frames.
+  std::optional<JointPower> solve_with_frames(double* force);
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
   /// matrix is singular.
   bool solve_mass(const JointElements& elements, const double* q, double* p) const;

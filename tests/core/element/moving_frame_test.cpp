@@ -147,7 +147,7 @@ struct MovingOracle {
       return unit_of<Real>(value_of<Real, 3>(s)).dot(now.cross(turning));
     };
     const Real omega_a = spin(d_a, e[1]) - tau.value * rate[14], omega_b = spin(d_b, e[3]) - tau.value * rate[15];
-    return Real(0.25 * section.rhoIp) * l.value * (omega_a * omega_a + omega_b * omega_b);
+    return Real(section.rhoIp / 6) * l.value * (omega_a * omega_a + omega_a * omega_b + omega_b * omega_b);
   }
 
   explicit MovingOracle(unsigned seed) {
