@@ -73,6 +73,10 @@ class Frames final : public Part<3> {
   /// Lets what angles are counted from follow; the rates of angles change, unless `rate` is null.
   void follow(const double* q, double* rate);
   void exchange(Memory& memory);
+  /// Makes spins the projection of those of the frames that there were before an event, at the coordinates `was` and
+  /// their rates, arrays like those of these: momentum stays, and energy does not grow.
+  void project_spins(const Frames& before, const double* was, const double* was_rate, const double* q,
+                     double* rate) const;
 
   std::vector<SectionState> sections(const double* q, const double* rate) const;
   /// How a new node at the material point x is to stand: as the element's own frame does there, turned by what that
@@ -146,7 +150,10 @@ class Frames final : public Part<3> {
   std::array<FrameRestEnd, 2> rest_ends(int k) const;
   /// Twist and inner angle of element k [rad], once look() was told.
   std::array<double, 2> angles_in(const double* q, int k) const;
+  /// The spin of a section there, once look() was told.
+  double spin_within(const double* q, const double* rate, double x) const;
   /// The twist of element k [rad], once look() was told.
+
   double twist(const double* q, int k) const;
   void observe_sliding(const double* q, const double* rate, Seen& seen) const;
   /// What torques at u of an element at joints do to marks; the power of that [W].

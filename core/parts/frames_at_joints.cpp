@@ -1,8 +1,11 @@
 // What elements of a beam with frames do whose ends move along the beam.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/element/active.hpp"
+#include "core/element/quadrature.hpp"
+
 #include "core/parts/frames.hpp"
 
 namespace vlbeam {
@@ -233,6 +236,45 @@ void Frames::finish_sliding_spins(double* force) const {
   }
 }
 
+double Frames::spin_within(const double* q, const double* rate, double x) const {
+  const int k = element_of(x);
+  const auto i = static_cast<std::size_t>(k);
+  const double u = (x - x_[i]) / (x_[i + 1] - x_[i]);
+  const auto sliding = std::ranges::find(sliding_, k, &Sliding::element);
+  if (sliding == sliding_.end()) return (1 - u) * spin_of(rate, k) + u * spin_of(rate, k + 1);
+  const MovingFrameSpin<double> spin = spin_of(*sliding, q, rate);
+  return (1 - u) * spin.omega_a + u * spin.omega_b;
+}
+
+void Frames::project_spins(const Frames& before, const double* was, const double* was_rate, const double* q,
+                           double* rate) const {
+  before.look(was);
+  look(q);
+  std::vector<double> excess(x_.size(), 0), pieces;
+  std::ranges::set_union(before.x_, x_, std::back_inserter(pieces));
+  std::ranges::fill(diagonal_, 0);
+  for (std::size_t k = 0; k + 1 < x_.size(); ++k) {
+    const double share = model_.section.rhoIp * (x_[k + 1] - x_[k]) / 6;
+    diagonal_[k] += 2 * share;
+    diagonal_[k + 1] += 2 * share;
+    beside_[k] = held_[k] || held_[k + 1] ? 0 : share;
+  }
+  for (std::size_t k = 1; k < x_.size(); ++k) diagonal_[k] -= beside_[k - 1] / diagonal_[k - 1] * beside_[k - 1];
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+    const double length = pieces[i + 1] - pieces[i];
+    for (const auto& [u, weight] : gauss_legendre(2)) {
+      const double x = pieces[i] + u * length;
+      const double more = before.spin_within(was, was_rate, x) - spin_within(q, rate, x);
+      const auto k = static_cast<std::size_t>(element_of(x));
+      const double share = (x - x_[k]) / (x_[k + 1] - x_[k]), size = model_.section.rhoIp * weight * length * more;
+      excess[k] += (1 - share) * size;
+      excess[k + 1] += share * size;
+    }
+  }
+  solve_for_spins(excess);
+  for (int k = 0; k < nodes(); ++k) rate[angle(k)] += excess[static_cast<std::size_t>(k)];
+}
+
 void Frames::solve_for_spins(std::vector<double>& x) const {
   const std::size_t n = x.size();
   for (std::size_t k = 0; k < n; ++k) x[k] = held_[k] ? 0 : x[k];
@@ -290,13 +332,7 @@ double Frames::spin_at(const double* q, const double* rate, double x, double x_r
   look(q);
   const int k = element_of(x);
   const auto i = static_cast<std::size_t>(k);
-  const double u = (x - x_[i]) / (x_[i + 1] - x_[i]);
-  const auto sliding = std::ranges::find(sliding_, k, &Sliding::element);
-  if (sliding == sliding_.end()) {
-    return (1 - u) * spin_of(rate, k) + u * spin_of(rate, k + 1) + x_rate * twist(q, k) / (x_[i + 1] - x_[i]);
-  }
-  const MovingFrameSpin<double> spin = spin_of(*sliding, q, rate);
-  return (1 - u) * spin.omega_a + u * spin.omega_b + spin.tau * x_rate;
+  return spin_within(q, rate, x) + x_rate * twist(q, k) / (x_[i + 1] - x_[i]);
 }
 
 void Frames::observe_sliding(const double* q, const double* rate, Seen& seen) const {

@@ -292,12 +292,17 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     record.relaxation = relax_after(dues, record.after, t, stored(record.after) - stored(record.before));
   }
   const Eigen::VectorXd old = y;
+  const std::shared_ptr<Frames> old_frames = frames_;
+  const Eigen::Index old_coordinates = coordinates();
   adopt(record.after);
   orient(t);
   y = state_of(record.after, old);
   const int highest_after = highest + record.after.mesh.elements() - record.before.mesh.elements();
   if (transfers) {
     project_velocities(record.before, lowest, highest_after, y, t);
+    if (frames_ && model_.frames->section.rhoIp > 0) {
+      frames_->project_spins(*old_frames, old.data(), old.data() + old_coordinates, y.data(), y.data() + coordinates());
+    }
     if (model_.length_control.velocities == VelocityTransfer::conservative) {
       restore(momenta_before, own_before, y, t);
     }
