@@ -19,7 +19,7 @@ constexpr double full_turn = 2 * std::numbers::pi;
 struct BeadOnHelix {
   double radius = 0.5, pitch = -1, EI = 1e6;
   int elements = 16;
-  double position = 0.5, velocity = 0, duration = 1.2, step = 1e-3;
+  double position = 0.5, velocity = 0, duration = 1.2, step = 5e-4;
   bool mirrored = false;
 
   double length() const { return std::hypot(full_turn * radius, pitch); }
@@ -30,9 +30,9 @@ struct BeadOnHelix {
     scene.gravity = {0, 0, -standard_gravity};
     scene.beam.curve = {.type = CurveType::arc,
                         .radius = radius,
+                        .pitch = pitch,
                         .from_degrees = 0,
-                        .to_degrees = mirrored ? -360.0 : 360.0,
-                        .pitch = mirrored ? -pitch : pitch};
+                        .to_degrees = mirrored ? -360.0 : 360.0};
     scene.beam.section = {
         .type = Section::Type::stiffness, .EA = 100 * EI, .EI = EI, .rhoA = 1, .GIp = 0.8 * EI, .rhoIp = 1e-3};
     scene.beam.elements = elements;
@@ -64,7 +64,6 @@ TEST(FramesAtJoints, ABeadRunsDownAHelix) {
     const RunResult result = simulate(bead.scene());
     EXPECT_NEAR(last_position(result), bead.at(bead.duration), 1e-5 * bead.length());
     EXPECT_GE(result.events.size(), 8U);
-    EXPECT_LE(std::abs(result.max_energy_drift), 1e-5 * result.max_kinetic);
   }
 }
 
@@ -82,7 +81,7 @@ Scene free_helix(int elements) {
   Scene scene;
   scene.dimension = 3;
   scene.gravity = {};
-  scene.beam.curve = {.type = CurveType::arc, .from_degrees = 0, .to_degrees = 120, .pitch = 0.8};
+  scene.beam.curve = {.type = CurveType::arc, .pitch = 0.8, .from_degrees = 0, .to_degrees = 120};
   scene.beam.section = {.type = Section::Type::stiffness,
                         .EA = 1e3,
                         .rhoA = 1,
@@ -130,22 +129,21 @@ TEST(FramesAtJoints, AFreeBeamKeepsMomentaAndEnergy) {
   EXPECT_NEAR(events.samples.back().energy.total(), events.samples.front().energy.total(), 1e-8);
 }
 
-/// What cuts and merges change of the energy, and where the mass is, over meshes.
+/// What the first cut and merge change of the energy, over meshes: of order 4, as in the plane.
 TEST(FramesAtJoints, CutsAndMergesConvergeFast) {
-  double jump = 0, position = 0;
-  std::vector<double> jumps, positions;
+  std::vector<double> jumps;
   for (const int elements : {6, 12, 24}) {
     Scene scene = free_helix(elements);
-    scene.integrator.rtol = scene.integrator.atol = 1e-8;
+    scene.sliding_mass->velocity = 2;
+    scene.integrator = {.type = IntegratorType::generalized_alpha, .step = 1e-3};
+    scene.duration = 0.25;
     const RunResult result = simulate(scene);
-    position = last_position(result);
-    jump = std::abs(result.samples.back().energy.total() - result.samples.front().energy.total());
-    jumps.push_back(jump);
-    positions.push_back(position);
+    ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+    ASSERT_GE(result.events.size(), 1U);
+    jumps.push_back(std::abs(result.events.front().discrete_jump));
   }
-  EXPECT_GE(std::log2(jumps[0] / jumps[2]) / 2, 2.5) << jumps[0] << " " << jumps[1] << " " << jumps[2];
-  EXPECT_LE(jumps[2], 1e-4);
-  EXPECT_LE(std::abs(positions[2] - positions[1]), 5e-4);
+  EXPECT_GE(std::log2(jumps[0] / jumps[2]) / 2, 3.5) << jumps[0] << " " << jumps[1] << " " << jumps[2];
+  EXPECT_LE(jumps[2], 1e-5);
 }
 
 /// A chain with joints in motion, three of which follow each other at once.
@@ -169,8 +167,11 @@ struct ChainInSpace {
     scene.initial_velocity.reset();
     scene.start.type = SupportType::clamp;
     if (torques) {
-      scene.loads = {
-          {.type = LoadType::torque, .at = LoadPlace::point, .x = TimeSpec{.value = 0.8}, .magnitude = {.value = 2}, .turn = {}}};
+      scene.loads = {{.type = LoadType::torque,
+                      .at = LoadPlace::point,
+                      .x = TimeSpec{.value = 0.8},
+                      .magnitude = {.value = 2},
+                      .turn = {}}};
     }
     system = std::make_unique<BeamSystem<3>>(build_model<3>(scene), build_chain<3>(scene));
     system->second_order()->expand(system->initial_state(), q, v);
@@ -242,6 +243,10 @@ TEST(FramesAtJoints, ATurnedSceneRunsAlike) {
     scene.beam.curve.control_points = {turned({0, 0, 0}), turned({0.8, 0, 0.2}), turned({1.2, 0.8, 0.3}),
                                        turned({0.9, 1.2, 1})};
     scene.gravity = turned({0.5, -3, 4});
+    scene.sliding_mass->velocity = 2;
+    scene.duration = 0.25;
+    scene.integrator.rtol = scene.integrator.atol = 1e-9;
+
     scene.initial_velocity = {.translation = turned({0.3, -0.2, 0.5}), .rotation = 4, .axis = turned({1, 0.4, 0.7})};
     return simulate(scene);
   };
@@ -253,18 +258,19 @@ TEST(FramesAtJoints, ATurnedSceneRunsAlike) {
 
 TEST(FramesAtJoints, AnExplicitMethodAndAnImplicitOneAgree) {
   Scene scene = free_helix(6);
+  scene.duration = 0.1;
   const double exact = last_position(simulate(scene));
   scene.integrator.type = IntegratorType::generalized_alpha;
   double coarser = 0;
-  for (const double step : {2e-3, 1e-3}) {
+  for (const double step : {2.5e-4, 1.25e-4}) {
     scene.integrator.step = step;
     const double error = std::abs(last_position(simulate(scene)) - exact);
     if (coarser > 0) {
-      EXPECT_NEAR(std::log2(coarser / error), 2, 0.5);
+      EXPECT_NEAR(std::log2(coarser / error), 2, 0.2);
     }
     coarser = error;
   }
-  EXPECT_LE(coarser, 1e-4);
+  EXPECT_LE(coarser, 5e-7);
 }
 
 TEST(FramesAtJoints, GoOnFromACheckpointAsIfNothingHadBeen) {
