@@ -100,7 +100,7 @@ void check_moving_nodes(const Scene& scene, const std::string& law) {
     const JointSlopes slopes = joint_slopes(scene, joints[i]);
     wants(slopes != JointSlopes::continuous, key + "/slopes", quoted(slopes), "\"continuous\"");
     none(joints[i].pitch.has_value(), key + "/pitch", "there is no nut: leave it out, or take \"scalar\" and /spin");
-    wants(joints.size() > 1 && joints[i].at_support != AtSupport::stop, key + "/at_support",
+    wants(has_several_joints(scene) && joints[i].at_support != AtSupport::stop, key + "/at_support",
           quoted(joints[i].at_support), "\"stop\" where there are several");
   }
   none(!scene.blocks.empty(), "/blocks", "there are no blocks: leave them out, or take \"scalar\"");

@@ -257,10 +257,12 @@ std::optional<JointPower> BeamSystem<D>::solve_with_frames(double* force) {
   constexpr int most_rounds = 50;
   constexpr double settled = 1e-14;
   const std::size_t count = places_.size();
-  const Eigen::VectorXd forces = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
-  std::vector<double> x(count, 0);
+  round_forces_ = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
+  std::vector<double>& x = round_marks_;
+  x.assign(count, 0);
+
   for (int round = 0; round < most_rounds; ++round) {
-    Eigen::Map<Eigen::VectorXd>(force, coordinates()) = forces;
+    Eigen::Map<Eigen::VectorXd>(force, coordinates()) = round_forces_;
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < count; ++j) {
         if (j != i) force[places_[i].mark] -= frames_->mark_inertia(i, j) * x[j];

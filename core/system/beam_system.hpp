@@ -471,8 +471,11 @@ class BeamSystem final : public EventedOde {
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;
   std::vector<MovingPart> parts_;
-  JointElements elements_;                   ///< of the right-hand side
-  std::vector<JointMotion<D>> motions_;      ///< the same
+  JointElements elements_;               ///< of the right-hand side
+  std::vector<JointMotion<D>> motions_;  ///< the same
+  Eigen::VectorXd round_forces_;         ///< of solve_with_frames()
+  std::vector<double> round_marks_;      ///< the same
+
   mutable JointChain<D> joint_chain_;        ///< of several joints, or one that is guided
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;
