@@ -146,6 +146,58 @@ TEST(FramesAtJoints, CutsAndMergesConvergeFast) {
   EXPECT_LE(jumps[2], 1e-5);
 }
 
+/// A joint that is led along a helix that nothing loads, through cuts and merges.
+TEST(FramesAtJoints, NothingPushesAJointInTheRestShape) {
+  for (const bool round : {false, true}) {
+    Scene scene = free_helix(8);
+    if (round) {
+      scene.beam.section.EI = 5;
+      scene.beam.section.EI_y.reset();
+      scene.beam.section.EI_z.reset();
+      scene.beam.section.orientation = {};
+    }
+    scene.analysis = Analysis::statics;
+    scene.integrator = {};
+    scene.initial_velocity.reset();
+    scene.sliding_mass.reset();
+    scene.start.type = SupportType::clamp;
+    auto& joint = scene.sliding_joints.emplace_back();
+    joint.position = 0.4;
+    joint.mass = 0.3;
+    joint.x = TimeSpec{.value = 1.4, .ramp = 1};
+    scene.statics.steps = 12;
+    const RunResult result = simulate(scene);
+    EXPECT_NEAR(last_position(result), 1.8, 1e-12);
+    for (const Sample& sample : result.samples) EXPECT_LE(std::abs(sample.energy.total()), 1e-22);
+  }
+}
+
+/// A ring on a cantilever that is curved in space, under its weight: held, then let go to where nothing pushes it.
+TEST(FramesAtJoints, ARingFindsItsEquilibrium) {
+  Scene scene = free_helix(8);
+  scene.analysis = Analysis::statics;
+  scene.integrator = {};
+  scene.initial_velocity.reset();
+  scene.sliding_mass.reset();
+  scene.gravity = {0, 0, -1};
+  scene.start.type = SupportType::clamp;
+  auto& ring = scene.sliding_joints.emplace_back();
+  ring.position = 0.9;
+  ring.support = SupportType::pin;
+  scene.statics.steps = 4;
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  const double found = *result.samples.back().joint_position, least = result.samples.back().energy.total();
+  EXPECT_GT(std::abs(found - 0.9), 1e-5);
+  // with the beam's mark in the ring led to either side of it the energy is higher
+  for (const double off : {-0.02, 0.02}) {
+    scene.sliding_joints.front().x = TimeSpec{.value = found - 0.9 + off, .ramp = 1};
+    const RunResult led = simulate(scene);
+    ASSERT_EQ(led.status, RunStatus::completed) << led.failure;
+    EXPECT_GT(led.samples.back().energy.total(), least + 1e-9);
+  }
+}
+
 /// A chain with joints in motion, three of which follow each other at once.
 struct ChainInSpace {
   std::unique_ptr<BeamSystem<3>> system;
