@@ -9,6 +9,7 @@
 #include "core/length_control/rest_arc.hpp"
 #include "core/parts/ground.hpp"
 #include "scene/build_flow.hpp"
+#include "scene/build_frames.hpp"
 #include "scene/build_loads.hpp"
 #include "scene/build_winch.hpp"
 #include "scene/corners.hpp"
@@ -154,24 +155,6 @@ std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<
   return masses;
 }
 
-/// How sections stand at the nodes: as the scene says, or else turned by nothing from one node to the next.
-std::vector<SectionState> sections_along(const Scene& scene, const ChainState<3>& chain) {
-  const Vec<double, 3> given = vector_of<3>(scene.beam.section.orientation);
-  std::vector<SectionState> sections;
-  for (int k = 0; k <= chain.mesh.last(); ++k) {
-    const Vec<double, 3> t = slope<3>(chain.q.data(), k).normalized();
-    if (given != Vec<double, 3>::Zero()) {
-      sections.push_back({(given - t * t.dot(given)).normalized()});
-    } else if (k == 0) {
-      sections.push_back({t.unitOrthogonal()});
-    } else {
-      const Vec<double, 3> before = slope<3>(chain.q.data(), k - 1).normalized();
-      sections.push_back({carried<double>(before, t, sections.back().direction)});
-    }
-  }
-  return sections;
-}
-
 /// Adds the velocities of the scene's rigid motion to those of a chain's nodes, without what supports hold.
 template <int D>
 void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& chain) {
@@ -268,6 +251,7 @@ BeamModel<D> build_model(const Scene& scene) {
     if (spec.support == SupportType::pin) joint.support = Support<D>::pin();
     if (spec.support == SupportType::clamp) {
       joint.support = Support<D>::direction_clamp(axis.tangent(x));
+      joint.support->free_angle = true;
     }
     joint.motion = motion_of(spec.motion);
     joint.separation_distance = separation_distance(scene, spec);
@@ -362,7 +346,10 @@ ChainState<D> build_shape(const Scene& scene) {
     }
   }
   if constexpr (D == 3) {
-    if (has_frames(scene)) chain.sections = chain.rest_sections = sections_along(scene, chain);
+    if (has_frames(scene)) {
+      chain.sections = chain.rest_sections = sections_along(scene, chain);
+      chain.rest_triads = rest_triads(scene, chain);
+    }
   }
   const auto joints = sliding_joints(scene);
   const auto add_joint = [&](int node, std::size_t index, JointSlopes slopes) {
@@ -435,6 +422,9 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     if (joint.kink) joint.kink->rate = behind;
     slope<D>(chain.rate.data(), j) = joint.kink ? before : Vec<double, D>((before + behind) / 2);
     if (held) position<D>(chain.rate.data(), j).setZero();
+    if constexpr (D == 3) {  // triads of the node are those of the material points that pass it
+      if (has_frames(scene)) chain.sections[static_cast<std::size_t>(j)].spin += rate * twist_rate_at(chain, j);
+    }
     if (joints[i].support != SupportType::clamp) continue;
     const auto sleeve = Support<D>::direction_clamp(axis.tangent(x));
     slope<D>(chain.rate.data(), j) =

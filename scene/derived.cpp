@@ -85,18 +85,20 @@ AxisForm axis_form(const Scene& scene) {
 
 CutPolicy cut_policy(const Scene& scene) {
   const bool sampled = axial_strain(scene) == AxialStrain::lobatto;
-  return scene.length_control.cut.value_or(sampled ? CutPolicy::relaxed : CutPolicy::exact);
+  return scene.length_control.cut.value_or(sampled && !has_frames(scene) ? CutPolicy::relaxed : CutPolicy::exact);
 }
 
 MergePolicy merge_policy(const Scene& scene) {
-  const MergePolicy otherwise = axial_strain(scene) == AxialStrain::lobatto ? MergePolicy::relaxed
-                                : is_curved_at_rest(scene)                  ? MergePolicy::rest_arc
-                                                                            : MergePolicy::point_fit;
+  const bool relaxes = axial_strain(scene) == AxialStrain::lobatto && !has_frames(scene);
+  const MergePolicy otherwise = relaxes                    ? MergePolicy::relaxed
+                                : is_curved_at_rest(scene) ? MergePolicy::rest_arc
+                                                           : MergePolicy::point_fit;
   return scene.length_control.merge.value_or(otherwise);
 }
 
 WeightTransport weight_transport(const Scene& scene) {
-  return scene.weights.value_or(is_curved_at_rest(scene) ? WeightTransport::transported : WeightTransport::frozen);
+  const bool transported = is_curved_at_rest(scene) && !has_frames(scene);
+  return scene.weights.value_or(transported ? WeightTransport::transported : WeightTransport::frozen);
 }
 
 double separation_distance(const Scene& scene, const SlidingMassSpec& joint) {

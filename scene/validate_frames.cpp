@@ -84,6 +84,42 @@ void check_torsion(const Scene& scene) {
   }
 }
 
+/// What nodes that move along the beam, `law` having been chosen, do not do yet.
+void check_moving_nodes(const Scene& scene, const std::string& law) {
+  const auto none = [&](bool there, const std::string& key, const std::string& what) {
+    if (there) refuse(key, "this key", law + what);
+  };
+  const auto wants = [&](bool other, const std::string& key, const std::string& value, const std::string& allowed) {
+    if (other) refuse(key, value, law + "and joints it must be " + allowed);
+  };
+  none(scene.flow.has_value(), "/flow", "nodes do not travel all together: leave it out, or take \"scalar\"");
+  const auto joints = sliding_joints(scene);
+  if (joints.empty() && !fed(scene)) return;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const std::string key = joint_key(scene, i);
+    const JointSlopes slopes = joint_slopes(scene, joints[i]);
+    wants(slopes != JointSlopes::continuous, key + "/slopes", quoted(slopes), "\"continuous\"");
+    none(joints[i].pitch.has_value(), key + "/pitch", "there is no nut: leave it out, or take \"scalar\" and /spin");
+    wants(has_several_joints(scene) && joints[i].at_support != AtSupport::stop, key + "/at_support",
+          quoted(joints[i].at_support), "\"stop\" where there are several");
+  }
+  none(!scene.blocks.empty(), "/blocks", "there are no blocks: leave them out, or take \"scalar\"");
+  if (scene.contact) {
+    wants(scene.contact->joints != AtSupport::stop, "/contact/joints", quoted(scene.contact->joints), "\"stop\"");
+  }
+  const MergePolicy merge = merge_policy(scene);
+  wants(merge == MergePolicy::least_change || merge == MergePolicy::relaxed || merge == MergePolicy::own,
+        "/length_control/merge", quoted(merge), "\"rest-arc\", \"point-fit\" or \"unit\"");
+  const CutPolicy cut = cut_policy(scene);
+  wants(cut != CutPolicy::exact, "/length_control/cut", quoted(cut), "\"exact\"");
+  const WeightTransport transport = weight_transport(scene);
+  wants(transport != WeightTransport::frozen, "/weights", quoted(transport), "\"frozen\"");
+  wants(scene.formulation != Formulation::variational, "/formulation", quoted(scene.formulation), "\"variational\"");
+  if (!build_axis<3>(scene).kinks().empty()) {
+    refuse("/beam/curve", "a curve with corners", law + "joints slide on smooth curves: round them off");
+  }
+}
+
 void check_others(const Scene& scene) {
   const bool asked = scene.beam.space_law.has_value();
   const std::string law = std::string("with /beam/space_law \"frames\"") +
@@ -91,16 +127,8 @@ void check_others(const Scene& scene) {
   const auto none = [&](bool there, const std::string& key, const std::string& allowed) {
     if (there) refuse(key, "this key", law + allowed);
   };
-  const std::string rest = "nodes do not move along the beam: leave it out, or take \"scalar\"";
-  none(sliding_joint(scene) != nullptr, joint_key(scene), rest);
-  none(scene.flow.has_value(), "/flow", rest);
-  const auto pays_out = [&](const SupportSpec& support, const std::string& at) {
-    none(support.feed.has_value(), at + "/feed", rest);
-    none(support.held_tension.has_value(), at + "/held_tension", rest);
-    none(support.drum.has_value(), at + "/drum", rest);
-  };
-  pays_out(scene.start, "/supports/at=start");
-  pays_out(scene.end, "/supports/at=end");
+  check_moving_nodes(scene, law);
+
   none(scene.spin.has_value(), "/spin", "sections turn without it: leave it out, or take \"scalar\"");
   if (scene.beam.rotary_inertia != BendingInertia::none) {
     refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), law + "it must be \"none\"");

@@ -12,7 +12,7 @@ namespace vlbeam {
 
 /// The tangent of a beam's equations. Nodes are its blocks; its border holds, as coordinates do, the material
 /// coordinates of joints and the slopes behind kinks, then whatever else is added. In space each node may have an
-/// angle, too, which stands behind all nodes; there is no border then.
+/// angle, too: these stand behind all nodes and the border, which reaches no far node then.
 template <int D>
 class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
  public:
@@ -26,6 +26,7 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   void start(int nodes, std::span<const JointPlace> joints) {
     Base::reset(nodes);
     turns_ = false;
+    of_angles_.clear();
     for (const JointPlace& joint : joints) add_border(std::max(0, joint.node - 1));
     for (const JointPlace& joint : joints) {
       for (int c = 0; c < (joint.behind < 0 ? 0 : D); ++c) add_border(std::max(0, joint.node - 1));
@@ -41,7 +42,6 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   void add_angles() requires(D == 3) {
     turns_ = true;
     wide_.reset(Base::nodes());
-    work_.resize(Eigen::Index{B + 1} * Base::nodes());
   }
 
   /// Adds the coupling of two nodes that are neighbours or the same: position, slope and angle each.
@@ -60,14 +60,45 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
       for (int j = 0; j < 2; ++j) add_turning(k + i, k + j, matrix.template block<W, W>(i * W, j * W));
     }
   }
+  /// The same where ends of it are joints: rows and columns 14 and 15 belong to the material coordinates of the joints
+  /// marks[e], if to any.
+  template <class Matrix>
+  void add_moving_frame(int k, const Matrix& matrix, const std::array<int, 2>& marks) requires(D == 3) {
+    constexpr int W = B + 1, X = 2 * W;
+    add_turning_element(k, matrix);
+    of_angles_.resize(border.size());
+    for (int e = 0; e < 2; ++e) {
+      const int mark = marks[static_cast<std::size_t>(e)];
+      if (mark < 0) continue;
+      auto& b = border[static_cast<std::size_t>(mark)];
+      auto& angles = of_angles_[static_cast<std::size_t>(mark)];
+      for (int end = 0; end < 2; ++end) {
+        const auto here = static_cast<std::size_t>(k + end - b.first);
+        b.column[here] += matrix.template block<B, 1>(end * W, X + e);
+        b.row[here] += matrix.template block<1, B>(X + e, end * W).transpose();
+        angles.column[here] += matrix(end * W + B, X + e);
+        angles.row[here] += matrix(X + e, end * W + B);
+      }
+      for (int f = 0; f < 2; ++f) {
+        const int other = marks[static_cast<std::size_t>(f)];
+        if (other >= 0) corner(mark, other) += matrix(X + e, X + f);
+      }
+    }
+  }
   /// Adds to what a node's slope does to itself.
   void add_slope_stiffness(int node, const Eigen::Matrix<double, D, D>& matrix) {
     diagonal[static_cast<std::size_t>(node)].template bottomRightCorner<D, D>() += matrix;
   }
 
+  void fix(int unknown, double size) {
+    Base::fix(unknown, size);
+    if (static_cast<std::size_t>(unknown) < of_angles_.size()) of_angles_[static_cast<std::size_t>(unknown)] = {};
+  }
+
   bool factor() {
     if constexpr (D == 3) {
       if (turns_) {
+        widen_border();
         for (std::size_t k = 0; k < diagonal.size(); ++k) {
           wide_.diagonal[k].template topLeftCorner<B, B>() = diagonal[k];
           wide_.upper[k].template topLeftCorner<B, B>() = upper[k];
@@ -81,16 +112,19 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   void solve(double* x) const {
     if constexpr (D == 3) {
       if (turns_) {
-        const Eigen::Index n = Base::nodes();
+        const Eigen::Index n = Base::nodes(), more = Base::borders(), angles = B * n + more;
+        work_.resize((B + 1) * n + more);
         for (Eigen::Index k = 0; k < n; ++k) {
           work_.template segment<B>((B + 1) * k) = Eigen::Map<const typename Base::Vector>(x + B * k);
-          work_[(B + 1) * k + B] = x[B * n + k];
+          work_[(B + 1) * k + B] = x[angles + k];
         }
+        for (Eigen::Index i = 0; i < more; ++i) work_[(B + 1) * n + i] = x[B * n + i];
         wide_.solve(work_.data());
         for (Eigen::Index k = 0; k < n; ++k) {
           Eigen::Map<typename Base::Vector>(x + B * k) = work_.template segment<B>((B + 1) * k);
-          x[B * n + k] = work_[(B + 1) * k + B];
+          x[angles + k] = work_[(B + 1) * k + B];
         }
+        for (Eigen::Index i = 0; i < more; ++i) x[B * n + i] = work_[(B + 1) * n + i];
         return;
       }
     }
@@ -105,7 +139,7 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   void expand(Eigen::MatrixXd& dense) const {
     Base::expand(dense);
     if constexpr (D == 3) {
-      const Eigen::Index n = Base::nodes(), first = B * n;
+      const Eigen::Index n = Base::nodes(), first = B * n + Base::borders();
       const auto put = [&](Eigen::Index row, Eigen::Index column, const WideBlock& block) {
         dense.block<B, 1>(B * row, first + column) = block.template topRightCorner<B, 1>();
         dense.block<1, B>(first + row, B * column) = block.template bottomLeftCorner<1, B>();
@@ -116,6 +150,14 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
         put(k, k, wide_.diagonal[i]);
         if (k + 1 < n) put(k, k + 1, wide_.upper[i]);
         if (k > 0) put(k, k - 1, wide_.lower[i]);
+      }
+      for (std::size_t j = 0; turns_ && j < of_angles_.size(); ++j) {
+        const Eigen::Index own = B * n + static_cast<Eigen::Index>(j);
+        for (int i = 0; i < Base::reach && border[j].first + i < n; ++i) {
+          const Eigen::Index angle = first + border[j].first + i;
+          dense(angle, own) = of_angles_[j].column[static_cast<std::size_t>(i)];
+          dense(own, angle) = of_angles_[j].row[static_cast<std::size_t>(i)];
+        }
       }
     }
   }
@@ -215,6 +257,12 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
     }
     if constexpr (D == 3) {
       if (turns_) hold_angles(k, keep, support.free_angle);
+      for (std::size_t j = 0; j < of_angles_.size() && !support.free_angle; ++j) {
+        const int reached = node - border[j].first;
+        if (reached < 0 || reached >= Base::reach) continue;
+        of_angles_[j].column[static_cast<std::size_t>(reached)] = of_angles_[j].row[static_cast<std::size_t>(reached)] =
+            0;
+      }
     }
     for (auto& b : border) {
       if (b.far == node) {
@@ -232,6 +280,27 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   }
 
  private:
+  /// What couples an unknown of the border to the angles of the nodes that it reaches.
+  struct OfAngles {
+    std::array<double, Base::reach> column{}, row{};
+  };
+  /// Makes the border that of the wide blocks.
+  void widen_border() {
+    wide_.border.clear();
+    wide_.corner = corner;
+    for (std::size_t j = 0; j < border.size(); ++j) {
+      auto& wide = wide_.add_border(border[j].first);
+      wide.first = border[j].first;
+      for (std::size_t i = 0; i < Base::reach; ++i) {
+        wide.column[i].template head<B>() = border[j].column[i];
+        wide.row[i].template head<B>() = border[j].row[i];
+        if (j >= of_angles_.size()) continue;
+        wide.column[i][B] = of_angles_[j].column[i];
+        wide.row[i][B] = of_angles_[j].row[i];
+      }
+    }
+  }
+
   /// Of node k: what couples to angles, in the directions that a support leaves, and its own angle.
   void hold_angles(std::size_t k, const Block& keep, bool free) {
     const auto column = [&](WideBlock& block) {
@@ -292,6 +361,7 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   bool turns_ = false;
   /// Of its blocks the last row and column, all else only once they are factored.
   BorderedBlockTridiagonal<D == 3 ? B + 1 : B> wide_;
+  std::vector<OfAngles> of_angles_;  ///< of the border, as far as any was added
   mutable Eigen::VectorXd work_;
 };
 

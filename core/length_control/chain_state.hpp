@@ -2,12 +2,13 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_map.hpp"
-#include "core/element/triad.hpp"
+#include "core/element/rest_triads.hpp"
 #include "core/geometry/axis.hpp"
 
 namespace vlbeam {
@@ -22,8 +23,10 @@ struct ChainState {
   std::vector<double> mark_rates;  ///< of the nodes' material coordinates, where all of them travel [m/s]
   std::vector<double> rest;        ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
   const Axis<D>* rest_curve = nullptr;  ///< what new nodes follow then
-  /// How sections are turned at the nodes, and are at rest, where they have frames.
+  /// How sections are turned at the nodes, and are at rest, where they have frames. Cuts and merges leave them as they
+  /// were, and BeamSystem brings them up to date.
   std::vector<SectionState> sections, rest_sections;
+  std::shared_ptr<const RestTriads> rest_triads = {};  ///< what new nodes, and those that move, follow at rest then
   /// The beam's slope behind a joint.
   struct Kink {
     Vec<double, D> slope, rate;

@@ -44,7 +44,10 @@ Frames::Frames(const FrameModel& model, const Mesh& mesh, const double* rest,
     const Vec<double, 3>& d = directions[static_cast<std::size_t>(k)].direction;
     return {t, (d - t * t.dot(d)).normalized()};
   };
-  for (std::size_t k = 0; k < count; ++k) tables_.emplace_back(x_[k + 1] - x_[k], mesh.weights[k].w);
+  for (std::size_t k = 0; k < count; ++k) {
+    weights_.push_back(mesh.weights[k].w);
+    tables_.emplace_back(x_[k + 1] - x_[k], mesh.weights[k].w);
+  }
   for (std::size_t k = 0; k < count && rest != nullptr; ++k) {
     const int i = static_cast<int>(k);
     const TriadReference a = stands(rest, rest_sections, i), b = stands(rest, rest_sections, i + 1);
@@ -54,8 +57,14 @@ Frames::Frames(const FrameModel& model, const Mesh& mesh, const double* rest,
     for (std::size_t g = 0; g < 2; ++g) tables_[k].points[g].rest = element.strain(g, 0);
   }
   for (int k = 0; k <= mesh.last(); ++k) references_.push_back(stands(q, sections, k));
-  between_.assign(count, 0);
   for (std::size_t k = 0; k < count; ++k) packs_.add(static_cast<int>(k), tables_[k]);
+  for (std::size_t k = 0; k < count; ++k) between_.push_back(sections[k].ahead);
+  for (std::size_t k = 0; k <= count && rest != nullptr; ++k) {
+    const int i = static_cast<int>(k);
+    const Vec<double, 3> none = Vec<double, 3>::Zero();
+    rest_ends_.push_back(
+        {x_[k], false, {position<3>(rest, i), slope<3>(rest, i), none, none}, stands(rest, rest_sections, i).d});
+  }
   held_.assign(count + 1, false);
   nodes_.reserve(count + 1);
   turned_.resize(count);
@@ -75,6 +84,7 @@ bool Frames::seen(const double* q) const {
 }
 
 void Frames::look(const double* q) const {
+  for (std::size_t j = 0; j < joints_.size(); ++j) x_[static_cast<std::size_t>(joint_nodes_[j])] = q[joints_[j].mark];
   if (seen(q)) return;
   looked_at_.assign(q, q + Eigen::Index{node_size<3>} * nodes());
   looked_at_.insert(looked_at_.end(), q + angle(0), q + angle(nodes()));
@@ -88,12 +98,13 @@ void Frames::at_torques(double t, const Visit& visit) const {
   const auto at = [&](int k, double u, double torque) { visit(k, (1 - u) * torque, u * torque); };
   for (const Torques::Point& load : model_.torques.points) {
     const double x = load.x ? load.x(t) : x_[static_cast<std::size_t>(load.node)];
-    const auto k = static_cast<std::size_t>(std::upper_bound(x_.begin() + 1, x_.end() - 1, x) - x_.begin()) - 1;
+    const auto k = static_cast<std::size_t>(element_of(x));
     at(static_cast<int>(k), (x - x_[k]) / (x_[k + 1] - x_[k]), load.torque(t));
   }
   if (!model_.torques.line) return;
   for (int k = 0; k < elements(); ++k) {
-    at(k, 0.5, model_.torques.line(t) * tables_[static_cast<std::size_t>(k)].length);
+    const auto i = static_cast<std::size_t>(k);
+    at(k, 0.5, model_.torques.line(t) * (x_[i + 1] - x_[i]));
   }
 }
 
@@ -101,6 +112,7 @@ Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate;
   look(q);
   packs_.add_forces(model_.section, nodes_, turned_, force, force + angle(0));
+  add_sliding_force(q, force);
   Tally power;
   if (!model_.torques.present()) return power;
   const auto turn = [&](int k, double torque) {
@@ -111,6 +123,7 @@ Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   at_torques(motion.t, [&](int k, double on_a, double on_b) {
     turn(k, on_a);
     turn(k + 1, on_b);
+    if (slides(k)) power.loads += add_torque_on_marks(k, q, rate, on_a, on_b, force);
   });
   return power;
 }
@@ -128,6 +141,7 @@ double Frames::bent_spin_rate(const double* q, const double* rate, const double*
 void Frames::times_inertia(const std::vector<double>& x, std::vector<double>& result) const {
   std::ranges::fill(result, 0);
   for (std::size_t k = 0; k + 1 < x.size(); ++k) {
+    if (slides(static_cast<int>(k))) continue;
     const double share = model_.section.rhoIp * tables_[k].length / 6;
     result[k] += share * (2 * x[k] + x[k + 1]);
     result[k + 1] += share * (x[k] + 2 * x[k + 1]);
@@ -153,18 +167,21 @@ void Frames::add_inertia(const double* q, const double* rate, const double* a, d
     r[angle(k)] += momentum_rates_[i];
     slope<3>(r, k) += momentum_rates_[i] * nodes_[i].spin_by_slope + momenta_[i] * v.cross(spin_curl(s));
   }
+  add_sliding_inertia(q, rate, a, r);
 }
 
 void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate, *a = motion.a;
   look(q);
   if (by.q != 0) packs_.add_tangents(model_.section, nodes_, turned_, by.q, tangent);
+  add_sliding_tangent(motion, by, tangent);
   if (model_.torques.present() && by.q != 0) {
     const auto turn = [&](int k, double torque) {
       tangent.add_slope_stiffness(
           k, -by.q * torque * references_[static_cast<std::size_t>(k)].spin_by_slope_gradient<double>(slope<3>(q, k)));
     };
     at_torques(motion.t, [&](int k, double on_a, double on_b) {
+      if (slides(k)) return;
       turn(k, on_a);
       turn(k + 1, on_b);
     });
@@ -204,6 +221,7 @@ void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, Beam
     tangent.add_turning(row, column, block);
   };
   for (int k = 0; k < elements(); ++k) {
+    if (slides(k)) continue;
     const double share = model_.section.rhoIp * tables_[static_cast<std::size_t>(k)].length / 6;
     couple(k, k, 2 * share);
     couple(k, k + 1, share);
@@ -222,22 +240,20 @@ void Frames::solve_spins(const double* q, const double* rate, double* force) con
   look_at_spins(rate);
   const std::size_t n = spins_.size();
   std::ranges::fill(diagonal_, 0);  // the torques' own rows are tridiagonal
+  std::ranges::fill(beside_, 0);
   for (std::size_t k = 0; k + 1 < n; ++k) {
+    if (slides(static_cast<int>(k))) continue;
     const double share = model_.section.rhoIp * tables_[k].length / 6;
     diagonal_[k] += 2 * share;
     diagonal_[k + 1] += 2 * share;
     beside_[k] = held_[k] || held_[k + 1] ? 0 : share;
   }
-  for (std::size_t k = 0; k < n; ++k) spin_rates_[k] = held_[k] ? 0 : force[angle(static_cast<int>(k))];
-  for (std::size_t k = 1; k < n; ++k) {
-    const double factor = beside_[k - 1] / diagonal_[k - 1];
-    diagonal_[k] -= factor * beside_[k - 1];
-    spin_rates_[k] -= factor * spin_rates_[k - 1];
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    spin_rates_[k] = (spin_rates_[k] - (k + 1 < n ? beside_[k] * spin_rates_[k + 1] : 0)) / diagonal_[k];
-  }
+  for (std::size_t k = 0; k < n; ++k) spin_rates_[k] = force[angle(static_cast<int>(k))];
+  start_sliding_spins(q, rate);
+  for (std::size_t k = 1; k < n; ++k) diagonal_[k] -= beside_[k - 1] / diagonal_[k - 1] * beside_[k - 1];
+  solve_for_spins(spin_rates_);
   times_inertia(spin_rates_, momentum_rates_);
+  finish_sliding_spins(force);
   for (std::size_t k = 0; k < n; ++k) {
     const int i = static_cast<int>(k);
     const Vec<double, 3> s = slope<3>(q, i), v = slope<3>(rate, i);
@@ -247,6 +263,10 @@ void Frames::solve_spins(const double* q, const double* rate, double* force) con
 }
 
 void Frames::complete(const double* q, const double* rate, double* a) const {
+  for (const AtJoint& joint : joints_) {
+    for (int k = 0; k < nodes(); ++k) a[angle(k)] += joint.response[static_cast<std::size_t>(k)] * a[joint.mark];
+  }
+
   for (int k = 0; k < nodes(); ++k) a[angle(k)] -= bent_spin_rate(q, rate, a, k);
 }
 
@@ -262,9 +282,7 @@ double Frames::turned_away(const double* q) const {
 void Frames::follow(const double* q, double* rate) {
   look(q);
   for (int k = 0; k < elements(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const FrameElement<double> element(tables_[i], model_.section, frame_ends(nodes_[i], nodes_[i + 1], turned(q, k)));
-    between_[i] = element.twist() - (q[angle(k + 1)] - q[angle(k)]);
+    between_[static_cast<std::size_t>(k)] = twist(q, k) - (q[angle(k + 1)] - q[angle(k)]);
   }
   for (int k = 0; k < nodes(); ++k) {
     if (rate != nullptr) rate[angle(k)] = spin_of(rate, k);
@@ -287,7 +305,8 @@ std::vector<SectionState> Frames::sections(const double* q, const double* rate) 
   look(q);
   std::vector<SectionState> result;
   for (int k = 0; k < nodes(); ++k) {
-    result.push_back({nodes_[static_cast<std::size_t>(k)].direction, spin_of(rate, k)});
+    result.push_back(
+        {nodes_[static_cast<std::size_t>(k)].direction, spin_of(rate, k), k < elements() ? twist(q, k) : 0});
   }
   return result;
 }
@@ -301,7 +320,9 @@ Frames::Seen Frames::observe(const double* q, const double* rate) const {
     seen.kinetic += 0.5 * momenta_[i] * spins_[i];
     seen.momentum += momenta_[i] * slope<3>(q, k).normalized();
   }
+  observe_sliding(q, rate, seen);
   for (int k = 0; k < elements(); ++k) {
+    if (slides(k)) continue;
     const auto i = static_cast<std::size_t>(k);
     const FrameTable& table = tables_[i];
     const FrameElement<double> element(table, model_.section, frame_ends(nodes_[i], nodes_[i + 1], turned(q, k)));

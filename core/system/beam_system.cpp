@@ -28,13 +28,6 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& model, const ChainState<D>& chain)
   if (model_.drag.present()) acting_.push_back(std::make_shared<ActingDrag<D>>(model_.drag));
   if (model_.masses.present()) acting_.push_back(std::make_shared<ActingPointMasses<D>>(model_.masses));
   acting_.insert(acting_.end(), model_.parts.begin(), model_.parts.end());
-  if constexpr (D == 3) {
-    if (model_.frames) {
-      frames_ = std::make_shared<Frames>(*model_.frames, chain.mesh, chain.rest.empty() ? nullptr : chain.rest.data(),
-                                         chain.rest_sections, chain.q.data(), chain.sections);
-      acting_.push_back(frames_);
-    }
-  }
   adopt(chain);
   initial_ = state_of(chain, {});
   if (spin_) spin_->start(initial_.data() + angles(), initial_.data() + coordinates() + angles());
@@ -54,10 +47,23 @@ template <int D>
 BeamSystem<D>::~BeamSystem() = default;
 
 template <int D>
+void BeamSystem<D>::take_frames(const ChainState<D>& chain) {
+  if constexpr (D == 3) {
+    std::erase(acting_, frames_);
+    frames_ = std::make_shared<Frames>(*model_.frames, chain.mesh, chain.rest.empty() ? nullptr : chain.rest.data(),
+                                       chain.rest_sections, chain.q.data(), chain.sections);
+    acting_.push_back(frames_);
+    rest_sections_ = chain.rest_sections;
+    rest_triads_ = chain.rest_triads;
+  }
+}
+
+template <int D>
 void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
   mesh_ = chain.mesh;
   rest_ = chain.rest;
+  if (model_.frames) take_frames(chain);
   departed_.clear();
   for (const auto& mass : chain.departed) departed_.push_back(mass.index);
   passed_.resize(model_.joints.size(), -1);
@@ -91,6 +97,7 @@ void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   }
   held_.adopt(model_, mesh_.last(), places_, index_, frames_ ? layout_.angle() : -1);
   if (frames_) {
+    if constexpr (D == 3) frames_->let_slide(places_, layout_.angle(), model_.rest.get(), rest_triads_);
     std::vector<bool> held(mesh_.x.size(), false);
     for (const HeldNode<D>& node : held_.nodes()) held[static_cast<std::size_t>(node.node)] = node.holds_angle();
     frames_->hold(held);
@@ -244,6 +251,36 @@ std::optional<JointPower> BeamSystem<D>::solve_joints(const JointElements& eleme
   return lost ? std::optional(JointPower{.dissipated = *lost}) : std::nullopt;
 }
 
+/// Spins tie each joint's x'' to those of all others, but little: by rounds.
+template <int D>
+std::optional<JointPower> BeamSystem<D>::solve_with_frames(double* force) {
+  constexpr int most_rounds = 50;
+  constexpr double settled = 1e-14;
+  const std::size_t count = places_.size();
+  round_forces_ = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
+  std::vector<double>& x = round_marks_;
+  x.assign(count, 0);
+
+  for (int round = 0; round < most_rounds; ++round) {
+    Eigen::Map<Eigen::VectorXd>(force, coordinates()) = round_forces_;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        if (j != i) force[places_[i].mark] -= frames_->mark_inertia(i, j) * x[j];
+      }
+    }
+    const auto power = solve_joints(elements_, motions_, force);
+    if (!power) return power;
+    double change = 0, largest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      change = std::max(change, std::abs(force[places_[i].mark] - x[i]));
+      largest = std::max(largest, std::abs(force[places_[i].mark]));
+      x[i] = force[places_[i].mark];
+    }
+    if (!(change > settled * largest)) return power;
+  }
+  return std::nullopt;
+}
+
 template <int D>
 void BeamSystem<D>::impose(Eigen::VectorXd& y, double t) const {
   if (const auto which = nut_place()) {
@@ -373,7 +410,10 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     if (driven) pull->complete(force);
   } else if (has_joint()) {
     motions_.clear();
-    for (std::size_t i = 0; i < places_.size(); ++i) motions_.push_back(joint_motion(i, q, rate, t));
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      motions_.push_back(joint_motion(i, q, rate, t));
+      if (frames_) motions_[i].x_inertia = frames_->mark_inertia(i, i);
+    }
     if (nut) {
       const Eigen::Index mark = places_[*nut].mark;
       if (!nut_->couple(*spin_, q + angles, rate + angles, force + angles, q[mark], rate[mark])) return invalid();
@@ -381,7 +421,9 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
       force[mark] += nut_->load().force;
     }
     if (driven) pull.emplace(*this, elements_, q, rate, force, t);
-    const auto at_joints = solve_joints(elements_, motions_, force);
+    const auto at_joints =
+        frames_ && places_.size() > 1 ? solve_with_frames(force) : solve_joints(elements_, motions_, force);
+
     if (!at_joints) return invalid();
     power.dissipated += at_joints->dissipated;
     power.supports += at_joints->guided;

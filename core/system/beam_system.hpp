@@ -228,7 +228,7 @@ class BeamSystem final : public EventedOde {
   /// The elements at the joints, in the order of the chain.
   const std::vector<MovingPart>& moving_parts() const { return parts_; }
   MovingLaw<D> moving_law(double t) const {
-    return {model_.section, model_.formulation, model_.transport, beam_gravity(t)};
+    return {model_.axis_section(), model_.formulation, model_.transport, beam_gravity(t)};
   }
   /// The rest shape of an element at joints whose coordinates are in `q`; nothing if it is straight.
   std::optional<RestElement<D>> rest_of(const MovingPart& part, const double* q) const;
@@ -274,8 +274,19 @@ class BeamSystem final : public EventedOde {
   std::array<double*, 4> vectors_of(double* q, int k) const;
 
   void adopt(const ChainState<D>& chain);
+  /// The frames of a chain, in the place of those there were.
+  void take_frames(const ChainState<D>& chain);
+  /// Gives the nodes of `after`, which an event has made of `before` at the state `y`, their sections: new nodes those
+  /// that were there in the beam.
+  void turn_sections(const ChainState<D>& before, const Eigen::VectorXd& y, ChainState<D>& after) const;
+  /// Angular momentum of sections that spin [kg m^2/s].
+  Vec<double, 3> spin_momentum(const Eigen::VectorXd& y) const {
+    return frames_ ? frames_->observe(y.data(), y.data() + coordinates()).momentum : Vec<double, 3>::Zero();
+  }
   /// The joints are solved for as a chain.
-  bool chained() const { return places_.size() > 1 || (has_joint() && (guides(0) || feeds(0) || joint(0).pitch != 0)); }
+  bool chained() const {
+    return places_.size() > 1 || (has_joint() && (guides(0) || feeds(0) || joint(0).pitch != 0 || frames_));
+  }
   /// The state is read from what prescribes parts of it.
   bool imposes() const { return model_.driven() || nut_; }
   /// Lengths of the last and the first element below which an end-merge is due [m]; 0 where none will be.
@@ -307,6 +318,8 @@ class BeamSystem final : public EventedOde {
   /// Neighbouring joints ask for the same cut or the same merge: one of them does it.
   void drop_doubles(std::vector<PendingEvent>& dues) const;
   /// What a joint, moving in a direction, asks for of the mesh: a cut behind it, a merge ahead.
+  /// Whether the guard `index` asks for no more than that frames follow.
+  bool turns_away(int index, const Eigen::VectorXd& y, double t) const;
   Remeshing wanted(std::size_t which, Direction direction, const Eigen::VectorXd& y) const;
   /// Material coordinate of a node of the mesh [m].
   double mark_of(int node, const double* q) const { return view(q, q).mark_of(node); }
@@ -393,6 +406,8 @@ class BeamSystem final : public EventedOde {
   /// entry a joint.
   std::optional<JointPower> solve_joints(const JointElements& elements, const std::vector<JointMotion<D>>& motions,
                                          double* force) const;
+  /// The same of what rhs() has evaluated, of several joints on a beam with frames.
+  std::optional<JointPower> solve_with_frames(double* force);
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
   /// matrix is singular.
   bool solve_mass(const JointElements& elements, const double* q, double* p) const;
@@ -412,6 +427,8 @@ class BeamSystem final : public EventedOde {
   /// Gives the rates in `y` these momenta, by the least change, and this total energy, by scaling the velocity
   /// fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
   void restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const;
+  /// The same once, of the motion of the axis.
+  void restore_axis(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const;
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
   typename RampWork<D>::Moment moment(const Eigen::VectorXd& y, double t) const {
     const Observation<D> seen = observe(y, t, model_.quadrature_points);
@@ -448,12 +465,17 @@ class BeamSystem final : public EventedOde {
   Held<D> held_;
   std::vector<std::shared_ptr<const Part<D>>> acting_;
   std::shared_ptr<Frames> frames_;  ///< one of these, too
+  std::vector<SectionState> rest_sections_;
+  std::shared_ptr<const RestTriads> rest_triads_;
   Layout<D> layout_;
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;
   std::vector<MovingPart> parts_;
-  JointElements elements_;                   ///< of the right-hand side
-  std::vector<JointMotion<D>> motions_;      ///< the same
+  JointElements elements_;               ///< of the right-hand side
+  std::vector<JointMotion<D>> motions_;  ///< the same
+  Eigen::VectorXd round_forces_;         ///< of solve_with_frames()
+  std::vector<double> round_marks_;      ///< the same
+
   mutable JointChain<D> joint_chain_;        ///< of several joints, or one that is guided
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;

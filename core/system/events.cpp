@@ -222,7 +222,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
   impose(y, t);
   orient(t);
-  if (frames_) return frames_->follow(y.data(), y.data() + coordinates());  // it has no other events
+  if (turns_away(index, y, t)) return frames_->follow(y.data(), y.data() + coordinates());
   const bool ramped = ramp_.due(model_.gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
   const std::vector<PendingEvent> dues = all_due(index, y, t);
@@ -261,7 +261,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
                         type == EventType::end_cut;
   const bool transfers = remeshes && model_.length_control.velocities != VelocityTransfer::nodal;
   // a projection or an impact changes velocities everywhere, and a rider's is not a node's
-  const bool everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider_;
+  const bool everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider_ || frames_;
   const Energy before = everywhere ? observe(y, t, ledger_points).energy : energies(record.before, ledger_points);
   const double own_before =
       (everywhere ? observe(y, t, model_.quadrature_points).energy : energies(record.before, model_.quadrature_points))
@@ -283,6 +283,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
       if (dues[i].remeshing.merge) records[i].merged = remesh(dues[i], {false, true});
     }
   }
+  if (frames_) turn_sections(record.before, y, record.after);
   if (remeshes && relaxes(model_.length_control)) {
     const auto stored = [&](const ChainState<D>& state) {
       const Energy energy = energies(state, model_.quadrature_points);
@@ -291,12 +292,17 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     record.relaxation = relax_after(dues, record.after, t, stored(record.after) - stored(record.before));
   }
   const Eigen::VectorXd old = y;
+  const std::shared_ptr<Frames> old_frames = frames_;
+  const Eigen::Index old_coordinates = coordinates();
   adopt(record.after);
   orient(t);
   y = state_of(record.after, old);
   const int highest_after = highest + record.after.mesh.elements() - record.before.mesh.elements();
   if (transfers) {
     project_velocities(record.before, lowest, highest_after, y, t);
+    if (frames_ && model_.frames->section.rhoIp > 0) {
+      frames_->project_spins(*old_frames, old.data(), old.data() + old_coordinates, y.data(), y.data() + coordinates());
+    }
     if (model_.length_control.velocities == VelocityTransfer::conservative) {
       restore(momenta_before, own_before, y, t);
     }

@@ -45,9 +45,16 @@ EventType type_of(const Remeshing& what) {
 
 template <int D>
 Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
-  if (rider_) return rider_guards(y, t);
   if (moving_) return travel_guards(t);
   Guards guards;
+  const auto add_turned_away = [&] {
+    if (frames_) guards.push_back({number(Kind::turned_away), 0, frames_->turned_away(y.data())});
+  };
+  if (rider_) {
+    guards = rider_guards(y, t);
+    add_turned_away();
+    return guards;
+  }
   const auto& control = model_.length_control;
   const double unit = control.standard_length;
   const bool several = places_.size() > 1;
@@ -107,8 +114,13 @@ Guards BeamSystem<D>::guards(const Eigen::VectorXd& y, double t) const {
     const double value = (contacts[i].distance - gap.distance) / unit;  // what parts is clear of each other
     guards.push_back({number(Kind::contact), part, gap.rate > 0 ? value - clearance : value});
   }
-  if (frames_) guards.push_back({number(Kind::turned_away), 0, frames_->turned_away(y.data())});
+  add_turned_away();
   return guards;
+}
+
+template <int D>
+bool BeamSystem<D>::turns_away(int index, const Eigen::VectorXd& y, double t) const {
+  return frames_ && static_cast<Kind>(guards(y, t)[static_cast<std::size_t>(index)].kind) == Kind::turned_away;
 }
 
 template <int D>
@@ -277,6 +289,8 @@ void BeamSystem<D>::drop_doubles(std::vector<PendingEvent>& dues) const {
 }
 
 template Guards BeamSystem<2>::guards(const Eigen::VectorXd&, double) const;
+template bool BeamSystem<2>::turns_away(int, const Eigen::VectorXd&, double) const;
+template bool BeamSystem<3>::turns_away(int, const Eigen::VectorXd&, double) const;
 template void BeamSystem<2>::add_feed_guards(std::size_t, const Eigen::VectorXd&, double, Guards&) const;
 template void BeamSystem<2>::joints_met(std::size_t, double) const;
 template Guards BeamSystem<2>::rider_guards(const Eigen::VectorXd&, double) const;

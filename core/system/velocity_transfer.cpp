@@ -168,11 +168,21 @@ Eigen::MatrixXd BeamSystem<D>::rigid_momenta(const JointElements& elements, cons
 
 template <int D>
 Eigen::VectorXd BeamSystem<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  return rigid_momenta(elements_at(y, t), y).transpose() * y.segment(coordinates(), coordinates());
+  Eigen::VectorXd sum = rigid_momenta(elements_at(y, t), y).transpose() * y.segment(coordinates(), coordinates());
+  if constexpr (D == 3) sum.tail<3>() += spin_momentum(y);
+  return sum;
 }
 
 template <int D>
 void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen::VectorXd& y, double t) const {
+  restore_axis(momenta, total, y, t);
+  if (frames_) restore_axis(momenta, total, y, t);  // spins follow marks a little
+}
+
+template <int D>
+void BeamSystem<D>::restore_axis(const Eigen::VectorXd& all, double total, Eigen::VectorXd& y, double t) const {
+  Eigen::VectorXd momenta = all;
+  if constexpr (D == 3) momenta.tail<3>() -= spin_momentum(y);
   const JointElements elements = elements_at(y, t);
   auto rate = y.segment(coordinates(), coordinates());
   // momenta of the rigid motions, and of these motions what the supports leave
@@ -191,7 +201,7 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
   rate += motion * velocities_of(momenta - rigid.transpose() * rate);
 
   Eigen::VectorXd fluctuation = rate - motion * velocities_of(momenta);
-  if (spin_) fluctuation.tail(spin_->coordinates()).setZero();
+  fluctuation.tail(layout_.turning).setZero();
   Eigen::VectorXd of_fluctuation(coordinates());
   multiply_mass(elements, y.data(), fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);
@@ -220,6 +230,8 @@ template Eigen::VectorXd BeamSystem<3>::excess_momentum(const ChainState<3>&, co
 template void BeamSystem<3>::project_velocities(const ChainState<3>&, int, int, Eigen::VectorXd&, double) const;
 template Eigen::MatrixXd BeamSystem<3>::rigid_momenta(const JointElements&, const Eigen::VectorXd&) const;
 template Eigen::VectorXd BeamSystem<3>::momenta(const Eigen::VectorXd&, double) const;
+template void BeamSystem<2>::restore_axis(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
+template void BeamSystem<3>::restore_axis(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 template void BeamSystem<3>::restore(const Eigen::VectorXd&, double, Eigen::VectorXd&, double) const;
 
 }  // namespace vlbeam

@@ -122,7 +122,39 @@ TEST(SpaceLaw, RefusesByName) {
          s.beam.material.damping = 0.1;
          s.beam.material.curvature_regularization = 1e-3;
        }},
-      {"/sliding_mass", "scalar", [](Scene& s) { s.sliding_mass.emplace(); }},
+      {"/sliding_mass/slopes", "continuous",
+       [](Scene& s) {
+         s.sliding_mass.emplace().position = 0.3;
+         s.sliding_mass->slopes = JointSlopes::free;
+       }},
+      {"/weights", "frozen",
+       [](Scene& s) {
+         s.sliding_mass.emplace().position = 0.3;
+         s.weights = WeightTransport::transported;
+       }},
+      {"/length_control/merge", "rest-arc",
+       [](Scene& s) {
+         s.sliding_mass.emplace().position = 0.3;
+         s.length_control.merge = MergePolicy::relaxed;
+       }},
+      {"/length_control/cut", "exact",
+       [](Scene& s) {
+         s.sliding_mass.emplace().position = 0.3;
+         s.length_control.cut = CutPolicy::relaxed;
+       }},
+      {"/formulation", "variational",
+       [](Scene& s) {
+         s.sliding_mass.emplace().position = 0.3;
+         s.formulation = Formulation::virtual_work;
+       }},
+      {"/sliding_joints/0/pitch", "nut",
+       [](Scene& s) {
+         auto& joint = s.sliding_joints.emplace_back();
+         joint.position = 0.3;
+         joint.mass = 1;
+         joint.pitch = 0.1;
+       }},
+      {"/flow", "travel", [](Scene& s) { s.flow.emplace(); }},
       {"/spin", "leave it out",
        [&](Scene& s) {
          line(s);

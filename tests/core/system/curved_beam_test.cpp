@@ -182,7 +182,7 @@ CurveSpec wave() {
 template <int D>
 void expect_no_stress_anywhere(Scene scene) {
   scene.dimension = D;
-  if (D == 3) scene.beam.out_of_plane = OutOfPlane::none;  // a mass does not slide on a beam with frames
+  if (D == 3) scene.beam.out_of_plane = OutOfPlane::none;  // by the scalar law
   for (const auto element : {ElementKind::ale_rancf, ElementKind::ale_ancf}) {
     for (const auto weights : {WeightTransport::frozen, WeightTransport::transported}) {
       for (const auto& merge : names(MergePolicy{})) {

@@ -1,0 +1,54 @@
+#include "scene/build_frames.hpp"
+
+#include <utility>
+
+#include "core/element/frame_element.hpp"
+#include "scene/build.hpp"
+
+namespace vlbeam {
+
+double twist_rate_at(const ChainState<3>& chain, int node) {
+  double sum = 0;
+  int sides = 0;
+  for (const int k : {node - 1, node}) {
+    if (k < 0 || k == chain.mesh.elements()) continue;
+    const auto i = static_cast<std::size_t>(k);
+    const double l = chain.mesh.x[i + 1] - chain.mesh.x[i];
+    const auto e = element_nodes<3>(chain.q.data(), k);
+    const FrameTable table(l, chain.mesh.weights[i].w);
+    const FrameEnds<double> ends{
+        e.r_b - e.r_a,          e.s_a, e.s_b, chain.sections[i].direction, chain.sections[i + 1].direction,
+        chain.sections[i].ahead};
+    sum += FrameElement<double>(table, {}, ends).twist() / l;
+    ++sides;
+  }
+  return sum / sides;
+}
+
+std::shared_ptr<const RestTriads> rest_triads(const Scene& scene, const ChainState<3>& chain) {
+  std::vector<TriadReference> at;
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    at.push_back({slope<3>(chain.rest.empty() ? chain.q.data() : chain.rest.data(), k).normalized(),
+                  chain.rest_sections[static_cast<std::size_t>(k)].direction});
+  }
+  return std::make_shared<const RestTriads>(vector_of<3>(scene.beam.section.orientation), chain.mesh.x, std::move(at));
+}
+
+std::vector<SectionState> sections_along(const Scene& scene, const ChainState<3>& chain) {
+  const Vec<double, 3> given = vector_of<3>(scene.beam.section.orientation);
+  std::vector<SectionState> sections;
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    const Vec<double, 3> t = slope<3>(chain.q.data(), k).normalized();
+    if (given != Vec<double, 3>::Zero()) {
+      sections.push_back({(given - t * t.dot(given)).normalized()});
+    } else if (k == 0) {
+      sections.push_back({t.unitOrthogonal()});
+    } else {
+      const Vec<double, 3> before = slope<3>(chain.q.data(), k - 1).normalized();
+      sections.push_back({carried<double>(before, t, sections.back().direction)});
+    }
+  }
+  return sections;
+}
+
+}  // namespace vlbeam
