@@ -90,47 +90,6 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
 }
 
 template <int D>
-void BeamSystem<D>::turn_sections(const ChainState<D>& before, const Eigen::VectorXd& y, ChainState<D>& after) const {
-  if constexpr (D == 3) {
-    const double *q = y.data(), *rate = q + coordinates();
-    const auto same_node = [&](int k) {
-      const auto* const joint = after.joint_at(k);
-      for (std::size_t i = 0; i < before.mesh.x.size(); ++i) {
-        const auto* const was = before.joint_at(static_cast<int>(i));
-        if (joint != nullptr && was != nullptr && joint->index == was->index) return static_cast<int>(i);
-        if (joint == nullptr && was == nullptr && after.mesh.x[static_cast<std::size_t>(k)] == before.mesh.x[i]) {
-          return static_cast<int>(i);
-        }
-      }
-      return -1;
-    };
-    std::vector<SectionState> sections, rest_sections;
-    double turned = 0;
-    for (int k = 0; k <= after.mesh.last(); ++k) {
-      const double x = after.mesh.x[static_cast<std::size_t>(k)];
-      const double turned_here = frames_->twist_to(q, x);
-      if (k > 0) sections.back().ahead = turned_here - turned;
-      turned = turned_here;
-      if (const int was = same_node(k); was >= 0) {
-        sections.push_back(before.sections[static_cast<std::size_t>(was)]);
-        rest_sections.push_back(before.rest_sections[static_cast<std::size_t>(was)]);
-        continue;
-      }
-      const Vec<double, 3> t = slope<3>(after.q.data(), k).normalized();
-      const TriadReference at = frames_->section_at(q, x);
-      const auto* const joint = after.joint_at(k);
-      const double spin = frames_->spin_at(q, rate, x, joint != nullptr ? joint->rate : 0);
-      sections.push_back({carried<double>(at.t, t, at.d), spin});
-      rest_sections.push_back({model_.rest ? rest_triads_->template direction<double>(x, model_.rest->derivatives(x)[1])
-                                           : before.rest_sections.front().direction});
-    }
-    sections.back().ahead = 0;
-    after.sections = std::move(sections);
-    after.rest_sections = std::move(rest_sections);
-  }
-}
-
-template <int D>
 std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y,
                                                                              int index) const {
   const auto at = [&](Eigen::Index place) {
@@ -151,8 +110,6 @@ std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(con
 
 template Eigen::VectorXd BeamSystem<2>::state_of(const ChainState<2>&, const Eigen::VectorXd&) const;
 template ChainState<2> BeamSystem<2>::chain(const Eigen::VectorXd&, double) const;
-template void BeamSystem<2>::turn_sections(const ChainState<2>&, const Eigen::VectorXd&, ChainState<2>&) const;
-template void BeamSystem<3>::turn_sections(const ChainState<3>&, const Eigen::VectorXd&, ChainState<3>&) const;
 template std::optional<BeamSystem<2>::MassMotion> BeamSystem<2>::mass_motion(const Eigen::VectorXd&, int) const;
 template Eigen::VectorXd BeamSystem<3>::state_of(const ChainState<3>&, const Eigen::VectorXd&) const;
 template ChainState<3> BeamSystem<3>::chain(const Eigen::VectorXd&, double) const;

@@ -47,18 +47,6 @@ template <int D>
 BeamSystem<D>::~BeamSystem() = default;
 
 template <int D>
-void BeamSystem<D>::take_frames(const ChainState<D>& chain) {
-  if constexpr (D == 3) {
-    std::erase(acting_, frames_);
-    frames_ = std::make_shared<Frames>(*model_.frames, chain.mesh, chain.rest.empty() ? nullptr : chain.rest.data(),
-                                       chain.rest_sections, chain.q.data(), chain.sections);
-    acting_.push_back(frames_);
-    rest_sections_ = chain.rest_sections;
-    rest_triads_ = chain.rest_triads;
-  }
-}
-
-template <int D>
 void BeamSystem<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
   mesh_ = chain.mesh;
@@ -249,36 +237,6 @@ std::optional<JointPower> BeamSystem<D>::solve_joints(const JointElements& eleme
   const auto lost = solve_with_joint(*left_, *right_, elements[0], elements[1], joint(0).law, motions[0], held(0),
                                      force, force + places_[0].mark);
   return lost ? std::optional(JointPower{.dissipated = *lost}) : std::nullopt;
-}
-
-/// Spins tie each joint's x'' to those of all others, but little: by rounds.
-template <int D>
-std::optional<JointPower> BeamSystem<D>::solve_with_frames(double* force) {
-  constexpr int most_rounds = 50;
-  constexpr double settled = 1e-14;
-  const std::size_t count = places_.size();
-  round_forces_ = Eigen::Map<const Eigen::VectorXd>(force, coordinates());
-  std::vector<double>& x = round_marks_;
-  x.assign(count, 0);
-
-  for (int round = 0; round < most_rounds; ++round) {
-    Eigen::Map<Eigen::VectorXd>(force, coordinates()) = round_forces_;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < count; ++j) {
-        if (j != i) force[places_[i].mark] -= frames_->mark_inertia(i, j) * x[j];
-      }
-    }
-    const auto power = solve_joints(elements_, motions_, force);
-    if (!power) return power;
-    double change = 0, largest = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      change = std::max(change, std::abs(force[places_[i].mark] - x[i]));
-      largest = std::max(largest, std::abs(force[places_[i].mark]));
-      x[i] = force[places_[i].mark];
-    }
-    if (!(change > settled * largest)) return power;
-  }
-  return std::nullopt;
 }
 
 template <int D>
