@@ -71,7 +71,7 @@ auto members(Is<RunOutcome> auto& of) {
 }
 
 template <class T>
-concept Plain = std::is_trivially_copyable_v<T>;
+concept Trivial = std::is_trivially_copyable_v<T>;
 template <class T>
 concept Row = requires(T& row) {
   row.resize(1);
@@ -87,11 +87,11 @@ class ByteWriter {
 
   template <class T>
   void operator()(const T& value) {
-    if constexpr (Plain<T>) {
+    if constexpr (Trivial<T>) {
       append(&value, sizeof value);
     } else if constexpr (Row<T>) {
       (*this)(value.size());
-      if constexpr (Plain<typename T::value_type>) {
+      if constexpr (Trivial<typename T::value_type>) {
         append(value.data(), value.size() * sizeof(typename T::value_type));
       } else {
         for (const auto& item : value) (*this)(item);
@@ -116,14 +116,14 @@ class ByteReader {
 
   template <class T>
   void operator()(T& value) {
-    if constexpr (Plain<T>) {
+    if constexpr (Trivial<T>) {
       take(&value, sizeof value);
     } else if constexpr (Row<T>) {
       std::size_t size = 0;
       (*this)(size);
       if (size > bytes_.size()) throw std::out_of_range("an outcome that is too short");
       value.resize(size);
-      if constexpr (Plain<typename T::value_type>) {
+      if constexpr (Trivial<typename T::value_type>) {
         take(value.data(), size * sizeof(typename T::value_type));
       } else {
         for (auto& item : value) (*this)(item);
