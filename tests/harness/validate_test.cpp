@@ -171,11 +171,12 @@ const Rule rules[] = {
        s.beam.curve.type = CurveType::arc;
        s.beam.out_of_plane = OutOfPlane::none;
      }},
-    {"/sliding_mass",  // with frames, which it has by default, nothing slides
+    {"/sliding_mass/slopes",  // with frames, which it has by default, a joint has one slope
      [](Scene& s) {
        s.dimension = 3;
        s.beam.curve.type = CurveType::arc;
        s.beam.material.curvature_regularization = 1e-3;
+       s.sliding_mass->slopes = JointSlopes::free;
      }},
     {"/beam/out_of_plane", [](Scene& s) { s.beam.out_of_plane = OutOfPlane::none; }},
     {"/beam/weights/1",
