@@ -68,7 +68,7 @@ std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, con
   };
   trace_equilibria<D>(system, equilibrium_options(scene), on_point, counters);
   if (!last) return std::nullopt;
-    return InitialEquilibrium<D>{system.chain(last->y, 0), static_sample_of(*last)};
+  return InitialEquilibrium<D>{system.chain(last->y, 0), static_sample_of(*last)};
 }
 
 template std::optional<InitialEquilibrium<2>> initial_equilibrium(const Scene&, const std::function<bool()>&);
