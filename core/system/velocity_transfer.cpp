@@ -181,7 +181,8 @@ void BeamSystem<D>::restore(const Eigen::VectorXd& momenta, double total, Eigen:
 
 template <int D>
 void BeamSystem<D>::restore_axis(const Eigen::VectorXd& all, double total, Eigen::VectorXd& y, double t) const {
-  Eigen::VectorXd momenta = all;
+  Eigen::VectorXd momenta;
+  momenta = all;
   if constexpr (D == 3) momenta.tail<3>() -= spin_momentum(y);
   const JointElements elements = elements_at(y, t);
   auto rate = y.segment(coordinates(), coordinates());
