@@ -72,7 +72,7 @@ inline bool threaded(const Scene& scene) {
   return std::any_of(scene.sliding_joints.begin(), scene.sliding_joints.end(),
                      [](const SlidingJointSpec& joint) { return joint.pitch.has_value(); });
 }
-/// Whether beam comes in or leaves through its ends.
+/// Whether an end feeds the beam: a winch there pays beam out or draws beam in.
 inline bool fed(const Scene& scene) { return scene.start.pays_out() || scene.end.pays_out(); }
 /// Whether there are more nodes that can move along the beam than that of one sliding joint.
 bool has_several_joints(const Scene& scene);
@@ -87,8 +87,8 @@ inline std::string joint_key(const Scene& scene, std::size_t which = 0) {
   return scene.sliding_joints.empty() ? "/sliding_mass" : "/sliding_joints/" + std::to_string(which);
 }
 
-/// What the beam's slopes do at the joint. In statics a beam has a slope on each side of a sleeve, both in its
-/// direction, so that the stretch may jump there as the tension does.
+/// The condition on the beam's slopes at the joint. In statics a beam has two slopes in a sleeve, one on each side.
+/// Both have the sleeve's direction; their lengths may differ, so that the stretch jumps where the tension does.
 inline JointSlopes joint_slopes(const Scene& scene, const SlidingJointSpec& joint) {
   const bool sleeve = scene.analysis == Analysis::statics && joint.support == SupportType::clamp;
   return sleeve ? JointSlopes::tangent : joint.slopes;

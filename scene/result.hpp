@@ -106,7 +106,7 @@ struct Configuration {
   std::vector<double> x;       ///< material coordinates [m]
   std::vector<Point> r;        ///< positions [m]
   std::vector<Point> r_x;      ///< slopes [-]
-  std::vector<double> angles;  ///< of the section about the axis [rad]; with spin
+  std::vector<double> angles;  ///< of the sections about the axis [rad]; empty without spin
   std::vector<std::array<double, 4>> weights;
   /// Nodes of the elements' rest shape; empty where it is straight and unstrained.
   struct Rest {
@@ -166,8 +166,8 @@ enum class RunStatus {
 /// What a run warns of.
 enum class WarningKind {
   energy_at_events,        ///< length control has changed the total energy
-  energy_not_restored,     ///< `conservative` velocities could not restore it
-  energy_between_events,   ///< the integrator or the formulation has
+  energy_not_restored,     ///< `conservative` velocities could not restore the total energy
+  energy_between_events,   ///< the integrator or the formulation has changed the total energy
   energy_unexplained,      ///< the model's own quadrature points do not see a change of it
   stability_limits_steps,  ///< of an explicit method; an implicit one would need fewer
   large_strain,            ///< more than a structural beam bears: a unit may be wrong

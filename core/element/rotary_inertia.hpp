@@ -14,8 +14,9 @@ namespace vlbeam {
 /// 2001):
 ///   rhoJ |P r_x'|^2/2 - rhoI_p Omega d.(r_x x r_x')/2,   r_x' the rate of the slope at a fixed material point,
 /// P = 1 - d d^T. It holds for small slopes against the direction d, and for one spin Omega of the whole shaft, on
-/// which bending does not react. What is along d must stay out: stretching has no such inertia, and as no stiffness
-/// opposes its gradients, short elements that move along the beam would be unstable with it.
+/// which bending does not react. P removes the component of the slope along d. That component must stay out: stretching
+/// has no such inertia. With it, short elements that move along the beam would be unstable, because no stiffness
+/// opposes gradients of the stretch.
 template <int D>
 struct RotaryInertia {
   double rhoJ = 0;                                    ///< [kg m]

@@ -18,7 +18,7 @@ template <int D>
 ChainState<D> straight_chain(const BeamModel<D>& model, const Vec<double, D>& start = Vec<double, D>::Zero(),
                              const Vec<double, D>& along = Vec<double, D>::UnitX(), double stretch = 1,
                              double velocity = 0, double t = 0);
-/// Its state, which spins at `spin` [rad/s] from the angle zero if it spins at all.
+/// The state of that beam. If the model has spin, the beam turns at `spin` [rad/s], and its angles are zero.
 template <int D>
 Eigen::VectorXd straight_state(const BeamSystem<D>& beam, const Vec<double, D>& start, const Vec<double, D>& along,
                                double stretch, double velocity, double spin, double t = 0);

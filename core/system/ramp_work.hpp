@@ -39,7 +39,7 @@ class RampWork {
     done_ = until(t, moment);
     restart(t, moment);
   }
-  /// Work until `t`, no earlier than the last instant [J].
+  /// Work from the start until `t` [J]; `t` must not be before the last instant.
   double until(double t, const Moment& moment) const {
     if (last_ >= duration_) return done_;
     const Power now = power(t, moment);
