@@ -302,7 +302,7 @@ void check_equilibrium(const Scene& scene) {
   };
   const bool in_ring = held(SupportType::clamp) || held(SupportType::pin);
   if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_ring) {
-    refuse("/supports", "nothing that holds the beam",
+    refuse("/supports", "a beam that nothing holds",
            "under loads or gravity it has no equilibrium: hold an end, or lay it over a ring");
   }
   if (scene.statics.control == LoadControl::arc_length) {

@@ -124,7 +124,7 @@ void check_way(const Scene& scene) {
     const double t = scene.duration * i / instants;
     const auto [first, last] = ends(t);
     if (!(last - first > 0)) {
-      refuse(fed, "no beam is left at t = " + number_text(t) + " s",
+      refuse(fed, "a winch that has drawn in all of the beam at t = " + number_text(t) + " s",
              "it must draw in less than the beam's " + number_text(length) + " m within /duration");
     }
     if (!((last - first) / standard_length(scene) <= most_elements)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
@@ -123,6 +124,15 @@ class FrameElement {
   /// [J], of bending and of torsion.
   std::array<Real, 2> energy(const Real& inner) const;
   FrameForce<Real> force(const Real& inner) const;
+  /// The largest curvature of both points, from the rest shape [1/m].
+  double bent(double inner) const {
+    double largest = 0;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const FrameStrain<double> at = strain(g, inner), &rest = table_.points[g].rest;
+      largest = std::max(largest, portable::hypot(at.y - rest.y, at.z - rest.z));
+    }
+    return largest;
+  }
 
  private:
   template <class>

@@ -219,12 +219,7 @@ std::array<double, 2> MovingFrame::energy() const {
 
 double MovingFrame::curvature() const {
   const FrameElement<double> element(table_, section_, ends_);
-  const double inner = element.inner();
-  double largest = 0;
-  for (std::size_t g = 0; g < 2; ++g) {
-    const FrameStrain<double> strain = element.strain(g, inner), &rest = table_.points[g].rest;
-    largest = std::max(largest, portable::hypot(strain.y - rest.y, strain.z - rest.z));
-  }
+  const double largest = element.bent(element.inner());
   return exponent() > 0 ? largest : largest / l_;
 }
 

@@ -235,22 +235,34 @@ void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, Beam
   }
 }
 
+void Frames::start_spin_matrix() const {
+  std::ranges::fill(diagonal_, 0);
+  std::ranges::fill(beside_, 0);
+}
+
+void Frames::add_to_spin_matrix(std::size_t element, double share) const {
+  diagonal_[element] += 2 * share;
+  diagonal_[element + 1] += 2 * share;
+  beside_[element] = held_[element] || held_[element + 1] ? 0 : share;
+}
+
+void Frames::factor_spin_matrix() const {
+  for (std::size_t k = 1; k < diagonal_.size(); ++k) {
+    diagonal_[k] -= beside_[k - 1] / diagonal_[k - 1] * beside_[k - 1];
+  }
+}
+
 void Frames::solve_spins(const double* q, const double* rate, double* force) const {
   look(q);
   look_at_spins(rate);
   const std::size_t n = spins_.size();
-  std::ranges::fill(diagonal_, 0);  // the torques' own rows are tridiagonal
-  std::ranges::fill(beside_, 0);
+  start_spin_matrix();
   for (std::size_t k = 0; k + 1 < n; ++k) {
-    if (slides(static_cast<int>(k))) continue;
-    const double share = model_.section.rhoIp * tables_[k].length / 6;
-    diagonal_[k] += 2 * share;
-    diagonal_[k + 1] += 2 * share;
-    beside_[k] = held_[k] || held_[k + 1] ? 0 : share;
+    if (!slides(static_cast<int>(k))) add_to_spin_matrix(k, model_.section.rhoIp * tables_[k].length / 6);
   }
   for (std::size_t k = 0; k < n; ++k) spin_rates_[k] = force[angle(static_cast<int>(k))];
   start_sliding_spins(q, rate);
-  for (std::size_t k = 1; k < n; ++k) diagonal_[k] -= beside_[k - 1] / diagonal_[k - 1] * beside_[k - 1];
+  factor_spin_matrix();
   solve_for_spins(spin_rates_);
   times_inertia(spin_rates_, momentum_rates_);
   finish_sliding_spins(force);
@@ -266,7 +278,6 @@ void Frames::complete(const double* q, const double* rate, double* a) const {
   for (const AtJoint& joint : joints_) {
     for (int k = 0; k < nodes(); ++k) a[angle(k)] += joint.response[static_cast<std::size_t>(k)] * a[joint.mark];
   }
-
   for (int k = 0; k < nodes(); ++k) a[angle(k)] -= bent_spin_rate(q, rate, a, k);
 }
 
@@ -324,16 +335,12 @@ Frames::Seen Frames::observe(const double* q, const double* rate) const {
   for (int k = 0; k < elements(); ++k) {
     if (slides(k)) continue;
     const auto i = static_cast<std::size_t>(k);
-    const FrameTable& table = tables_[i];
-    const FrameElement<double> element(table, model_.section, frame_ends(nodes_[i], nodes_[i + 1], turned(q, k)));
+    const FrameElement<double> element(tables_[i], model_.section, frame_ends(nodes_[i], nodes_[i + 1], turned(q, k)));
     const double inner = element.inner();
     const auto energy = element.energy(inner);
     seen.bending += energy[0];
     seen.torsion += energy[1];
-    for (std::size_t g = 0; g < 2; ++g) {
-      const FrameStrain<double> strain = element.strain(g, inner), &rest = table.points[g].rest;
-      seen.curvature = std::max(seen.curvature, portable::hypot(strain.y - rest.y, strain.z - rest.z));
-    }
+    seen.curvature = std::max(seen.curvature, element.bent(inner));
   }
   return seen;
 }

@@ -52,6 +52,7 @@ class Frames final : public Part<3> {
                  std::shared_ptr<const RestTriads> along);
 
   Tally add_force(const Motion<3>& motion, double* force) const override;
+  bool has_power() const override { return model_.torques.present(); }
   /// With that of the inertia.
   void add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const override;
   /// Adds M a and what is quadratic in velocities.
@@ -62,9 +63,8 @@ class Frames final : public Part<3> {
   /// In an array of forces: keeps on slopes the part that moves the axis, and replaces torques by the accelerations of
   /// spin that they cause, 0 where the angle is `held`.
   void solve_spins(const double* q, const double* rate, double* force) const;
-  /// What solve_spins() has left of inertia of joint `on` against x'' of joint `by` [kg]: that of spins which marks
-  /// that
-  /// move sweep along.
+  /// The inertia of spins on the mark of joint `on` against x'' of joint `by` [kg], less what of it solve_spins() has
+  /// eliminated.
   double mark_inertia(std::size_t on, std::size_t by) const { return mark_inertia_[on * joints_.size() + by]; }
 
   /// In place: makes of these, and of the accelerations of slopes, those of the angles.
@@ -118,6 +118,10 @@ class Frames final : public Part<3> {
   double bent_spin_rate(const double* q, const double* rate, const double* a, int k) const;
   /// Writes M x, x and the result a number a node.
   void times_inertia(const std::vector<double>& x, std::vector<double>& result) const;
+  /// The matrix of the inertia of spins, tridiagonal: from nothing, of one element, factored.
+  void start_spin_matrix() const;
+  void add_to_spin_matrix(std::size_t element, double share) const;
+  void factor_spin_matrix() const;
   /// Writes the spins and the momenta.
   void look_at_spins(const double* rate) const;
 
@@ -157,7 +161,6 @@ class Frames final : public Part<3> {
   /// The spin of a section there, once look() was told.
   double spin_within(const double* q, const double* rate, double x) const;
   /// The twist of element k [rad], once look() was told.
-
   double twist(const double* q, int k) const;
   void observe_sliding(const double* q, const double* rate, Seen& seen) const;
   /// What torques at u of an element at joints do to marks; the power of that [W].

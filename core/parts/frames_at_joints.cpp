@@ -181,9 +181,7 @@ void Frames::start_sliding_spins(const double* q, const double* rate) const {
     const MovingFrameSpin<double>& spin = seen_spins_.emplace_back(spin_of(sliding, q, rate));
     const auto k = static_cast<std::size_t>(sliding.element);
     const double share = spin.share, flux = spin.flux / (x_[k + 1] - x_[k]);
-    diagonal_[k] += 2 * share;
-    diagonal_[k + 1] += 2 * share;
-    beside_[k] = held_[k] || held_[k + 1] ? 0 : share;
+    add_to_spin_matrix(k, share);
     const auto known = spin.momentum_rates(0, 0, 0, 0);
     spin_rates_[k] -= known[0] - flux;
     spin_rates_[k + 1] -= known[1] + flux;
@@ -255,14 +253,11 @@ void Frames::project_spins(const Frames& before, const double* was, const double
   look(q);
   std::vector<double> excess(x_.size(), 0), pieces;
   std::ranges::set_union(before.x_, x_, std::back_inserter(pieces));
-  std::ranges::fill(diagonal_, 0);
+  start_spin_matrix();
   for (std::size_t k = 0; k + 1 < x_.size(); ++k) {
-    const double share = model_.section.rhoIp * (x_[k + 1] - x_[k]) / 6;
-    diagonal_[k] += 2 * share;
-    diagonal_[k + 1] += 2 * share;
-    beside_[k] = held_[k] || held_[k + 1] ? 0 : share;
+    add_to_spin_matrix(k, model_.section.rhoIp * (x_[k + 1] - x_[k]) / 6);
   }
-  for (std::size_t k = 1; k < x_.size(); ++k) diagonal_[k] -= beside_[k - 1] / diagonal_[k - 1] * beside_[k - 1];
+  factor_spin_matrix();
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
     const double length = pieces[i + 1] - pieces[i];
     for (const auto& [u, weight] : gauss_legendre(2)) {

@@ -381,7 +381,6 @@ void BeamSystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
     if (driven) pull.emplace(*this, elements_, q, rate, force, t);
     const auto at_joints =
         frames_ && places_.size() > 1 ? solve_with_frames(force) : solve_joints(elements_, motions_, force);
-
     if (!at_joints) return invalid();
     power.dissipated += at_joints->dissipated;
     power.supports += at_joints->guided;

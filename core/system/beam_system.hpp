@@ -317,9 +317,9 @@ class BeamSystem final : public EventedOde {
   std::vector<PendingEvent> all_due(int index, const Eigen::VectorXd& y, double t) const;
   /// Neighbouring joints ask for the same cut or the same merge: one of them does it.
   void drop_doubles(std::vector<PendingEvent>& dues) const;
-  /// What a joint, moving in a direction, asks for of the mesh: a cut behind it, a merge ahead.
   /// Whether the guard `index` asks for no more than that frames follow.
   bool turns_away(int index, const Eigen::VectorXd& y, double t) const;
+  /// What a joint, moving in a direction, asks for of the mesh: a cut behind it, a merge ahead.
   Remeshing wanted(std::size_t which, Direction direction, const Eigen::VectorXd& y) const;
   /// Material coordinate of a node of the mesh [m].
   double mark_of(int node, const double* q) const { return view(q, q).mark_of(node); }
@@ -471,11 +471,10 @@ class BeamSystem final : public EventedOde {
   mutable std::optional<Span<D>> left_, right_;  ///< their supports stand as orient() was told last
   std::vector<SpanBetween<D>> between_;
   std::vector<MovingPart> parts_;
-  JointElements elements_;               ///< of the right-hand side
-  std::vector<JointMotion<D>> motions_;  ///< the same
-  Eigen::VectorXd round_forces_;         ///< of solve_with_frames()
-  std::vector<double> round_marks_;      ///< the same
-
+  JointElements elements_;                   ///< of the right-hand side
+  std::vector<JointMotion<D>> motions_;      ///< the same
+  Eigen::VectorXd round_forces_;             ///< of solve_with_frames()
+  std::vector<double> round_marks_;          ///< the same
   mutable JointChain<D> joint_chain_;        ///< of several joints, or one that is guided
   std::array<FixedInertia, 2> end_inertia_;  ///< of the first and the last element where supports move
   Eigen::VectorXd initial_, imposed_;

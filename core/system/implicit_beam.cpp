@@ -141,11 +141,7 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     free_.setZero(q.size());
     const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
     for (const auto& part : system_.acting()) {
-      if constexpr (D == 3) {  // which are long to ask
-        const Frames* frames = system_.frames();
-        if (part.get() == frames && !frames->model().torques.present()) continue;
-      }
-      power.loads += part->add_force(now, free_.data()).loads;
+      if (part->has_power()) power.loads += part->add_force(now, free_.data()).loads;
     }
     power.loads += system_.line_power(now.beam, t);
     power.supports += system_.fed_line_power(now.beam, t);

@@ -14,7 +14,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr std::size_t longest_key = 21, longest_below = 12;  // entries beside the diagram, and below a column's
+constexpr std::size_t longest_key = 21, longest_below = 8;  // entries beside the diagram, and below a column's
 constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999999"};
 
 /// In double quotes, as gnuplot reads it: nothing in it is an escape.

@@ -155,7 +155,10 @@ std::string read_text(const std::filesystem::path& path) {
   if (path != "-") {
     file.open(path, std::ios::binary);
     if (!file || fs::is_directory(path, error)) {
-      throw InvalidInput(path.string(), "a file that cannot be read", "it must be there and readable");
+      const char* const found = fs::is_directory(path, error) ? "a folder"
+                                : fs::exists(path, error)     ? "a file that may not be read"
+                                                              : InvalidInput::missing;
+      throw InvalidInput(path.string(), found, "it must be a file that can be read");
     }
   }
   std::istream& in = path == "-" ? std::cin : file;

@@ -17,11 +17,17 @@ namespace {
 constexpr double rounding = 1e-8;  // of strains, times EA over the pull
 
 struct Case {
-  double varied = 0;  ///< by the problem: mass a length, coefficient of friction, length hoisted, step, elements
+  double varied = 0;  ///< by the problem: mass a length, coefficient of friction, length hoisted, step, elements, ...
   Scene scene;
 };
 
-double height(const Point& pull) { return portable::hypot(pull[0], pull[1]); }
+/// Relative errors of the cases of a problem.
+struct Errors {
+  std::vector<double> varied, values;
+};
+
+double size_of(const Point& pull) { return portable::hypot(pull[0], pull[1]); }
+double angle_from_below(const Point& place) { return std::abs(portable::atan2(place[0], -place[1])); }
 
 class Report {
  public:
@@ -34,7 +40,7 @@ class Report {
     tether();
     hanging();
     mooring();
-    for (Table* table : {&atwood_, &capstan_, &hoist_, &tether_, &hanging_, &mooring_}) {
+    for (Table* table : {&atwood_, &capstan_, &hoist_, &tether_, &hanging_, &mooring_, &ground_}) {
       report_.tables.push_back(std::move(*table));
     }
     report_.figures = {{.name = "motions",
@@ -60,33 +66,27 @@ class Report {
     }
     return cases;
   }
-  /// Runs a problem once a value of its sweep, and gives what `measure` finds to the report.
+  /// Runs a problem once a value of its sweep, and measures the errors.
   template <class Change, class Measure>
-  void each(const char* problem, const char* varied, const Change& change, const Measure& measure) {
+  Errors each(const char* problem, const char* varied, const Change& change, const Measure& measure) {
     const auto cases = cases_of(problem, change);
     const auto runs =
         context_.sweep(cases, [](const Case& item) { return StudyContext::simulate_to_the_end(item.scene); });
+    Errors errors;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      const double found = measure(cases[i], *runs[i]);
+      errors.varied.push_back(cases[i].varied);
+      errors.values.push_back(measure(cases[i], *runs[i]));
       report_.cases.push_back({.options = {{"problem", problem}, {varied, cases[i].varied}},
-                               .results = {{"error", found}, {"steps", runs[i]->solver.steps}}});
-      double& worst = report_.measured[problem];
-      worst = std::max(worst, found);
-      levels_.push_back(cases[i].varied);
-      errors_.push_back(found);
+                               .results = {{"error", errors.values.back()}, {"steps", runs[i]->solver.steps}}});
+      report_.measured[problem + ("_" + number_text(cases[i].varied))] = errors.values.back();
     }
+    report_.measured[problem] = std::ranges::max(errors.values);
+    report_.measured[problem + std::string("_finest")] = errors.values.back();
+    return errors;
   }
-  void fit(const char* problem, double floor, bool steps) {
-    if (steps) {
-      for (double& level : levels_) level = 1 / level;
-    }
-    report_.measured[problem + std::string("_finest")] = errors_.back();
-    report_.fits.push_back(
-        fit_order(problem, levels_, errors_, {.floor = floor, .rule = level_rule_of(context_.config, problem)}));
-  }
-  void forget_levels() {
-    levels_.clear();
-    errors_.clear();
+  void fit(const char* problem, const Errors& errors, double floor) {
+    report_.fits.push_back(fit_order(problem, errors.varied, errors.values,
+                                     {.floor = floor, .rule = level_rule_of(context_.config, problem)}));
   }
 
   /// Of the way at the end, relative to it.
@@ -107,7 +107,6 @@ class Report {
           }
           return error / exact.way(run.samples.back().t);
         });
-    forget_levels();
   }
 
   /// The worst over all angles around the guide, once the rope slips.
@@ -124,14 +123,13 @@ class Report {
           for (const Sample& sample : run.samples) {
             if (sample.t < context_.config.at("slips_from").get<double>()) continue;
             const double angle = portable::atan2(sample.end[1], sample.end[0]);
-            const double ratio = height(sample.reactions[1].position) / load;
+            const double ratio = size_of(sample.reactions[1].position) / load;
             const double exact = portable::exp(item.varied * angle);
             worst = std::max(worst, std::abs(ratio / exact - 1));
             capstan_.rows.push_back({item.varied, angle, ratio, exact});
           }
           return worst;
         });
-    forget_levels();
   }
 
   /// The amplitude behind the hoist over that before it.
@@ -140,23 +138,22 @@ class Report {
         "hoist", "hoisted", [](Scene& scene, double length) { scene.start.feed->table[1][1] = -length; },
         [&](const Case& item, const RunResult& run) {
           const Sample& first = run.samples.front();
-          const double before = std::abs(portable::atan2(first.end[0], -first.end[1]));
+          const double before = angle_from_below(first.end);
           double after = 0;
           const double end = item.scene.start.feed->table[1][0];
           for (const Sample& sample : run.samples) {
-            if (sample.t > end + 1) after = std::max(after, std::abs(portable::atan2(sample.end[0], -sample.end[1])));
+            if (sample.t > end + 1) after = std::max(after, angle_from_below(sample.end));
           }
-          const double length = portable::hypot(first.end[0], first.end[1]), shorter = length / (length - item.varied);
+          const double length = size_of(first.end), shorter = length / (length - item.varied);
           const double exact = portable::pow(shorter, 0.75);
           hoist_.rows.push_back({shorter, after / before, exact});
           return std::abs(after / before / exact - 1);
         });
-    forget_levels();
   }
 
   /// The largest change of the angular momentum, relative to it.
   void tether() {
-    each(
+    const Errors errors = each(
         "tether", "step", [](Scene& scene, double step) { scene.integrator.step = step; },
         [&](const Case& item, const RunResult& run) {
           const double first = run.samples.front().angular_momentum[2];
@@ -167,38 +164,32 @@ class Report {
           tether_.rows.push_back({item.varied, worst});
           return worst;
         });
-    fit("tether", 1e-10, true);
-    forget_levels();
+    fit("tether", errors, 1e-10);
   }
 
   /// Of the pull at the lower or the right support, relative to the closed form.
-  void pulls(const char* problem, Table& table, const Pull& exact) {
-    each(
-        problem, "elements", [](Scene& scene, double n) { scene.beam.elements = static_cast<int>(std::lround(n)); },
-        [&](const Case& item, const RunResult& run) {
-          const Point& pull = run.samples.back().reactions[1].position;
-          const double across = std::abs(std::abs(pull[0]) / exact.along - 1),
-                       up = std::abs(std::abs(pull[1]) / exact.up - 1), error = std::max(across, up);
-          table.rows.push_back({item.varied, std::abs(pull[0]), std::abs(pull[1]), error});
-          report_.measured[problem + ("_" + number_text(item.varied))] = error;
-          return error;
-        });
+  template <class Change>
+  Errors pulls(const char* problem, const char* varied, const Pull& exact, Table& table, const Change& change) {
+    return each(problem, varied, change, [&](const Case& item, const RunResult& run) {
+      const Point& pull = run.samples.back().reactions[1].position;
+      const double across = std::abs(std::abs(pull[0]) / exact.along - 1),
+                   up = std::abs(std::abs(pull[1]) / exact.up - 1), error = std::max(across, up);
+      table.rows.push_back({item.varied, std::abs(pull[0]), std::abs(pull[1]), error});
+      return error;
+    });
   }
   void hanging() {
-    const Scene scene = scene_from_json(context_.config.at("scenes").at("hanging"));
-    pulls("hanging", hanging_, hanging_rope(scene));
-    fit("hanging", rounding, false);
-    forget_levels();
+    const Pull exact = hanging_rope(scene_from_json(context_.config.at("scenes").at("hanging")));
+    fit("hanging", pulls("hanging", "elements", exact, hanging_, set_elements), rounding);
   }
   void mooring() {
-    const Scene scene = scene_from_json(context_.config.at("scenes").at("mooring"));
-    pulls("mooring", mooring_, rope_from_the_ground(scene));
-    report_.measured["mooring_finest"] = errors_.back();
-    forget_levels();
+    const Pull exact = rope_from_the_ground(scene_from_json(context_.config.at("scenes").at("mooring")));
+    pulls("mooring", "elements", exact, mooring_, set_elements);
+    pulls("ground", "stiffness", exact, ground_, [](Scene& scene, double k) { scene.ground->stiffness = k; });
   }
+  static void set_elements(Scene& scene, double n) { scene.beam.elements = static_cast<int>(std::lround(n)); }
 
   const StudyContext& context_;
-  std::vector<double> levels_, errors_;
   Table atwood_{.name = "atwood",
                 .caption = "Weights on a rope over a guide: the rope's mass a length [kg/m], time [s], way [m]",
                 .columns = {"rhoA", "t", "way", "exact"}};
@@ -217,6 +208,11 @@ class Report {
   Table mooring_{.name = "mooring",
                  .caption = "A chain from the ground to a fairlead: pull [N] and its error, against the mesh",
                  .columns = {"elements", "along", "up", "error"}};
+  Table ground_{.name = "ground",
+                .caption =
+                    "The same chain on the finest mesh: pull [N] and its error, against the stiffness of the "
+                    "ground [N/m^2]",
+                .columns = {"stiffness", "along", "up", "error"}};
   StudyReport report_;
 };
 

@@ -7,6 +7,7 @@
 #include "core/system/implicit_beam.hpp"
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/checkpoints.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -298,7 +299,6 @@ TEST(FramesAtJoints, ATurnedSceneRunsAlike) {
     scene.sliding_mass->velocity = 2;
     scene.duration = 0.25;
     scene.integrator.rtol = scene.integrator.atol = 1e-9;
-
     scene.initial_velocity = {.translation = turned({0.3, -0.2, 0.5}), .rotation = 4, .axis = turned({1, 0.4, 0.7})};
     return simulate(scene);
   };
@@ -331,19 +331,7 @@ TEST(FramesAtJoints, GoOnFromACheckpointAsIfNothingHadBeen) {
     scene.sliding_mass->velocity = 1.5;
     scene.integrator.type = type;
     scene.integrator.rtol = scene.integrator.atol = 1e-6;
-    std::vector<Checkpoint> kept;
-    Checkpoints checkpoints;
-    checkpoints.every = 0.15;
-    checkpoints.keep = [&kept](const Checkpoint& at) { kept.push_back(at); };
-    const RunResult whole = simulate(scene, {}, &checkpoints);
-    ASSERT_EQ(whole.status, RunStatus::completed) << whole.failure;
-    ASSERT_GE(kept.size(), 3U);
-    EXPECT_GE(kept.back().past.size(), 1U);
-    Checkpoints from;
-    from.from = kept.back();
-    const RunResult rest = simulate(scene, {}, &from);
-    EXPECT_EQ(rest.samples.back().end, whole.samples.back().end);
-    EXPECT_EQ(rest.samples.back().joint_position, whole.samples.back().joint_position);
+    expect_to_go_on(scene, 0.15);
   }
 }
 

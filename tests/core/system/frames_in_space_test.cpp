@@ -8,6 +8,7 @@
 #include "core/statics/static_equations.hpp"
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/checkpoints.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -225,19 +226,7 @@ TEST(FramesInSpace, GoOnFromACheckpointAsIfNothingHadBeen) {
     scene.duration = 0.6;
     scene.integrator.type = type;
     scene.integrator.rtol = scene.integrator.atol = 1e-6;
-    std::vector<Checkpoint> kept;
-    Checkpoints checkpoints;
-    checkpoints.every = 0.2;
-    checkpoints.keep = [&kept](const Checkpoint& at) { kept.push_back(at); };
-    const RunResult whole = simulate(scene, {}, &checkpoints);
-    ASSERT_EQ(whole.status, RunStatus::completed) << whole.failure;
-    ASSERT_GE(kept.size(), 2U);
-    EXPECT_GE(kept[1].past.size(), 1U);
-    Checkpoints from;
-    from.from = kept[1];
-    const RunResult rest = simulate(scene, {}, &from);
-    EXPECT_EQ(rest.samples.back().end, whole.samples.back().end);
-    EXPECT_EQ(rest.samples.back().angular_momentum, whole.samples.back().angular_momentum);
+    expect_to_go_on(scene, 0.2);
   }
 }
 
