@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -20,28 +21,59 @@ const std::filesystem::path source = test::source_folder();
 Scene library_scene(const std::string& name) { return read_scene(source / "scenes" / (name + ".json")); }
 
 // One wanted error for all scenes, chosen before any was converged to it.
-TEST(Converge, UncertaintiesCoverTheTrueError) {
-  constexpr double wanted = 1e-4;
+constexpr double wanted = 1e-4;
+
+std::vector<SceneAnswer> known_answers() {
+  std::vector<SceneAnswer> answers = scene_answers(source / "reference" / "scenes.json");
+  std::erase_if(answers, [](const SceneAnswer& answer) {
+    return answer.kind == "self-convergence" || library_scene(answer.scene).analysis == Analysis::statics;
+  });
+  return answers;
+}
+
+SceneAnswer known_answer(const std::string& scene) {
+  const std::vector<SceneAnswer> answers = known_answers();
+  return *std::ranges::find(answers, scene, &SceneAnswer::scene);
+}
+
+Convergence converged(const SceneAnswer& answer) {
+  return converge(library_scene(answer.scene),
+                  {.quantity = answer.quantity, .error = wanted, .relative = true, .at = answer.t, .jobs = 2});
+}
+
+class ConvergedScenes : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ConvergedScenes, UncertaintyCoversTheTrueError) {
+  const SceneAnswer answer = known_answer(GetParam());
+  const Convergence found = converged(answer);
+  const double error = std::abs(found.answer - answer.value);
+  EXPECT_TRUE(found.reached) << found.reason;
+  EXPECT_LE(error, found.uncertainty + answer.uncertainty);
+  EXPECT_LE(found.uncertainty, wanted * std::abs(found.answer) * (1 + 1e-3));
+  EXPECT_LE(found.cost, 15);
+  EXPECT_TRUE(found.cheapest);
+  std::cout << "error " << error << ", uncertainty " << found.uncertainty << ", cost " << found.cost << '\n';
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ConvergedScenes, ::testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const SceneAnswer& answer : known_answers()) names.push_back(answer.scene);
+                           return names;
+                         }()),
+                         [](const auto& instance) { return instance.param; });
+
+// Of scenes whose answers are known to a millionth: elsewhere an error says little of how close the uncertainty is.
+TEST(Converge, MostUncertaintiesAreCloseToTheTrueError) {
   int known = 0, close = 0;
-  for (const SceneAnswer& answer : scene_answers(source / "reference" / "scenes.json")) {
-    if (answer.kind == "self-convergence" || library_scene(answer.scene).analysis == Analysis::statics) continue;
-    ++known;
-    const Convergence found =
-        converge(library_scene(answer.scene),
-                 {.quantity = answer.quantity, .error = wanted, .relative = true, .at = answer.t, .jobs = 2});
+  for (const SceneAnswer& answer : known_answers()) {
+    if (answer.uncertainty > 1e-6 * std::abs(answer.value)) continue;
+    const Convergence found = converged(answer);
     const double error = std::abs(found.answer - answer.value);
-    EXPECT_TRUE(found.reached) << answer.scene << ": " << found.reason;
-    EXPECT_LE(error, found.uncertainty + answer.uncertainty) << answer.scene;
-    EXPECT_LE(found.uncertainty, wanted * std::abs(found.answer) * (1 + 1e-3)) << answer.scene;
-    EXPECT_LE(found.cost, 15) << answer.scene;
-    EXPECT_TRUE(found.cheapest) << answer.scene;
-    // An error within what the answer itself is known to says nothing of how close the uncertainty is.
+    ++known;
     close += error > answer.uncertainty && found.uncertainty <= 20 * error ? 1 : 0;
-    std::cout << answer.scene << ": error " << error << ", uncertainty " << found.uncertainty << ", cost " << found.cost
-              << '\n';
   }
   EXPECT_GE(known, 10);
-  EXPECT_GE(close, 7);
+  EXPECT_GT(2 * close, known);
 }
 
 TEST(Converge, TheCheapestSettingKeepsTheError) {
@@ -49,12 +81,7 @@ TEST(Converge, TheCheapestSettingKeepsTheError) {
   scene.beam.axial_strain = AxialStrain::full;  // the other needs no finer mesh
   const Convergence found = converge(scene, {.quantity = "end.y", .error = 1e-3});
   ASSERT_TRUE(found.cheapest);
-  const SceneAnswer answer = [] {
-    for (const SceneAnswer& a : scene_answers(source / "reference" / "scenes.json")) {
-      if (a.scene == "pendulum") return a;
-    }
-    return SceneAnswer{};
-  }();
+  const SceneAnswer answer = known_answer("pendulum");
   for (const ConvergeLevel& level : found.levels) {
     if (level.setting == *found.cheapest) {
       EXPECT_LE(std::abs(level.value - answer.value), 1e-3);
