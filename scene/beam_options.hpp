@@ -106,7 +106,9 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
            "alpha of damping in proportion to the beam's mass: a force -alpha times the momentum",
            beam.material.mass_damping);
     number("/beam/material/curvature_regularization", "1/m", Range::non_negative(),
-           "kappa_reg of bending damping and of a curved rest shape in 3D, which have no direction on a straight beam",
+           "kappa_reg of bending damping and of a curved rest shape in 3D, which have no direction on a straight beam; "
+           "frames "
+           "need none",
            beam.material.curvature_regularization);
   }
 

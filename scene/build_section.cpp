@@ -64,13 +64,21 @@ BeamSection build_section(const BeamSpec& beam) {
 FrameSection build_frames(const BeamSpec& beam) {
   const Section& section = beam.section;
   if (!is_solid(section)) {
-    return {section.EI_y.value_or(section.EI), section.EI_z.value_or(section.EI), section.GIp, section.rhoIp,
-            beam.strain_law};
+    return {section.EI_y.value_or(section.EI),
+            section.EI_z.value_or(section.EI),
+            section.GIp,
+            section.rhoIp,
+            beam.strain_law,
+            beam.material.damping};
   }
   const SolidSection of = solid(section);
   const double E = beam.material.youngs_modulus;
-  return {E * of.area * of.i2_y, E * of.area * of.i2_z, shear_modulus(beam.material) * of.torsion,
-          beam.material.density * of.area * (of.i2_y + of.i2_z), beam.strain_law};
+  return {E * of.area * of.i2_y,
+          E * of.area * of.i2_z,
+          shear_modulus(beam.material) * of.torsion,
+          beam.material.density * of.area * (of.i2_y + of.i2_z),
+          beam.strain_law,
+          beam.material.damping};
 }
 
 SpinSection build_spin(const BeamSpec& beam) {

@@ -222,7 +222,8 @@ void check_beam(const Scene& scene) {
     refuse("/beam/out_of_plane", quoted(*beam.out_of_plane),
            "it is to be left out but where \"dimension\" is 3 and a beam that bends is curved at rest");
   }
-  if (scene.dimension == 3 && bends && beam.material.damping > 0 && beam.material.curvature_regularization == 0) {
+  if (scene.dimension == 3 && bends && !frames && beam.material.damping > 0 &&
+      beam.material.curvature_regularization == 0) {
     refuse("/beam/material/curvature_regularization", "0",
            "bending damping in 3D has no direction on a straight beam: it must be a number > 0 [1/m], such as " +
                number_text(regularization_share / beam_length(scene)) + ", or the damping 0");

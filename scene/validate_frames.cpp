@@ -133,10 +133,6 @@ void check_others(const Scene& scene) {
   if (scene.beam.rotary_inertia != BendingInertia::none) {
     refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), law + "it must be \"none\"");
   }
-  if (scene.beam.material.damping != 0) {
-    refuse("/beam/material/damping", number_text(scene.beam.material.damping),
-           law + "it must be 0: take mass_damping or /drag");
-  }
   if (scene.constraints != Constraints::eliminated) {
     refuse("/constraints", quoted(scene.constraints), law + "it must be \"eliminated\"");
   }

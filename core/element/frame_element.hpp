@@ -124,6 +124,8 @@ class FrameElement {
   /// [J], of bending and of torsion.
   std::array<Real, 2> energy(const Real& inner) const;
   FrameForce<Real> force(const Real& inner) const;
+  /// The derivative of a strain: of y, z and torsion at the first point of the table, then at the second.
+  FrameForce<Real> derivative(std::size_t strain, const Real& inner) const;
   /// The largest curvature of both points, from the rest shape [1/m].
   double bent(double inner) const {
     double largest = 0;
@@ -208,7 +210,13 @@ class FrameElement {
     by_x[2] += rise * share;
     return {by_x, n.cross(at.r_x) - around(at.r_x) * share};
   }
+  /// Of the moments that the section answers strains with; of any other ones.
   Pull pull(std::size_t g, const Real& inner, const SineCosine<Real>& of) const;
+  Pull pull(std::size_t g, const FrameStrain<Real>& strain, const SineCosine<Real>& of,
+            const FrameStrain<Real>& moment) const;
+  /// Adds what a point does; takes what acts on the tangent in the middle, and all out of the components inside.
+  void add(std::size_t g, const Pull& here, FrameForce<Real>& force, Vector& on_middle) const;
+  FrameForce<Real> outside(FrameForce<Real> force, Vector on_middle) const;
 
   const Table& table_;
   const FrameSection& section_;
@@ -306,27 +314,63 @@ template <class Real>
 typename FrameElement<Real>::Pull FrameElement<Real>::pull(std::size_t g, const Real& inner,
                                                            const SineCosine<Real>& of) const {
   const auto& point = table_.points[g];
+  const FrameStrain<Real> strain = this->strain(g, inner, of);
+  const Real w(point.weight);
+  const Real y = w * Real(section_.EI_y) * (strain.y - Real(point.rest.y));
+  const Real z = w * Real(section_.EI_z) * (strain.z - Real(point.rest.z));
+  const Real torque = w * Real(section_.GIp) * (strain.torsion - Real(point.rest.torsion));
+  return pull(g, strain, of, {y, z, torque});
+}
+
+template <class Real>
+typename FrameElement<Real>::Pull FrameElement<Real>::pull(std::size_t g, const FrameStrain<Real>& strain,
+                                                           const SineCosine<Real>& of,
+                                                           const FrameStrain<Real>& moment) const {
   const Seen& at = points_[g];
   const double n = curvature_power(section_.law);
   Pull result;
-  result.strain = strain(g, inner, of);
+  result.strain = strain;
   result.turn = {at.sine * of.cosine + at.cosine * of.sine, at.cosine * of.cosine - at.sine * of.sine};
   const auto& [sine, cosine] = result.turn;
-  const Real w(point.weight);
-  const Real y = w * Real(section_.EI_y) * (result.strain.y - Real(point.rest.y));
-  const Real z = w * Real(section_.EI_z) * (result.strain.z - Real(point.rest.z));
-  const Real torque = w * Real(section_.GIp) * (result.strain.torsion - Real(point.rest.torsion));
-  result.moment = {y, z, torque};
+  const auto& [y, z, torque] = moment;
+  result.moment = moment;
   result.n = {y * cosine - z * sine, y * sine + z * cosine, -torque};
-  result.spin = y * result.strain.z - z * result.strain.y;
+  result.spin = y * strain.z - z * strain.y;
   const auto by = gradient(at, result.n);
   const Real per_square = at.per_stretch * at.per_stretch;
   // the sum of the strains times what acts on them, which |r_x| divides n times
-  Real shrinks = Real(n) * (y * result.strain.y + z * result.strain.z + torque * at.own);
-  if (green()) shrinks += torque * (result.strain.torsion - at.own);  // torsion by the stretch
+  Real shrinks = Real(n) * (y * strain.y + z * strain.z + torque * at.own);
+  if (green()) shrinks += torque * (strain.torsion - at.own);  // torsion by the stretch
   result.on_x = by[0] * at.over - at.r_x * Real(shrinks * per_square);
   result.on_xx = by[1] * at.over;
   return result;
+}
+
+template <class Real>
+void FrameElement<Real>::add(std::size_t g, const Pull& here, FrameForce<Real>& force, Vector& on_middle) const {
+  const auto& point = table_.points[g];
+  const Seen& at = points_[g];
+  const Real torque = here.moment.torsion * at.per_length;
+  force.spin_a += here.spin * Real(1 - point.u) - torque;
+  force.spin_b += here.spin * Real(point.u) + torque;
+  force.inner += at.by_inner * here.moment.torsion + here.spin * Real(point.bump());
+  force.chord += here.on_x * Real(point.s_x[0]) + here.on_xx * Real(point.s_xx[0]);
+  force.s_a += here.on_x * Real(point.s_x[1]) + here.on_xx * Real(point.s_xx[1]);
+  force.s_b += here.on_x * Real(point.s_x[2]) + here.on_xx * Real(point.s_xx[2]);
+  for (int i = 0; i < 2; ++i) {
+    on_middle[i] +=
+        at.r_x[i] * here.on_x[2] - at.r_x[2] * here.on_x[i] + at.r_xx[i] * here.on_xx[2] - at.r_xx[2] * here.on_xx[i];
+  }
+}
+
+template <class Real>
+FrameForce<Real> FrameElement<Real>::outside(FrameForce<Real> force, Vector on_middle) const {
+  on_middle += a_.by_middle() * force.spin_a + b_.by_middle() * force.spin_b;
+  on_middle *= per_stretch_m_;
+  force.chord = outside(force.chord + on_middle * Real(table_.middle[0]));
+  force.s_a = outside(force.s_a + a_.by_slope() * force.spin_a + on_middle * Real(table_.middle[1]));
+  force.s_b = outside(force.s_b + b_.by_slope() * force.spin_b + on_middle * Real(table_.middle[2]));
+  return force;
 }
 
 /// What follows a strain's change back to what it changes with.
@@ -335,28 +379,19 @@ FrameForce<Real> FrameElement<Real>::force(const Real& inner) const {
   FrameForce<Real> force;
   Vector on_middle = Vector::Zero();  // on the tangent there, which turns all that is inside the other way
   const auto of = sine_cosine(Real(inner * table_.points[0].bump()));
-  for (std::size_t g = 0; g < 2; ++g) {
-    const auto& point = table_.points[g];
-    const Seen& at = points_[g];
-    const Pull here = pull(g, inner, of);
-    const Real torque = here.moment.torsion * at.per_length;
-    force.spin_a += here.spin * Real(1 - point.u) - torque;
-    force.spin_b += here.spin * Real(point.u) + torque;
-    force.inner += at.by_inner * here.moment.torsion + here.spin * Real(point.bump());
-    force.chord += here.on_x * Real(point.s_x[0]) + here.on_xx * Real(point.s_xx[0]);
-    force.s_a += here.on_x * Real(point.s_x[1]) + here.on_xx * Real(point.s_xx[1]);
-    force.s_b += here.on_x * Real(point.s_x[2]) + here.on_xx * Real(point.s_xx[2]);
-    for (int i = 0; i < 2; ++i) {
-      on_middle[i] +=
-          at.r_x[i] * here.on_x[2] - at.r_x[2] * here.on_x[i] + at.r_xx[i] * here.on_xx[2] - at.r_xx[2] * here.on_xx[i];
-    }
-  }
-  on_middle += a_.by_middle() * force.spin_a + b_.by_middle() * force.spin_b;
-  on_middle *= per_stretch_m_;
-  force.chord = outside(force.chord + on_middle * Real(table_.middle[0]));
-  force.s_a = outside(force.s_a + a_.by_slope() * force.spin_a + on_middle * Real(table_.middle[1]));
-  force.s_b = outside(force.s_b + b_.by_slope() * force.spin_b + on_middle * Real(table_.middle[2]));
-  return force;
+  for (std::size_t g = 0; g < 2; ++g) add(g, pull(g, inner, of), force, on_middle);
+  return outside(force, on_middle);
+}
+
+template <class Real>
+FrameForce<Real> FrameElement<Real>::derivative(std::size_t strain, const Real& inner) const {
+  FrameForce<Real> force;
+  Vector on_middle = Vector::Zero();
+  const auto of = sine_cosine(Real(inner * table_.points[0].bump()));
+  const std::size_t g = strain / 3;
+  const auto one = [&](std::size_t i) { return Real(strain % 3 == i ? 1 : 0); };
+  add(g, pull(g, this->strain(g, inner, of), of, {one(0), one(1), one(2)}), force, on_middle);
+  return outside(force, on_middle);
 }
 
 /// Where an end of an element is and how it is turned by its angle.

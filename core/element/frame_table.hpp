@@ -14,6 +14,7 @@ struct FrameSection {
   double GIp = 0;             ///< [N m^2]
   double rhoIp = 0;           ///< [kg m]
   StrainLaw law = StrainLaw::green;
+  double damping = 0;  ///< Kelvin-Voigt time c [s], of bending and torsion
 };
 
 /// Two curvatures and the torsion [1/m].

@@ -114,6 +114,7 @@ Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   packs_.add_forces(model_.section, nodes_, turned_, force, force + angle(0));
   add_sliding_force(q, force);
   Tally power;
+  if (damped()) power.dissipated = add_damping(q, rate, force);
   if (!model_.torques.present()) return power;
   const auto turn = [&](int k, double torque) {
     force[angle(k)] += torque;
@@ -175,6 +176,7 @@ void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, Beam
   look(q);
   if (by.q != 0) packs_.add_tangents(model_.section, nodes_, turned_, by.q, tangent);
   add_sliding_tangent(motion, by, tangent);
+  if (damped()) add_damping_tangent(motion, by, tangent);
   if (model_.torques.present() && by.q != 0) {
     const auto turn = [&](int k, double torque) {
       tangent.add_slope_stiffness(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/dynamics/memory.hpp"
+#include "core/element/frame_damping.hpp"
 #include "core/element/frame_table.hpp"
 #include "core/element/moving_frame_spin.hpp"
 #include "core/element/triad.hpp"
@@ -52,7 +53,7 @@ class Frames final : public Part<3> {
                  std::shared_ptr<const RestTriads> along);
 
   Tally add_force(const Motion<3>& motion, double* force) const override;
-  bool has_power() const override { return model_.torques.present(); }
+  bool has_power() const override { return model_.torques.present() || damped(); }
   /// With that of the inertia.
   void add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const override;
   /// Adds M a and what is quadratic in velocities.
@@ -124,6 +125,14 @@ class Frames final : public Part<3> {
   void factor_spin_matrix() const;
   /// Writes the spins and the momenta.
   void look_at_spins(const double* rate) const;
+
+  bool damped() const { return model_.section.damping != 0; }
+  /// Element k, whose table is of length 1 where its ends may move.
+  FrameDamping damping_of(const FrameTable& table, const double* q, int k) const;
+  FrameVector gathered(const double* q, int k) const;
+  /// Returns the power that is lost [W].
+  double add_damping(const double* q, const double* rate, double* force) const;
+  void add_damping_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const;
 
   /// An element between marks of which one or both move.
   struct Sliding {

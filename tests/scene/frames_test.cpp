@@ -117,11 +117,6 @@ TEST(SpaceLaw, RefusesByName) {
          line(s);
          s.beam.section.EI = 0;
        }},
-      {"/beam/material/damping", "0",
-       [&](Scene& s) {
-         s.beam.material.damping = 0.1;
-         s.beam.material.curvature_regularization = 1e-3;
-       }},
       {"/sliding_mass/slopes", "continuous",
        [](Scene& s) {
          s.sliding_mass.emplace().position = 0.3;

@@ -16,7 +16,7 @@ using Column = Eigen::Matrix<double, unknowns, 1>;
 /// A chain of two elements whose sections stand as they like.
 struct Chain {
   Mesh mesh{{0, 0.4, 1}, {{unit_weights, 0, 0.4}, {unit_weights, 0.4, 1}}};
-  FrameModel model{{3, 5, 2, 0.7, StrainLaw::green}};
+  FrameModel model{{3, 5, 2, 0.7, StrainLaw::green, 0.02}};
   Column q, rate, a;
   std::vector<TriadReference> references;
   std::unique_ptr<Frames> frames;

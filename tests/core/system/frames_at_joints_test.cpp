@@ -6,6 +6,7 @@
 
 #include "core/system/implicit_beam.hpp"
 #include "scene/build.hpp"
+#include "scene/energy_ledger.hpp"
 #include "scene/simulate.hpp"
 #include "tests/core/support/checkpoints.hpp"
 #include "tests/core/support/differences.hpp"
@@ -130,6 +131,23 @@ TEST(FramesAtJoints, AFreeBeamKeepsMomentaAndEnergy) {
   EXPECT_NEAR(events.samples.back().energy.total(), events.samples.front().energy.total(), 1e-8);
 }
 
+/// What damping takes is what the energy lacks, in smooth motion and through events.
+TEST(FramesAtJoints, DampingIsBooked) {
+  Scene scene = free_helix(6);
+  scene.beam.material.damping = 0.01;
+  scene.sliding_mass->velocity = 2;
+  scene.duration = 0.25;
+  scene.integrator.rtol = scene.integrator.atol = 1e-9;
+  scene.length_control.velocities = VelocityTransfer::conservative;
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  EXPECT_GE(result.events.size(), 1U);
+  const Sample &last = result.samples.back(), &first = result.samples.front();
+  EXPECT_GT(last.energy.dissipated, 1e-3 * result.max_kinetic);
+  EXPECT_LE(energy_ledger(result).largest_drift, 1e-8 * result.max_kinetic);
+  EXPECT_LE(off(last.momentum, first.momentum), 1e-10);
+}
+
 /// What the first cut and merge change of the energy, over meshes: of order 4, as in the plane.
 TEST(FramesAtJoints, CutsAndMergesConvergeFast) {
   std::vector<double> jumps;
@@ -219,6 +237,7 @@ struct ChainInSpace {
     if (friction) scene.sliding_joints[0].friction = AxialFriction{0.3, 0.4};
     scene.initial_velocity.reset();
     scene.start.type = SupportType::clamp;
+    scene.beam.material.damping = 0.02;
     if (torques) {
       scene.loads = {{.type = LoadType::torque,
                       .at = LoadPlace::point,
