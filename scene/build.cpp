@@ -113,6 +113,12 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
           joint_key(scene, which) + "/position", number_text(x),
           "it must be inside the beam: more than 0 and less than " + number_text(breaks.back()) + " [m]");
     }
+    if (which > 0 && joints[which].position <= joints[which - 1].position) {
+      throw InvalidInput(joint_key(scene, which) + "/position", number_text(x),
+                         "joints stand in order along the beam: it must be more than " +
+                             number_text(joints[which - 1].position) + " [m], by that of " +
+                             joint_key(scene, which - 1));
+    }
     const int first = nodes.joints.empty() ? 1 : nodes.joints.back() + 1;
     if (std::binary_search(breaks.begin(), breaks.end(), x)) {
       const int there = static_cast<int>(std::ranges::lower_bound(nodes.x, x) - nodes.x.begin());

@@ -1,6 +1,8 @@
 #include "scene/validate_loads.hpp"
 
 #include <algorithm>
+#include <string>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "scene/build.hpp"
@@ -92,6 +94,19 @@ void check_ground(const Scene& scene) {
   if (flows(scene)) refuse("/ground", "this key", "it goes together with neither /flow nor rotary inertia");
   if (scene.integrator.type == IntegratorType::energy_momentum) {
     refuse("/integrator/type", quoted(scene.integrator.type), "it knows no /ground: take any other");
+  }
+  // an end that is held below the floor would be pushed with all its stiffness
+  const Axis<3> drawn = drawn_axis<3>(scene.beam.curve);
+  const Eigen::Map<const Vec<double, 3>> gravity(scene.gravity.data());
+  const double slack = scene.ground->depth.value_or(0) + 1e-3 * drawn.length();
+  for (const auto& [end, x, name] : {std::tuple(&scene.start, 0.0, "start"), {&scene.end, drawn.length(), "end"}}) {
+    if (end->type == SupportType::free) continue;
+    const double height = -drawn.derivatives(x)[0].dot(gravity.normalized());
+    if (height < scene.ground->height - slack) {
+      refuse("/ground/height", number_text(scene.ground->height),
+             "the support at the " + std::string(name) + " of the beam would be below the floor: it must be at most " +
+                 number_text(height) + " [m]");
+    }
   }
 }
 

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -88,8 +89,13 @@ std::string level_line(const Scene& scene, const ConvergeLevel& level) {
 std::string convergence_summary(const Scene& given, const Convergence& found) {
   const Scene scene = to_converge(given);
   std::ostringstream text;
-  text << found.quantity << " at t = " << number_text(found.t) << " s: " << in_digits(found.answer, 10) << " +- "
-       << in_digits(found.uncertainty, 2) << " " << found.unit << '\n';
+  const bool known = std::isfinite(found.answer);
+  text << found.quantity << " at t = " << number_text(found.t) << " s: ";
+  if (known) {
+    text << in_digits(found.answer, 10) << " +- " << in_digits(found.uncertainty, 2) << " " << found.unit << '\n';
+  } else {
+    text << "nothing is known yet\n";
+  }
   for (std::size_t i = 0; i < refined_names.size(); ++i) {
     if (!found.parts[i]) continue;
     const GridConvergence& part = *found.parts[i];
@@ -101,15 +107,17 @@ std::string convergence_summary(const Scene& given, const Convergence& found) {
     text << "  the error wanted, " << in_digits(found.error, 3) << ", is reached\n";
     if (found.cheapest) text << "  cheapest    " << setting_text(scene, *found.cheapest) << '\n';
   } else {
-    text << "  the error wanted, " << in_digits(found.error, 3) << ", is NOT reached: " << found.reason
-         << "\n  it is kept until t = " << number_text(found.predictable_until) << " s\n";
+    text << "  the error wanted, " << in_digits(found.error, 3) << ", is NOT reached: " << found.reason << '\n';
+    if (known) text << "  it is kept until t = " << number_text(found.predictable_until) << " s\n";
   }
   if (found.horizon) {
     text << "  horizon     a density changed in its 8th digit matters less than that until t = "
          << number_text(*found.horizon) << " s\n";
   }
-  text << "  finest      " << setting_text(scene, found.finest) << '\n'
-       << "  cost        " << found.levels.size() << " runs, worth " << in_digits(found.cost, 3) << " of the finest\n";
+  if (known) text << "  finest      " << setting_text(scene, found.finest) << '\n';
+  text << "  cost        " << found.levels.size() << (found.levels.size() == 1 ? " run" : " runs");
+  if (known) text << ", worth " << in_digits(found.cost, 3) << " of the finest";
+  text << '\n';
   return text.str();
 }
 

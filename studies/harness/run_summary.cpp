@@ -23,18 +23,29 @@ std::string point_text(const Point& point, int dimension) {
   return text + ") m";
 }
 
+/// "a ring", "3 rings".
+std::string count_text(int count, const std::string& thing) {
+  return count == 1 ? "a " + thing : std::to_string(count) + " " + thing + "s";
+}
+
 std::string beam_text(const Scene& scene) {
   std::string text = std::to_string(scene.beam.elements) + " elements " + std::string(to_string(scene.beam.element)) +
                      ", " + std::string(to_string(scene.formulation)) + ", " + six_digits(beam_length(scene)) + " m";
   const auto joints = sliding_joints(scene);
+  int rings = 0, sleeves = 0;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const SlidingJointSpec& joint = joints[i];
     if (in_block(scene, i)) continue;
-    text += joint.support == SupportType::pin     ? "; runs through a ring"
-            : joint.support == SupportType::clamp ? "; runs through a sleeve"
-            : joint.x                             ? "; " + six_digits(joint.mass) + " kg is guided along it"
-                                                  : "; " + six_digits(joint.mass) + " kg slides on it";
+    if (joint.support == SupportType::pin) {
+      ++rings;
+    } else if (joint.support == SupportType::clamp) {
+      ++sleeves;
+    } else {
+      text += "; " + six_digits(joint.mass) + (joint.x ? " kg is guided along it" : " kg slides on it");
+    }
   }
+  if (rings > 0) text += "; runs through " + count_text(rings, "ring");
+  if (sleeves > 0) text += "; runs through " + count_text(sleeves, "sleeve");
   for (const BlockSpec& block : scene.blocks) {
     text += "; a block of " + six_digits(block.mass) + " kg with " + std::to_string(block.joints.size()) + " sheaves";
   }
@@ -42,8 +53,7 @@ std::string beam_text(const Scene& scene) {
   if (scene.flow) text += "; flows";
   if (may_have_corners(scene.beam.curve)) {
     const auto round = rounded_corners(scene, drawn_axis<3>(scene.beam.curve)).size();
-    if (round > 0)
-      text += "; " + std::to_string(round) + (round == 1 ? " corner" : " corners") + " rounded off, which shorten it";
+    if (round > 0) text += "; " + std::to_string(round) + (round == 1 ? " corner is" : " corners are") + " rounded off";
   }
   if (const auto count = knots(scene).size(); count > 0) {
     text += "; " + std::to_string(count) + (count == 1 ? " node" : " nodes") +
@@ -186,6 +196,26 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
   return text.str();
 }
 
+/// Where joints are along the beam, and the first one in space.
+template <class Line>
+void joint_lines(const Scene& scene, const Sample& last, const Line& line) {
+  if (last.joints.size() > 1) {
+    std::string places;
+    for (const SlidingSample& joint : last.joints) {
+      places += (places.empty() ? "" : ", ") + (joint.position ? in_digits(*joint.position, 8) : "off the beam");
+    }
+    line("joints at", places + " m along it");
+    return;
+  }
+  if (last.joint_position) line("joint position", in_digits(*last.joint_position, 8) + " m");
+  if (!last.mass_position) return;
+  const SupportType held = sliding_joints(scene).front().support;
+  line(held == SupportType::pin     ? "ring position"
+       : held == SupportType::clamp ? "sleeve position"
+                                    : "mass position",
+       point_text(*last.mass_position, scene.dimension));
+}
+
 }  // namespace
 
 std::string run_summary(const Scene& scene, const RunResult& result) {
@@ -205,8 +235,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
     if (first.equilibrium) line("start", start_text(scene, *first.equilibrium));
     line("time reached", in_digits(last.t, 8) + " s of " + in_digits(scene.duration, 8) + " s");
     line("end of beam", point_text(last.end, scene.dimension));
-    if (last.joint_position) line("joint position", in_digits(*last.joint_position, 8) + " m");
-    if (last.mass_position) line("mass position", point_text(*last.mass_position, scene.dimension));
+    joint_lines(scene, last, line);
     const double size = largest_energy(result);
     line("total energy", energy_text(last.energy.total(), size, 8) + ", at the start " +
                              energy_text(result.samples.front().energy.total(), size, 8) + ", kinetic up to " +

@@ -7,6 +7,7 @@
 
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
+#include "scene/validate.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam {
@@ -284,6 +285,18 @@ TEST(Corners, ARopesOtherCornersBecomeRound) {
   test::set_tolerance(scene, IntegratorType::dopri5, 1e-9);
   scene.duration = 0.02;
   EXPECT_LE(test::completed(scene).max_kinetic, 1e-14) << "it is not stressed";
+}
+
+TEST(Corners, JointsInAnotherOrderAreNamed) {
+  Scene scene = string_along({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}}, 12);
+  scene.sliding_joints = {ring_at(2), ring_at(1)};
+  try {
+    validate(scene);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, "/sliding_joints/1/position");
+    EXPECT_NE(error.allowed.find("in order"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Corners, AreRefusedWithTheirPlaceWhereTheyCannotBe) {

@@ -90,6 +90,18 @@ TEST(Mooring, AStreamTakesARodAlong) {
   EXPECT_LE(energy_ledger(run).largest_unexplained, 1e-9) << "in reports, too";
 }
 
+TEST(Mooring, NoSupportStandsBelowTheFloor) {
+  Scene scene;
+  scene.start.type = SupportType::pin;
+  scene.ground = GroundSpec{.height = 0, .stiffness = 1e4};
+  scene.duration = 1e-3;
+  EXPECT_EQ(test::refused(scene), "nothing");
+  scene.ground->height = 1;
+  EXPECT_EQ(test::refused(scene), "/ground/height");
+  scene.start.type = SupportType::free;
+  EXPECT_EQ(test::refused(scene), "nothing") << "what lies below the floor comes up";
+}
+
 // It falls, bounces, and what the ground keeps is booked.
 TEST(Mooring, ARodBouncesOffTheGroundAndTheLedgerCloses) {
   Scene scene;
