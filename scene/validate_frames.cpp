@@ -138,8 +138,8 @@ void check_others(const Scene& scene) {
   }
   const IntegratorType type = scene.integrator.type;
   const bool moves = scene.analysis == Analysis::dynamics;
-  if (moves && (type == IntegratorType::energy_momentum || type == IntegratorType::rosenbrock4 || of_sundials(type))) {
-    refuse("/integrator/type", quoted(type), law + "take \"generalized-alpha\" or an explicit method of Odeint");
+  if (moves && (type == IntegratorType::energy_momentum || of_sundials(type))) {
+    refuse("/integrator/type", quoted(type), law + "take \"generalized-alpha\" or a method of Odeint");
   }
 }
 

@@ -126,3 +126,18 @@ struct Eigen::ScalarBinaryOpTraits<double, vlbeam::Active<N>, Operation> {
   using ReturnType = vlbeam::Active<N>;
 };
 /// @endcond
+
+namespace vlbeam {
+
+/// Values as variables, with derivatives of this size.
+template <int N>
+Eigen::Matrix<Active<N>, N, 1> varied(const Eigen::Matrix<double, N, 1>& values, double size) {
+  Eigen::Matrix<Active<N>, N, 1> result;
+  for (int i = 0; i < N; ++i) {
+    result[i] = Active<N>(values[i]);
+    result[i].derivatives()[i] = size;
+  }
+  return result;
+}
+
+}  // namespace vlbeam

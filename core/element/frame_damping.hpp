@@ -77,14 +77,10 @@ struct FrameDamping {
       Real spin;
     };
     const auto look = [&](const TriadReference& from, int i) {
-      using std::sqrt;
       End end;
       end.s = q.template segment<3>(i + 3);
       end.A = from.spin_by_slope<Real>(end.s);
-      const Vector t = end.s / Real(sqrt(end.s.dot(end.s)));
-      const Vector d = carried<Real>(from.t.cast<Real>(), t, from.d.cast<Real>());
-      const auto [sine, cosine] = sine_cosine(q[i + 6]);
-      end.d = d * cosine + t.cross(d) * sine;
+      end.d = from.direction<Real>(end.s, q[i + 6]);
       end.r_rate = rate.template segment<3>(i);
       end.s_rate = rate.template segment<3>(i + 3);
       end.spin = rate[i + 6] + end.A.dot(end.s_rate);

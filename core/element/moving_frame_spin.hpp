@@ -105,14 +105,10 @@ struct MovingFrameInertia {
   };
   template <class Real>
   static Node<Real> node(const TriadReference& from, const Eigen::Matrix<Real, 16, 1>& q, int at) {
-    using std::sqrt;
     Node<Real> node;
     node.s = q.template segment<3>(at + 3);
     node.A = from.spin_by_slope<Real>(node.s);
-    const Vec<Real, 3> t = node.s / Real(sqrt(node.s.dot(node.s)));
-    const Vec<Real, 3> d = carried<Real>(from.t.cast<Real>(), t, from.d.cast<Real>());
-    const auto [sine, cosine] = sine_cosine(q[at + 6]);
-    node.d = d * cosine + t.cross(d) * sine;
+    node.d = from.direction<Real>(node.s, q[at + 6]);
     return node;
   }
   template <class Real>

@@ -35,8 +35,11 @@ struct SectionState {
 struct TriadReference {
   Vec<double, 3> t, d;
 
-  Vec<double, 3> direction(const Vec<double, 3>& s, double phi) const {
-    const Vec<double, 3> now = s.normalized(), from = carried<double>(t, now, d);
+  template <class Real>
+  Vec<Real, 3> direction(const Vec<Real, 3>& s, const Real& phi) const {
+    using std::sqrt;
+    const Vec<Real, 3> now = s / Real(sqrt(s.dot(s)));
+    const Vec<Real, 3> from = carried<Real>(t.cast<Real>(), now, d.cast<Real>());
     const auto [sine, cosine] = sine_cosine(phi);
     return from * cosine + now.cross(from) * sine;
   }

@@ -8,22 +8,6 @@
 #include "core/parts/frames.hpp"
 
 namespace vlbeam {
-namespace {
-
-using SlidingNumber = Active<16>;
-using SlidingNumbers = Eigen::Matrix<SlidingNumber, 16, 1>;
-
-/// All coordinates as variables, with derivatives of this size.
-SlidingNumbers varied(const MovingFrameVector& values, double size) {
-  SlidingNumbers result;
-  for (int i = 0; i < 16; ++i) {
-    result[i] = SlidingNumber(values[i]);
-    result[i].derivatives()[i] = size;
-  }
-  return result;
-}
-
-}  // namespace
 
 void Frames::let_slide(std::span<const JointPlace> joints, Eigen::Index angles, const Axis<3>* rest,
                        std::shared_ptr<const RestTriads> along) {
@@ -149,15 +133,15 @@ void Frames::add_sliding_tangent(const Motion<3>& motion, const TangentWeights& 
     MovingFrameMatrix matrix = MovingFrameMatrix::Zero();
     if (by.q != 0) matrix = by.q * element_at(sliding, q).tangent();
     const MovingFrameInertia inertia = inertia_of(sliding, q);
-    const SlidingNumbers at = varied(gathered(sliding, q, false), by.q);
+    const auto at = varied(gathered(sliding, q, false), by.q);
     if (model_.section.rhoIp != 0 && a != nullptr) {
-      const auto r = inertia.residual<SlidingNumber>(at, varied(gathered(sliding, rate, true), by.v),
-                                                     varied(gathered(sliding, a, true), by.a));
+      const auto r = inertia.residual<Active<16>>(at, varied(gathered(sliding, rate, true), by.v),
+                                                  varied(gathered(sliding, a, true), by.a));
       for (int i = 0; i < 16; ++i) matrix.row(i) += r[i].derivatives().transpose();
     }
     if (model_.torques.present() && by.q != 0) {
-      const auto push = [&](const SlidingNumber& u, const SlidingNumber& torque) {
-        const auto f = inertia.torque<SlidingNumber>(at, u, torque);
+      const auto push = [&](const Active<16>& u, const Active<16>& torque) {
+        const auto f = inertia.torque<Active<16>>(at, u, torque);
         for (int i = 0; i < 16; ++i) matrix.row(i) -= f[i].derivatives().transpose();
       };
       for (const Torques::Point& load : model_.torques.points) {
@@ -166,7 +150,7 @@ void Frames::add_sliding_tangent(const Motion<3>& motion, const TangentWeights& 
         push((x - at[14]) / (at[15] - at[14]), load.torque(motion.t));
       }
       if (model_.torques.line) {
-        push(SlidingNumber(0.5), (at[15] - at[14]) * model_.torques.line(motion.t));
+        push(Active<16>(0.5), (at[15] - at[14]) * model_.torques.line(motion.t));
       }
     }
     tangent.add_moving_frame(sliding.element, matrix, sliding.joints);

@@ -7,21 +7,10 @@
 namespace vlbeam {
 namespace {
 
-/// All coordinates as variables, with derivatives of this size.
-template <int N>
-Eigen::Matrix<Active<N>, N, 1> varied(const Eigen::Matrix<double, N, 1>& values, double size) {
-  Eigen::Matrix<Active<N>, N, 1> result;
-  for (int i = 0; i < N; ++i) {
-    result[i] = Active<N>(values[i]);
-    result[i].derivatives()[i] = size;
-  }
-  return result;
-}
-
 template <int N>
 Eigen::Matrix<double, N, N> tangent_of(const FrameDamping& damping, const Eigen::Matrix<double, N, 1>& q,
                                        const Eigen::Matrix<double, N, 1>& rate, const TangentWeights& by) {
-  const auto answer = damping.at<Active<N>, N>(varied<N>(q, by.q), varied<N>(rate, by.v));
+  const auto answer = damping.at<Active<N>, N>(varied(q, by.q), varied(rate, by.v));
   Eigen::Matrix<double, N, N> result;
   for (int i = 0; i < N; ++i) result.row(i) = answer.force[i].derivatives().transpose();
   return result;

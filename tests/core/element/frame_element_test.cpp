@@ -232,7 +232,7 @@ TEST(FrameElement, KnowsNothingOfItsReferences) {
     const auto built = oracle.nodes(q);
     Random random(4);
     const auto seen_from = [&](const FrameNode& node, const TriadReference& other) {
-      const Vec<double, 3> t = node.s.normalized(), d = node.direction, from = other.direction(node.s, 0);
+      const Vec<double, 3> t = node.s.normalized(), d = node.direction, from = other.direction(node.s, 0.0);
       return std::atan2(t.dot(from.cross(d)), from.dot(d));
     };
     std::array<TriadReference, 2> others;
@@ -279,7 +279,7 @@ TEST(TriadReference, SpinIsWhatASlopeTurnsItBy) {
     const Vec<Dual<double>, 3> d =
         smallest_rotation<Dual<double>>(from.t.cast<Dual<double>>(), t, from.d.cast<Dual<double>>());
     const Vec<double, 3> now = value_of(d), turning = rate_of(d);
-    EXPECT_LE((now - from.direction(s, 0)).norm(), 1e-14);
+    EXPECT_LE((now - from.direction(s, 0.0)).norm(), 1e-14);
     EXPECT_NEAR(from.spin_by_slope<double>(s).dot(rate), value_of(t).cross(now).dot(turning), 1e-13);
     const Eigen::Matrix3d by = from.spin_by_slope_gradient<double>(s);
     const double h = 1e-6;

@@ -344,6 +344,23 @@ TEST(FramesAtJoints, AnExplicitMethodAndAnImplicitOneAgree) {
   EXPECT_LE(coarser, 5e-7);
 }
 
+/// Its Jacobian is that of the implicit equations.
+TEST(FramesAtJoints, RosenbrockAgreesWithAnExplicitMethod) {
+  Scene scene = free_helix(6);
+  scene.beam.material.damping = 1e-3;
+  scene.sliding_mass->velocity = 2;
+  scene.loads = {{.type = LoadType::torque, .node = 0, .x = {}, .magnitude = {.value = 2, .ramp = 0.1}, .turn = {}}};
+  scene.duration = 0.25;
+  scene.integrator.rtol = scene.integrator.atol = 1e-8;
+  const RunResult exact = simulate(scene);
+  scene.integrator.type = IntegratorType::rosenbrock4;
+  const RunResult found = simulate(scene);
+  EXPECT_GE(found.events.size(), 1U);
+  EXPECT_NEAR(last_position(found), last_position(exact), 1e-6);
+  EXPECT_LE(off(found.samples.back().end, exact.samples.back().end), 1e-6);
+  EXPECT_NEAR(found.samples.back().energy.torsion, exact.samples.back().energy.torsion, 1e-6);
+}
+
 TEST(FramesAtJoints, GoOnFromACheckpointAsIfNothingHadBeen) {
   for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
     Scene scene = free_helix(6);
