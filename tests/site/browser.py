@@ -16,7 +16,7 @@ class Browser:
     """One tab. `complaints` are what its console says of errors, and what it could not load."""
 
     def __init__(self):
-        self._folder = tempfile.TemporaryDirectory()
+        self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)  # its children may write as it ends
         (read, theirs_out), (theirs_in, write) = os.pipe(), os.pipe()
         apart = ["--no-sandbox"] if os.geteuid() == 0 else []  # it refuses to be root in a sandbox
 
