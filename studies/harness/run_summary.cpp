@@ -209,7 +209,8 @@ void joint_lines(const Scene& scene, const Sample& last, const Line& line) {
   }
   if (last.joint_position) line("joint position", in_digits(*last.joint_position, 8) + " m");
   if (!last.mass_position) return;
-  const SupportType held = sliding_joints(scene).front().support;
+  const auto joints = sliding_joints(scene);
+  const SupportType held = joints.empty() ? SupportType::free : joints.front().support;
   line(held == SupportType::pin     ? "ring position"
        : held == SupportType::clamp ? "sleeve position"
                                     : "mass position",
