@@ -48,6 +48,13 @@ struct Damped {
     return {unit, section, ends};
   }
   double length() const { return q[15] - q[14]; }
+  /// Of a strain with these derivatives, while marks rest.
+  double strain_rate(const FrameForce<double>& by) const {
+    const auto spin = [&](int e) { return rate[7 * e + 6] + node(e).spin_by_slope.dot(rate.segment<3>(7 * e + 3)); };
+    return by.chord.dot(rate.segment<3>(7) - rate.segment<3>(0)) +
+           length() * (by.s_a.dot(rate.segment<3>(3)) + by.s_b.dot(rate.segment<3>(10))) + by.spin_a * spin(0) +
+           by.spin_b * spin(1);
+  }
   auto answer() const { return damping().at<double, 16>(q, rate); }
 };
 
@@ -73,14 +80,8 @@ TEST(FrameDamping, StrainsChangeByTheirDerivatives) {
       return result;
     };
     const Eigen::Matrix<double, 6, 1> difference = (strains(h) - strains(-h)) / (2 * h);
-    const auto spin = [&](int e) {
-      return at.rate[7 * e + 6] + at.node(e).spin_by_slope.dot(at.rate.segment<3>(7 * e + 3));
-    };
     for (std::size_t i = 0; i < 6; ++i) {
-      const auto by = now.derivative(i, 0.2);
-      const double rate = by.chord.dot(at.rate.segment<3>(7) - at.rate.segment<3>(0)) +
-                          at.length() * (by.s_a.dot(at.rate.segment<3>(3)) + by.s_b.dot(at.rate.segment<3>(10))) +
-                          by.spin_a * spin(0) + by.spin_b * spin(1);
+      const double rate = at.strain_rate(now.derivative(i, 0.2));
       EXPECT_NEAR(rate, difference[static_cast<Eigen::Index>(i)], 1e-7 * (1 + std::abs(rate)));
     }
   });
@@ -134,17 +135,12 @@ TEST(FrameDamping, LosesTheLeastThatTheInnerAngleAllows) {
     at.rate.tail<2>().setZero();
     const FrameElement<double> element = at.element();
     Eigen::Matrix<double, 6, 1> rates, inner;
-    const auto spin = [&](int e) {
-      return at.rate[7 * e + 6] + at.node(e).spin_by_slope.dot(at.rate.segment<3>(7 * e + 3));
-    };
     const double scale = at.section.law == StrainLaw::green ? at.length() : 1 / at.length();
     for (int i = 0; i < 6; ++i) {
       const auto by = element.derivative(static_cast<std::size_t>(i), 0);
       const double stiffness = i % 3 == 0 ? at.section.EI_y : i % 3 == 1 ? at.section.EI_z : at.section.GIp;
       const double size = std::sqrt(scale * 0.5 * at.section.damping * stiffness);  // both points weigh a half
-      rates[i] = size * (by.chord.dot(at.rate.segment<3>(7) - at.rate.segment<3>(0)) +
-                         at.length() * (by.s_a.dot(at.rate.segment<3>(3)) + by.s_b.dot(at.rate.segment<3>(10))) +
-                         by.spin_a * spin(0) + by.spin_b * spin(1));
+      rates[i] = size * at.strain_rate(by);
       inner[i] = size * by.inner;
     }
     const Eigen::VectorXd turns = inner.colPivHouseholderQr().solve(-rates);
