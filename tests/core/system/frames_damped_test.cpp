@@ -33,7 +33,7 @@ TEST(FramesDamped, ARodCreepsIntoItsTwist) {
   const double whole = 3 * 3 / (2 * 4.0);
   for (const Sample& sample : result.samples) {
     const double share = 1 - std::exp(-sample.t / 0.1);
-    EXPECT_NEAR(sample.energy.torsion, whole * share * share, 2e-4 * whole) << sample.t;
+    EXPECT_NEAR(sample.energy.torsion, whole * share * share, 2e-5 * whole) << sample.t;
   }
 }
 
