@@ -287,7 +287,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis.straightened());
-  auto [loads, torques] = build_loads<D>(scene);
+  auto [loads, torques, moments] = build_loads<D>(scene);
   const std::vector<double>& nodes = placed.x;
   const auto stay = [&](auto& points) {  // at what the node marks now, wherever it moves to
     if (flows(scene)) return;
@@ -298,7 +298,7 @@ BeamModel<D> build_model(const Scene& scene) {
   stay(loads.points);
   stay(torques.points);
   if (has_frames(scene)) {
-    model.frames = FrameModel{build_frames(scene.beam), std::move(torques)};
+    model.frames = FrameModel{build_frames(scene.beam), std::move(torques), std::move(moments)};
   } else if (scene.spin) {
     SpinModel& spin = model.spin.emplace();
     spin.section = build_spin(scene.beam);

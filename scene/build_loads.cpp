@@ -19,7 +19,7 @@ PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis, Analys
   if (spec.at == LoadPlace::point) load.x = [x](double t) { return x(t).value; };
   auto size = [magnitude](double t) { return magnitude(t).value; };
   if (spec.type == LoadType::follower) load.follower = size;
-  if (spec.type == LoadType::moment) load.moment = size;
+  if (D == 2 && spec.type == LoadType::moment) load.moment = size;
   if (spec.type == LoadType::force) {
     const Vec<double, D> direction = Eigen::Map<const Vec<double, D>>(spec.direction.data()).normalized();
     const TimeFunction turn = beside_loads(spec.turn, analysis);
@@ -34,6 +34,19 @@ PointLoad<D> build_load(const LoadSpec& spec, const Vec<double, D>& axis, Analys
     };
   }
   return load;
+}
+
+/// A moment in space. One that follows has the components of its axis at the section as it was built.
+SectionMoment build_moment(const Scene& scene, const LoadSpec& spec) {
+  Vec<double, 3> direction = vector_of<3>(spec.direction).normalized();
+  if (spec.follows) {
+    const ChainState<3> built = build_shape<3>(scene);
+    const Vec<double, 3> t = slope<3>(built.q.data(), spec.node).normalized(),
+                         y = built.sections[static_cast<std::size_t>(spec.node)].direction;
+    direction = Vec<double, 3>(t.dot(direction), y.dot(direction), t.cross(y).dot(direction));
+  }
+  return {spec.node == scene.beam.elements ? -1 : spec.node, direction, spec.follows,
+          [magnitude = acting(spec.magnitude, scene.analysis)](double t) { return magnitude(t).value; }};
 }
 
 /// Material coordinate at t = 0 of where a load acts; of one on the whole beam its start [m].
@@ -77,7 +90,7 @@ BeamLoads<D> build_loads(const Scene& scene) {
     const double x = std::clamp(initial_place(spec, nodes), 0.0, axis.length());
     PointLoad<D> load = build_load<D>(spec, axis.tangent(x).normalized(), scene.analysis);
     if (spec.type == LoadType::torque) {
-      const std::function<double(double t)> torque = [size = time_function(spec.magnitude)](double t) {
+      const std::function<double(double t)> torque = [size = acting(spec.magnitude, scene.analysis)](double t) {
         return size(t).value;
       };
       if (spec.at == LoadPlace::beam) {
@@ -85,6 +98,9 @@ BeamLoads<D> build_loads(const Scene& scene) {
         continue;
       }
       result.torques.points.push_back({load.node, load.x, torque});
+    }
+    if constexpr (D == 3) {
+      if (spec.type == LoadType::moment) result.moments.push_back(build_moment(scene, spec));
     }
     if (spec.at == LoadPlace::beam) {
       add_to(result.loads.line_force, load.force);

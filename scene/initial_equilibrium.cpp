@@ -30,6 +30,7 @@ BeamModel<D> at_start(BeamModel<D> model) {
       grow(point.torque);
     }
     grow(model.frames->torques.line);
+    for (SectionMoment& moment : model.frames->moments) grow(moment.size);
   }
   model.time_is_load_factor = true;
   model.start_motion = model.end_motion = {};

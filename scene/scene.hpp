@@ -296,7 +296,8 @@ struct LoadSpec {
   int node = 0;
   TimeSpec x;                ///< at a point: its material coordinate [m]
   TimeSpec magnitude;        ///< force [N] or torque [N m], per length [m] on the beam
-  Point direction{0, 1, 0};  ///< force; need not have unit length
+  Point direction{0, 1, 0};  ///< force, or axis of a moment in space; need not have unit length
+  bool follows = false;      ///< moment in space: it turns with the section
   TimeSpec turn;             ///< force: angle by which the direction has turned about the initial axis [rad]
 };
 

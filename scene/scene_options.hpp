@@ -134,20 +134,24 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     for (std::size_t i = 0; i < scene.loads.size(); ++i) {
       auto& load = scene.loads[i];
       const std::string at = "/loads/" + std::to_string(i), type = at + "/type", place = at + "/at",
-                        node = at + "/node", direction = at + "/direction";
-      choice(type,
-             "force in a direction of its own, force along the tangent, moment that turns the tangent (in the plane), "
-             "or torque about the axis",
-             load.type);
+                        node = at + "/node", direction = at + "/direction", follows = at + "/follows";
+      choice(
+          type,
+          "force in a direction of its own, force along the tangent, moment that turns the section (in the plane, or "
+          "with frames), or torque about the axis",
+          load.type);
       choice(place, "a node, a material point, or the whole beam", load.at);
       number(node, "-", Range::non_negative(), "number of the node, from 0", load.node,
              {.when = only_if(place, load.at, LoadPlace::node), .required = true});
       time_function(at + "/x", "m", load.x, only_if(place, load.at, LoadPlace::point));
       time_function(at + "/magnitude", "N, N m, or these per m", load.magnitude);
-      const Condition has_direction = only_if(type, load.type, LoadType::force);
-      vector(direction, "-", "of the force; it need not have unit length", load.direction,
-             {.when = has_direction, .required = true});
-      time_function(at + "/turn", "rad", load.turn, has_direction);
+      const Condition is_force = only_if(type, load.type, LoadType::force),
+                      is_moment = only_if(type, load.type, LoadType::moment);
+      vector(direction, "-", "of the force, or in space the axis of the moment; it need not have unit length",
+             load.direction, {.when = scene.dimension == 3 ? either(is_force, is_moment) : is_force, .required = true});
+      choice(follows, "whether a moment in space turns with the section; else its axis stays as it is", load.follows,
+             {.when = is_moment});
+      time_function(at + "/turn", "rad", load.turn, is_force);
     }
   }
 

@@ -164,6 +164,15 @@ void check_integrator(const Scene& scene) {
   }
 }
 
+/// How fast the beam turns at t = 0 where a clamp holds it: in its plane, or about its tangent [rad/s].
+double initial_turning(const Scene& scene, bool at_end) {
+  if (!scene.initial_velocity) return 0;
+  if (scene.dimension == 2) return scene.initial_velocity->rotation;
+  const Axis<3> axis = build_axis<3>(scene);
+  const Vec<double, 3> about = vector_of<3>(scene.initial_velocity->axis).normalized();
+  return scene.initial_velocity->rotation * about.dot(axis.tangent(at_end ? axis.length() : 0).normalized());
+}
+
 /// Of a support's angle; `at` is where its motion stands.
 void check_turning(const Scene& scene, const std::string& at, const SupportSpec& support) {
   const std::string key = at + "/angle";
@@ -185,7 +194,7 @@ void check_turning(const Scene& scene, const std::string& at, const SupportSpec&
            "it knows no clamp that turns: take any other but \"energy-momentum\"");
   }
   const double rate = time_function(*support.motion->angle)(0).rate;
-  const double beam = scene.initial_velocity ? scene.initial_velocity->rotation : 0;
+  const double beam = initial_turning(scene, &support == &scene.end);
   if (std::abs(rate - beam) > 1e-12 * (largest_rate(*support.motion->angle) + std::abs(beam))) {
     refuse(key, "a rate of " + number_text(rate) + " rad/s at t = 0",
            "a clamp turns at first as the beam does, by " + number_text(beam) +

@@ -129,12 +129,12 @@ void check_others(const Scene& scene) {
   };
   check_moving_nodes(scene, law);
 
-  none(scene.spin.has_value(), "/spin", "sections turn without it: leave it out, or take \"scalar\"");
+  none(scene.spin.has_value(), "/spin",
+       "sections turn without it: /initial_velocity with a rotation about the beam spins it, and motion/angle of a "
+       "clamp "
+       "drives it; or take \"scalar\"");
   if (scene.beam.rotary_inertia != BendingInertia::none) {
     refuse("/beam/rotary_inertia", quoted(scene.beam.rotary_inertia), law + "it must be \"none\"");
-  }
-  if (scene.constraints != Constraints::eliminated) {
-    refuse("/constraints", quoted(scene.constraints), law + "it must be \"eliminated\"");
   }
   const IntegratorType type = scene.integrator.type;
   const bool moves = scene.analysis == Analysis::dynamics;

@@ -15,6 +15,28 @@
 namespace vlbeam {
 namespace {
 
+/// In space a moment turns the section of a node that no joint moves along the beam.
+void check_moment(const Scene& scene, const LoadSpec& load, const std::string& at) {
+  if (scene.dimension == 2) {
+    if (load.at == LoadPlace::beam) refuse(at + "/at", quoted(load.at), "a moment is at a \"node\" or a \"point\"");
+    if (load.follows) refuse(at + "/follows", "true", "in a planar scene a moment has no axis to turn: leave it out");
+    return;
+  }
+  if (!has_frames(scene)) {
+    refuse(at + "/type", "\"moment\"", "in space only sections with /beam/space_law \"frames\" can be turned");
+  }
+  if (load.at != LoadPlace::node) refuse(at + "/at", quoted(load.at), "in space a moment is at a \"node\"");
+  const int last = scene.beam.elements;
+  const bool moves = !sliding_joints(scene).empty() || fed(scene), at_end = load.node == 0 || load.node == last;
+  if (moves && !at_end) {
+    refuse(at + "/node", std::to_string(load.node),
+           "where joints move along the beam a moment is at one of its ends, 0 or " + std::to_string(last));
+  }
+  if ((load.node == 0 && scene.start.pays_out()) || (load.node == last && scene.end.pays_out())) {
+    refuse(at + "/node", std::to_string(load.node), "the beam is fed there: a moment is at an end that nothing feeds");
+  }
+}
+
 void check_loads(const Scene& scene) {
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const LoadSpec& load = scene.loads[i];
@@ -26,13 +48,9 @@ void check_loads(const Scene& scene) {
     if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
       refuse(at + "/at", quoted(load.at), "a follower is at a \"node\" or a \"point\"");
     }
-    if (load.type == LoadType::moment) {
-      if (scene.dimension == 3) refuse(at + "/type", "\"moment\"", "it turns the tangent in a planar scene only");
-      if (load.at == LoadPlace::beam) {
-        refuse(at + "/at", quoted(load.at), "a moment is at a \"node\" or a \"point\"");
-      }
-    }
-    if (load.type == LoadType::force && load.direction == Point{}) {
+    if (load.type == LoadType::moment) check_moment(scene, load, at);
+    const bool directed = load.type == LoadType::force || (load.type == LoadType::moment && scene.dimension == 3);
+    if (directed && load.direction == Point{}) {
       refuse(at + "/direction", "a vector of zeros", "it must have a direction");
     }
     if (load.type == LoadType::torque && !scene.spin && !has_frames(scene)) {

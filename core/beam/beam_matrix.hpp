@@ -85,6 +85,12 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
       }
     }
   }
+  /// Couples an unknown of the border with the angle of a node that it reaches, the `reached`th of them.
+  void tie_angle(int unknown, std::size_t reached, double size) requires(D == 3) {
+    of_angles_.resize(border.size());
+    OfAngles& angles = of_angles_[static_cast<std::size_t>(unknown)];
+    angles.column[reached] = angles.row[reached] = size;
+  }
   /// Adds to what a node's slope does to itself.
   void add_slope_stiffness(int node, const Eigen::Matrix<double, D, D>& matrix) {
     diagonal[static_cast<std::size_t>(node)].template bottomRightCorner<D, D>() += matrix;

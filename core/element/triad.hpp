@@ -19,10 +19,10 @@ Vec<Real, 3> carried(const Vec<Real, 3>& from, const Vec<Real, 3>& to, const Vec
 
 /// How the section at a node stands: the direction of its y axis, and the spin about the tangent [rad/s]; at a node
 /// that moves along the beam that of the directions there. `ahead` is the twist from there to the next node, to within
-/// half a turn [rad].
+/// half a turn, `angle` how far what holds the section has turned it since t = 0 [rad].
 struct SectionState {
   Vec<double, 3> direction;
-  double spin = 0, ahead = 0;
+  double spin = 0, ahead = 0, angle = 0;
 };
 
 /// The direction from which a node's angle counts: d, across a tangent t. When the tangent turns, the smallest rotation

@@ -56,9 +56,17 @@ Frames::Frames(const FrameModel& model, const Mesh& mesh, const double* rest,
                                                   {b, position<3>(rest, i + 1), slope<3>(rest, i + 1), 0}, 0));
     for (std::size_t g = 0; g < 2; ++g) tables_[k].points[g].rest = element.strain(g, 0);
   }
-  for (int k = 0; k <= mesh.last(); ++k) references_.push_back(stands(q, sections, k));
+  for (int k = 0; k <= mesh.last(); ++k) {
+    TriadReference& from = references_.emplace_back(stands(q, sections, k));
+    if (const double angle = sections[static_cast<std::size_t>(k)].angle; angle != 0) {
+      const auto [sine, cosine] = sine_cosine(angle);
+      from.d = from.d * cosine - from.t.cross(from.d) * sine;
+    }
+  }
   for (std::size_t k = 0; k < count; ++k) packs_.add(static_cast<int>(k), tables_[k]);
-  for (std::size_t k = 0; k < count; ++k) between_.push_back(sections[k].ahead);
+  for (std::size_t k = 0; k < count; ++k) {
+    between_.push_back(sections[k].ahead - (sections[k + 1].angle - sections[k].angle));
+  }
   for (std::size_t k = 0; k <= count && rest != nullptr; ++k) {
     const int i = static_cast<int>(k);
     const Vec<double, 3> none = Vec<double, 3>::Zero();
@@ -115,6 +123,7 @@ Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   add_sliding_force(q, force);
   Tally power;
   if (damped()) power.dissipated = add_damping(q, rate, force);
+  power.loads = add_moments(q, rate, motion.t, force);
   if (!model_.torques.present()) return power;
   const auto turn = [&](int k, double torque) {
     force[angle(k)] += torque;
@@ -125,6 +134,18 @@ Tally Frames::add_force(const Motion<3>& motion, double* force) const {
     turn(k, on_a);
     turn(k + 1, on_b);
     if (slides(k)) power.loads += add_torque_on_marks(k, q, rate, on_a, on_b, force);
+  });
+  return power;
+}
+
+double Frames::add_moments(const double* q, const double* rate, double t, double* force) const {
+  double power = 0;
+  at_moments([&](int k, const SectionMoment& moment) {
+    const auto by = moment_force<double>(moment, moment.size(t), references_[static_cast<std::size_t>(k)],
+                                         slope<3>(q, k), q[angle(k)]);
+    slope<3>(force, k) += by.on_slope;
+    force[angle(k)] += by.on_angle;
+    power += by.on_slope.dot(slope<3>(rate, k)) + by.on_angle * rate[angle(k)];
   });
   return power;
 }
@@ -177,6 +198,15 @@ void Frames::add_tangent(const Motion<3>& motion, const TangentWeights& by, Beam
   if (by.q != 0) packs_.add_tangents(model_.section, nodes_, turned_, by.q, tangent);
   add_sliding_tangent(motion, by, tangent);
   if (damped()) add_damping_tangent(motion, by, tangent);
+  if (by.q != 0) {
+    at_moments([&](int k, const SectionMoment& moment) {
+      BeamMatrix<3>::WideBlock block = BeamMatrix<3>::WideBlock::Zero();
+      block.bottomRightCorner<4, 4>() =
+          -by.q * moment_tangent(moment, moment.size(motion.t), references_[static_cast<std::size_t>(k)],
+                                 slope<3>(q, k), q[angle(k)]);
+      tangent.add_turning(k, k, block);
+    });
+  }
   if (model_.torques.present() && by.q != 0) {
     const auto turn = [&](int k, double torque) {
       tangent.add_slope_stiffness(
@@ -318,8 +348,9 @@ std::vector<SectionState> Frames::sections(const double* q, const double* rate) 
   look(q);
   std::vector<SectionState> result;
   for (int k = 0; k < nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
     result.push_back(
-        {nodes_[static_cast<std::size_t>(k)].direction, spin_of(rate, k), k < elements() ? twist(q, k) : 0});
+        {nodes_[i].direction, spin_of(rate, k), k < elements() ? twist(q, k) : 0, held_[i] ? q[angle(k)] : 0});
   }
   return result;
 }

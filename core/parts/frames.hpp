@@ -13,6 +13,7 @@
 #include "core/geometry/axis.hpp"
 #include "core/parts/frame_packs.hpp"
 #include "core/parts/part.hpp"
+#include "core/parts/section_moment.hpp"
 #include "core/parts/spin.hpp"
 
 namespace vlbeam {
@@ -21,6 +22,10 @@ namespace vlbeam {
 struct FrameModel {
   FrameSection section;
   Torques torques = {};  ///< about the tangent, which they follow
+  std::vector<SectionMoment> moments = {};
+
+  /// Whether loads turn sections.
+  bool loaded() const { return torques.present() || !moments.empty(); }
 };
 
 /// Two bendings and torsion of a beam in space, with the inertia of its sections about the tangent: an angle a node.
@@ -53,7 +58,7 @@ class Frames final : public Part<3> {
                  std::shared_ptr<const RestTriads> along);
 
   Tally add_force(const Motion<3>& motion, double* force) const override;
-  bool has_power() const override { return model_.torques.present() || damped(); }
+  bool has_power() const override { return model_.loaded() || damped(); }
   /// With that of the inertia.
   void add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const override;
   /// Adds M a and what is quadratic in velocities.
@@ -110,6 +115,15 @@ class Frames final : public Part<3> {
   /// Calls visit(k, on A, on B) for what torques do at the ends of elements.
   template <class Visit>
   void at_torques(double t, const Visit& visit) const;
+  /// Calls visit(node, moment) for the moments on sections.
+  template <class Visit>
+  void at_moments(const Visit& visit) const {
+    for (const SectionMoment& moment : model_.moments) {
+      visit(moment.node < 0 ? nodes() + moment.node : moment.node, moment);
+    }
+  }
+  /// Returns their power [W].
+  double add_moments(const double* q, const double* rate, double t, double* force) const;
   /// Looks at all nodes and elements, for what is asked below.
   void look(const double* q) const;
   /// Whether that is where it looked last.

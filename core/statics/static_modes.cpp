@@ -106,7 +106,7 @@ std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium
   const bool follow =
       std::ranges::any_of(system.model().loads.points, [](const auto& load) { return bool{load.follower}; });
   const auto& frames = system.model().frames;
-  if (follow || (frames && frames->torques.present())) {
+  if (follow || (frames && frames->loaded())) {
     return frequencies_without_potential(modes, count, at.factor);
   }
   const Eigen::VectorXd squares = generalized_eigenvalues(modes.stiffness, modes.mass);

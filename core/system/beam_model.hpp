@@ -119,7 +119,7 @@ struct BeamModel {
     if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
     return {dissipates(),
             loads.present() || !parts.empty() || drag.streams() || (spin && spin->torques.present()) ||
-                (frames && frames->torques.present()),
+                (frames && frames->loaded()),
             spin && !spin->drives.empty(), driven()};
   }
 };

@@ -26,6 +26,7 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y[coordinates() + layout_.mark()] = chain.rider->rate;
   }
   for (Eigen::Index k = 0; frames_ && k < frames_->nodes(); ++k) {
+    y[angles() + k] = chain.sections[static_cast<std::size_t>(k)].angle;
     y[coordinates() + angles() + k] = chain.sections[static_cast<std::size_t>(k)].spin;
   }
   if (old.size() == 0) return y;

@@ -332,9 +332,10 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   const auto swap_multipliers = [&](Eigen::Index ahead) {
     std::rotate(r.begin() + angles(), r.end() - ahead, r.end());
   };
-  if (system_.spin()) swap_multipliers(multipliers());
+  const Eigen::Index turning = layout().turning;
+  if (turning > 0) swap_multipliers(multipliers());
   tangent_.solve(r.data());
-  if (system_.spin()) swap_multipliers(system_.spin()->coordinates());
+  if (turning > 0) swap_multipliers(turning);
   if (const Spin* spin = system_.spin()) {
     auto turn = r.segment(angles(), spin->coordinates());
     if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;

@@ -52,7 +52,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   dfdt.setZero();
   const auto& model = system_.model();
   const bool rubs = model.rubs();
-  const bool turned = model.frames && model.frames->torques.present();
+  const bool turned = model.frames && model.frames->loaded();
   if (model.driven() || model.travels() || model.loads.present() || turned || (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
   } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that

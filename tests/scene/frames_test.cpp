@@ -150,12 +150,20 @@ TEST(SpaceLaw, RefusesByName) {
          joint.pitch = 0.1;
        }},
       {"/flow", "travel", [](Scene& s) { s.flow.emplace(); }},
-      {"/spin", "leave it out",
+      {"/spin", "initial_velocity",
        [&](Scene& s) {
          line(s);
          s.spin.emplace();
        }},
-      {"/constraints", "eliminated", [](Scene& s) { s.constraints = Constraints::multipliers; }},
+      {"/loads/0/node", "ends",
+       [](Scene& s) {
+         s.sliding_mass.emplace().position = 0.3;
+         s.loads = {{.type = LoadType::moment, .node = 2, .x = {}, .magnitude = {.value = 1}, .turn = {}}};
+       }},
+      {"/loads/0/at", "node",
+       [](Scene& s) {
+         s.loads = {{.type = LoadType::moment, .at = LoadPlace::point, .x = {}, .magnitude = {.value = 1}, .turn = {}}};
+       }},
       {"/integrator/type", "generalized-alpha", [](Scene& s) { s.integrator.type = IntegratorType::energy_momentum; }},
       {"/integrator/type", "generalized-alpha",
        [](Scene& s) {
@@ -190,6 +198,42 @@ TEST(SpaceLaw, AMotionStartsFromTheEquilibrium) {
   EXPECT_LT(first[2], -0.1);  // it hangs, and twists
   EXPECT_GT(result.samples.front().energy.torsion, 0.01);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(last[c], first[c], 1e-9);
+}
+
+/// An arc that a clamp at its start turns about its tangent there.
+Scene turned_arc() {
+  Scene scene = arc_in_space();
+  scene.gravity = {};
+  scene.beam.elements = 6;
+  scene.beam.curve = {.type = CurveType::arc, .from_degrees = 0, .to_degrees = 60};
+  scene.beam.section.EI = scene.beam.section.GIp = 100;
+  scene.beam.section.rhoIp = 1e-2;
+  scene.start.motion.emplace().angle = TimeSpec{.value = 3, .ramp = 1};
+  scene.integrator.step = 2e-3;
+  scene.duration = 1.1;
+  return scene;
+}
+
+TEST(SpaceLaw, AClampThatTurnsKnowsHowFarThroughEvents) {
+  Scene scene = turned_arc();
+  const RunResult alone = simulate(scene);
+  SlidingMassSpec& mass = scene.sliding_mass.emplace();
+  mass.position = 0.5;
+  mass.mass = 0.01;
+  mass.velocity = 0.4;
+  const RunResult result = simulate(scene);
+  ASSERT_NE(result.status, RunStatus::failed) << result.failure;  // it may leave the beam
+  EXPECT_GE(result.events.size(), 2U);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(result.samples.back().end[c], alone.samples.back().end[c], 1e-2);
+}
+
+TEST(SpaceLaw, MultipliersHoldWhatEliminationHolds) {
+  Scene scene = turned_arc();
+  const RunResult eliminated = simulate(scene);
+  scene.constraints = Constraints::multipliers;
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(result.samples.back().end[c], eliminated.samples.back().end[c], 1e-7);
 }
 
 /// A clamp that turns about the beam winds it up.
