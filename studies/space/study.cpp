@@ -1,5 +1,6 @@
-// Beams in space whose sections have frames: an arc across its plane, a bend that goes far, buckling, frequencies of a
-// straight and of a curved beam, and a free beam that tumbles.
+// Beams in space whose sections have frames: an arc across its plane, a bend that goes far, a rod rolled up to a helix,
+// buckling, frequencies of straight, twisted and curved beams, a shaft fed through two clamps, a free beam that
+// tumbles.
 #include "studies/harness/study.hpp"
 
 #include <algorithm>
@@ -58,18 +59,23 @@ class Report {
   StudyReport operator()() {
     quarter_arc();
     bend();
+    helix();
     buckling();
     modes();
     arc_modes();
+    twisted_modes();
+    fed();
     tumbling();
     report_.tables.push_back(std::move(arcs_));
     report_.tables.push_back(std::move(buckled_));
     report_.tables.push_back(std::move(steps_));
     report_.tables.push_back(std::move(arc_modes_));
+    report_.tables.push_back(std::move(twisted_));
+    report_.tables.push_back(std::move(fed_));
     report_.figures = {{.name = "errors",
                         .caption =
-                            "A quarter arc across its plane: error of its end against mesh and torsional stiffness; "
-                            "critical loads; a free beam that tumbles",
+                            "A quarter arc across its plane: error of its end against mesh and torsional stiffness; a "
+                            "driven free arc; a shaft under torque; a shaft that runs through two clamps",
                         .script = "errors.gp",
                         .variables = {{"folder", context_.folder.string()}}}};
     return std::move(report_);
@@ -84,6 +90,9 @@ class Report {
     for (LoadSpec& load : scene.loads) load.node = load.node == 0 ? 0 : elements;
     scene.beam.elements = elements;
     return scene;
+  }
+  Json reference(const char* file) const {
+    return parse_json(read_text(context_.folder.parent_path().parent_path() / "reference" / file));
   }
   void keep(const Json& options, const Json& results) {
     report_.cases.push_back({.options = options, .results = results});
@@ -142,6 +151,27 @@ class Report {
     }
   }
 
+  /// The moment M at its end is that all along a rod, which so winds about it: EI t' = M x t, however it twists.
+  void helix() {
+    const Scene scene = scene_of("helix", 1);
+    const LoadSpec& load = scene.loads.front();
+    const Vec<double, 3> axis = vector_of<3>(load.direction).normalized(), along = vector_of<3>(scene.beam.curve.end);
+    const double length = along.norm(), turns = load.magnitude.value / scene.beam.section.EI;
+    const Vec<double, 3> kept = axis * axis.dot(along) / length, u = along / length - kept, v = axis.cross(u);
+    const Vec<double, 3> exact =
+        kept * length + (std::sin(turns * length) * u + (1 - std::cos(turns * length)) * v) / turns;
+    std::vector<double> levels, errors;
+    for (const int n : meshes("helix")) {
+      const RunResult run = StudyContext::simulate_to_the_end(scene_of("helix", n));
+      const double error = (vector_of<3>(run.samples.back().end) - exact).norm() / length;
+      report_.measured["helix_n" + std::to_string(n)] = error;
+      keep({{"problem", "helix"}, {"elements", n}}, {{"error", error}});
+      levels.push_back(n);
+      errors.push_back(error);
+    }
+    report_.fits.push_back(fit_order("helix", levels, errors));
+  }
+
   void buckling() {
     // M L/EI of a shaft between clamps (Greenhill 1883); P L^2/sqrt(EI_z GIp) of a narrow strip (Michell, Prandtl 1899)
     for (const auto& [problem, known] : {std::pair{"greenhill", 8.986818916}, {"strip", 4.0126}}) {
@@ -174,8 +204,7 @@ class Report {
 
   /// A clamped arc, against the linear equations of a curved beam.
   void arc_modes() {
-    const Json known =
-        parse_json(read_text(context_.folder.parent_path().parent_path() / "reference" / "arc_frequencies.json"));
+    const Json known = reference("arc_frequencies.json");
     struct Mode {
       double frequency;
       std::size_t kind;
@@ -207,6 +236,73 @@ class Report {
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
       report_.fits.push_back(fit_order("arc_" + std::string(kinds[kind]), levels, errors[kind]));
     }
+  }
+
+  /// A shaft between clamps one of which turns, against the equation of a beam under torque.
+  void twisted_modes() {
+    const Json known = reference("shaft_frequencies.json");
+    const auto torques = known.at("torques").get<std::vector<double>>(),
+               exact = known.at("frequencies").get<std::vector<double>>();
+    const int n = meshes("twisted").back();
+    double most = 0;
+    for (std::size_t i = 0; i < torques.size(); ++i) {
+      Scene scene = scene_of("twisted", n);
+      scene.end.motion->angle->value *= torques[i];
+      const RunResult run = StudyContext::simulate_to_the_end(scene);
+      const double off = std::abs(run.frequencies.front() / exact[i] - 1),
+                   apart = std::abs(run.frequencies[1] / run.frequencies[0] - 1);
+      most = std::max({most, off, apart});
+      twisted_.rows.push_back({torques[i], run.frequencies.front(), exact[i], off});
+      keep({{"problem", "twisted"}, {"torque", torques[i]}}, {{"frequencies", run.frequencies}, {"off", off}});
+    }
+    report_.measured["twisted"] = most;
+  }
+
+  /// A shaft that runs at v through two clamps, under an even torque that has grown slowly: it twists 1/(1 - v^2/c^2)
+  /// times as far as one at rest, c^2 = GIp/rhoIp, for its spin rides along.
+  void fed() {
+    const auto speeds = context_.config.at("speeds").get<std::vector<double>>();
+    struct Run {
+      double speed;
+      int elements;
+      Scene scene;
+    };
+    std::vector<Run> cases;
+    for (const double speed : speeds) {
+      for (const int n : meshes("fed")) {
+        Run& item = cases.emplace_back(Run{speed, n, scene_of("fed", n)});
+        const Section& s = item.scene.beam.section;
+        const double v = speed * std::sqrt(s.GIp / s.rhoIp);
+        item.scene.initial_velocity = InitialVelocitySpec{.translation = {v, 0, 0}};
+        item.scene.start.feed = TimeSpec{.rate = v};
+        item.scene.end.feed = TimeSpec{.rate = -v};
+      }
+    }
+    const auto runs =
+        context_.sweep(cases, [](const Run& item) { return StudyContext::simulate_to_the_end(item.scene); });
+    std::vector<double> levels, errors;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const Run& item = cases[i];
+      const TimeSpec& torque = item.scene.loads.front().magnitude;
+      const double exact =
+          torque.value * torque.value / (24 * item.scene.beam.section.GIp) / std::pow(1 - item.speed * item.speed, 2);
+      double sum = 0;
+      int count = 0;
+      for (const Sample& sample : runs[i]->samples) {
+        if (sample.t < torque.ramp) continue;
+        sum += sample.energy.torsion;
+        ++count;
+      }
+      const double error = std::abs(sum / count / exact - 1);
+      fed_.rows.push_back({item.speed, item.elements, sum / count, exact, error});
+      keep({{"problem", "fed"}, {"speed", item.speed}, {"elements", item.elements}},
+           {{"torsion", sum / count}, {"error", error}, {"events", runs[i]->events.size()}});
+      if (item.speed != speeds.back()) continue;
+      levels.push_back(item.elements);
+      errors.push_back(error);
+      report_.measured["fed_n" + std::to_string(item.elements)] = error;
+    }
+    report_.fits.push_back(fit_order("fed", levels, errors));
   }
 
   void tumbling() {
@@ -254,6 +350,14 @@ class Report {
                        "Clamped arc of 120 degrees: largest relative error of its first two frequencies in its "
                        "plane, of its first three across it",
                    .columns = {"elements", "in_plane", "across"}};
+  Table twisted_{.name = "twisted",
+                 .caption = "Shaft between clamps under the torque M L/EI: its first frequency [Hz], the exact one",
+                 .columns = {"torque", "frequency", "exact", "off"}};
+  Table fed_{.name = "fed",
+             .caption =
+                 "Shaft that runs at v through two clamps under an even torque: v/c, elements, energy of torsion [J], "
+                 "the exact one",
+             .columns = {"speed", "elements", "torsion", "exact", "error"}};
   StudyReport report_;
 };
 

@@ -59,9 +59,8 @@ TEST_P(Moments, HaveTheTangentOfDifferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(InSpace, Moments, testing::Bool(), [](const auto& of) {
-  return of.param ? std::string("ThatFollow") : std::string("ThatStay");
-});
+INSTANTIATE_TEST_SUITE_P(InSpace, Moments, testing::Bool(),
+                         [](const auto& of) { return of.param ? std::string("ThatFollow") : std::string("ThatStay"); });
 
 }  // namespace
 }  // namespace vlbeam::test
