@@ -177,6 +177,7 @@ constexpr auto names(WarningKind) {
                                             {light_material, "light-material"},
                                             {buckled_elements, "buckled-elements"},
                                             {hidden_stability, "hidden-stability"},
+                                            {assumed_material, "assumed-material"},
                                             {ringing_friction, "ringing-friction"}});
 }
 

@@ -39,6 +39,15 @@ void check_strain(const Scene& scene, const RunResult& result, std::vector<Warni
                                           : "is /beam/section/EA in N?"});
 }
 
+void check_material(const Scene& scene, std::vector<Warning>& warnings) {
+  if (scene.assumed.empty()) return;
+  warnings.push_back({WarningKind::assumed_material,
+                      text_of("the scene leaves out ", scene.assumed, ": that of a soft beam is taken (a radius of ",
+                              BeamSpec{}.section.radius, " m, ", BeamSpec{}.material.density, " kg/m^3, ",
+                              BeamSpec{}.material.youngs_modulus, " Pa)"),
+                      "give all of them"});
+}
+
 void check_section(const Scene& scene, std::vector<Warning>& warnings) {
   if (scene.beam.section.type != Section::Type::circle) return;
   const double radius = scene.beam.section.radius, length = standard_length(scene);
@@ -121,6 +130,7 @@ void check_stability(const Scene& scene, const RunResult& result, std::vector<Wa
 
 std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
   std::vector<Warning> warnings;
+  check_material(scene, warnings);
   check_section(scene, warnings);
   if (result.samples.empty()) return warnings;
   check_strain(scene, result, warnings);

@@ -175,6 +175,7 @@ enum class WarningKind {
   light_material,          ///< lighter than foam: a unit may be wrong
   buckled_elements,        ///< compressed beyond what a single element bears: it is slack, and its folds have no mesh
   hidden_stability,        ///< rounding hides whether an equilibrium is stable
+  assumed_material,        ///< a file left out what the beam is of: the paper's soft one is run
   ringing_friction,        ///< the force that friction goes by is that of a vibration which nothing damps
 };
 

@@ -441,6 +441,7 @@ struct Scene {
   IntegratorSpec integrator;
   double duration = 0.5;  ///< [s]
   OutputSpec output;
+  std::string assumed = {};  ///< what its file left out of section and material, as pointers in a sentence; no option
 };
 
 }  // namespace vlbeam

@@ -446,7 +446,36 @@ Scene scene_from_json(Json json) {
   return scene;
 }
 
-Scene parse_scene(std::string_view text) { return scene_from_json(parse_json(text)); }
+namespace {
+
+/// Which keys of what the beam is of a scene leaves out, "a, b and c".
+std::string left_out_of_material(const Json& scene) {
+  const auto part = [](const Json& of, const char* key) {
+    return of.is_object() && of.contains(key) ? of.at(key) : Json::object();
+  };
+  const Json beam = part(scene, "beam"), section = part(beam, "section"), material = part(beam, "material");
+  const Json type = section.value("type", Json("circle"));
+  if (type == "stiffness") return "";
+  std::vector<std::string> keys;
+  if (type == "circle" && !section.contains("radius")) keys.emplace_back("/beam/section/radius");
+  for (const char* key : {"density", "youngs_modulus"}) {
+    if (!material.contains(key)) keys.push_back(std::string("/beam/material/") + key);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == keys.size() ? " and " : ", ") + keys[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text) {
+  const Json json = parse_json(text);
+  Scene scene = scene_from_json(json);
+  if (scene.setting == SceneSetting::standard) scene.assumed = left_out_of_material(json);
+  return scene;
+}
 
 Scene read_scene(const std::filesystem::path& file) {
   const std::string text = read_text(file);

@@ -326,6 +326,17 @@ TEST(SceneJson, AWholeNumberMayBeWrittenInAnyWay) {
   EXPECT_EQ(parse_scene(R"({"beam": {"elements": 10.0}, "duration": 1})").beam.elements, 10);
 }
 
+TEST(SceneJson, KnowsWhatAFileLeavesOutOfTheBeam) {
+  const auto assumed = [](const std::string& beam) {
+    return parse_scene(R"({"duration": 1, "beam": )" + beam + "}").assumed;
+  };
+  EXPECT_EQ(assumed("{}"), "/beam/section/radius, /beam/material/density and /beam/material/youngs_modulus");
+  EXPECT_EQ(assumed(R"({"section": {"radius": 0.01}, "material": {"density": 7800}})"),
+            "/beam/material/youngs_modulus");
+  EXPECT_EQ(assumed(R"({"section": {"radius": 0.01}, "material": {"density": 7800, "youngs_modulus": 2e11}})"), "");
+  EXPECT_EQ(assumed(R"({"section": {"type": "stiffness", "EA": 1e4, "EI": 1, "rhoA": 1}})"), "");
+}
+
 TEST(SceneJson, BeamAndDurationAreNeeded) {
   EXPECT_EQ(error_of(parse_json(R"({"duration": 1})"))->field, "/beam");
   EXPECT_EQ(error_of(parse_json(R"({"beam": {}})"))->field, "/duration");

@@ -46,6 +46,9 @@ TEST(Plausibility, NamesUnitsThatMayBeWrong) {
   scene.beam.section.radius = 10;  // mm
   EXPECT_EQ(kinds(implausible(scene, run)), std::vector{WarningKind::thick_elements});
   scene = hanging_bar();
+  scene.assumed = "/beam/material/youngs_modulus";
+  EXPECT_EQ(kinds(implausible(scene, run)), std::vector{WarningKind::assumed_material});
+  scene = hanging_bar();
   scene.beam.material.density = 7.8;  // g/cm^3
   EXPECT_EQ(kinds(implausible(scene, run)), std::vector{WarningKind::light_material});
   run.samples.front().strains.axial_strain = {-0.2, 0.05};
