@@ -183,6 +183,7 @@ double longest_implicit_step(const Scene& scene) {
 }
 
 IntegratorSpec automatic_integrator(const Scene& scene, double accuracy) {
+  if (!(scene.duration > 0)) refuse("/duration", number_text(scene.duration), "it must be a number > 0 [s]");
   IntegratorSpec implicit;
   implicit.type = IntegratorType::generalized_alpha;
   implicit.step = std::min(implicit.step, scene.duration);

@@ -78,6 +78,9 @@ std::string better_integration(const Scene& scene) {
   if (scene.formulation == Formulation::virtual_work) {
     return "the formulation \"variational\" conserves energy, \"virtual-work\" does not";
   }
+  if (scene.integrator.automatic) {
+    return "a finer accuracy: {\"accuracy\": " + six_digits(scene.integrator.accuracy / 10) + "} for /integrator";
+  }
   if (!has_fixed_step(scene.integrator.type)) return "smaller /integrator/rtol and atol";
   std::string text = "a smaller /integrator/step";
   if (scene.integrator.type == IntegratorType::generalized_alpha) text += ", rho_inf nearer to 1";

@@ -24,6 +24,11 @@ std::string text_of(const Parts&... parts) {
   return text.str();
 }
 
+/// In statics samples are equilibria, whose time is their number.
+std::string when(const Scene& scene, double t) {
+  return scene.analysis == Analysis::statics ? text_of("equilibrium ", t) : text_of("t = ", t, " s");
+}
+
 void check_strain(const Scene& scene, const RunResult& result, std::vector<Warning>& warnings) {
   const auto largest = [](const Sample& sample) {
     const auto& [least, most] = sample.strains.axial_strain;
@@ -33,7 +38,7 @@ void check_strain(const Scene& scene, const RunResult& result, std::vector<Warni
   if (!(largest(*at) > large_strains)) return;
   const Section::Type type = scene.beam.section.type;
   warnings.push_back(
-      {WarningKind::large_strain, text_of("the beam is strained by ", 100 * largest(*at), " % at t = ", at->t, " s"),
+      {WarningKind::large_strain, text_of("the beam is strained by ", 100 * largest(*at), " % at ", when(scene, at->t)),
        type == Section::Type::circle      ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
        : type == Section::Type::rectangle ? "is /beam/material/youngs_modulus in Pa, and /beam/section in m?"
                                           : "is /beam/section/EA in N?"});
@@ -80,8 +85,8 @@ void check_compression(const Scene& scene, const RunResult& result, std::vector<
   if (!(-least > bears + noise * largest)) return;
   warnings.push_back(
       {WarningKind::buckled_elements,
-       text_of("the beam is compressed by up to ", -least, " N, at t = ", at, " s, and an element of it bears ", bears,
-               " N before it buckles: it is slack, and folds more finely than its elements"),
+       text_of("the beam is compressed by up to ", -least, " N, at ", when(scene, at), ", and an element of it bears ",
+               bears, " N before it buckles: it is slack, and folds more finely than its elements"),
        bears > 0 ? "more elements, or material damping"
                  : "a rope bears no compression: keep it taut, or give it /beam/section/EI"});
 }

@@ -103,9 +103,8 @@ void check_time_function(const std::string& at, const TimeSpec& spec) {
   }
   if (spec.table.empty()) return;
   const std::string key = at + "/table";
-  if (!is_zero(
-          {.value = spec.value, .rate = spec.rate, .acceleration = spec.acceleration, .amplitude = spec.amplitude}) ||
-      spec.ramp > 0 || spec.rate_ramp > 0 || spec.until) {
+  if (spec.value != 0 || spec.rate != 0 || spec.acceleration != 0 || spec.amplitude != 0 || spec.ramp > 0 ||
+      spec.rate_ramp > 0 || spec.until) {
     refuse(key, "this key", "a table stands alone: leave out the keys beside it");
   }
   if (spec.table.size() < 2) {

@@ -17,7 +17,15 @@ void check_time_function(const std::string& at, const TimeSpec& spec);
 
 inline bool is_zero(const TimeSpec& f) {
   const bool no_table = std::ranges::all_of(f.table, [](const Point& entry) { return entry[1] == 0; });
-  return f.value == 0 && f.rate == 0 && f.acceleration == 0 && f.amplitude == 0 && no_table;
+  const bool swings = f.amplitude != 0 && (f.frequency != 0 || f.phase_degrees != 0);
+  return f.value == 0 && f.rate == 0 && f.acceleration == 0 && !swings && no_table;
+}
+
+/// Whether it never changes. What counts from t = 0 then does nothing.
+inline bool is_constant(const TimeSpec& f) {
+  TimeSpec change = f;
+  change.value = 0;
+  return is_zero(change) && f.ramp == 0 && f.rate_ramp == 0;
 }
 
 /// Bound of the rate of a function of time at t = 0, without its ramp. A rate far below it is rounding: that of a

@@ -211,6 +211,13 @@ void check_motion(const Scene& scene, const std::string& at, SupportType type, c
   if (motion.direction == Point{} && !(motion.angle && is_zero(displacement))) {
     refuse(at + "/direction", "a vector of zeros", "it must have a direction");
   }
+  const bool in_time = scene.analysis == Analysis::dynamics;
+  if (in_time && is_constant(displacement) && !(motion.angle && is_zero(displacement))) {
+    refuse(
+        at, "a constant displacement",
+        "it counts from t = 0, so that a constant does nothing: give it a ramp > 0 [s], a rate_ramp, an amplitude or a "
+        "table");
+  }
   const double most = largest_rate(displacement);
   if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
     refuse(

@@ -45,6 +45,10 @@ void check_loads(const Scene& scene) {
       refuse(at + "/node", std::to_string(load.node),
              "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
     }
+    if (load.at == LoadPlace::point && is_zero(load.x)) {
+      refuse(at + "/x", InvalidInput::missing,
+             "a point needs its material coordinate [m]; what acts at the start of the beam is at node 0");
+    }
     if (load.at == LoadPlace::beam && load.type == LoadType::follower) {
       refuse(at + "/at", quoted(load.at), "a follower is at a \"node\" or a \"point\"");
     }
@@ -123,7 +127,7 @@ void check_ground(const Scene& scene) {
     if (height < scene.ground->height - slack) {
       refuse("/ground/height", number_text(scene.ground->height),
              "the support at the " + std::string(name) + " of the beam would be below the floor: it must be at most " +
-                 number_text(height) + " [m]");
+                 number_text(height + 0.0) + " [m]");
     }
   }
 }

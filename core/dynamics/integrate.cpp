@@ -21,6 +21,7 @@ constexpr double guard_tolerance = 1e-12;  // a guard this near zero is at its r
 constexpr double whole_step = 1e-9;        // no step for what rounding leaves of the run
 constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the end of a step to be looked into
 constexpr int most_refinements = 60;       // steps to locate one event
+constexpr int most_side_steps = 60;        // tries to get inside a step: else the step itself is too long
 constexpr int longest_cascade = 8;         // events at one instant
 constexpr int most_looks_beyond = 10;      // steps beyond the end of the run: there may be nothing behind it
 
@@ -99,7 +100,8 @@ class SideStepper {
     y_ = start;
     stepper_->resume(main);
     double t = from, dt = to - from;
-    while (t < to) {
+    for (int tries = 0; t < to; ++tries) {
+      if (tries == most_side_steps) throw SideStepUnderflow{t, dt};
       const bool last = dt >= to - t;
       if (last) dt = to - t;
       const double tried = dt, t_before = t;
@@ -214,13 +216,17 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
                     const IntegrationOptions& options) {
   const bool exactly = options.locate_events;
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
+  for (std::size_t k = 0; k < at_end.size(); ++k) {  // what was due before the step makes no step too long
+    if (at_end[k].value > event_tolerance && at_start[k].value >= -guard_tolerance) {
+      return {static_cast<int>(k), step.t0, step.y0};
+    }
+  }
   if (std::ranges::any_of(at_end, [&](const Guard& guard) { return guard.value > options.largest_overshoot; })) {
     throw SideStepUnderflow{step.t0, 0};
   }
   Located first;
   for (std::size_t k = 0; k < at_end.size(); ++k) {
     if (at_end[k].value <= event_tolerance) continue;
-    if (at_start[k].value >= -guard_tolerance) return {static_cast<int>(k), step.t0, step.y0};
     const Located found = exactly ? locate(ode, side, main, step, k) : Located{static_cast<int>(k), step.t1, step.y1};
     if (first.index < 0 || found.t < first.t) first = found;
   }
@@ -386,7 +392,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       dt = tried / 2;
       ++counters.rejected;
       stepper->resume(*stepper);
-      if (dt < smallest) underflow(stuck.t, stuck.dt, method.system != nullptr);
+      if (dt < smallest) underflow(stuck.t, std::max(stuck.dt, smallest), method.system != nullptr);
       continue;
     }
     if (beyond && !(event.index >= 0 && event.t <= t_end)) {

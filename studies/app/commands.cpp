@@ -416,8 +416,8 @@ int plot_command(const PlotArguments& arguments) {
   plot_run(run, what, arguments.quantities, arguments.look, arguments.figure);
   constexpr std::size_t smooth = 25;  // frames
   if (const std::size_t frames = run.configurations().size(); what == "animation" && frames < smooth) {
-    std::cerr << frames << (frames == 1 ? " frame" : " frames")
-              << ": for a smooth motion, run the scene with --frames 100\n";
+    std::cerr << frames << (frames == 1 ? " frame" : " frames") << ": for a smooth motion, run the scene with "
+              << (run.scene.analysis == Analysis::statics ? "more /statics/steps\n" : "--frames 100\n");
   }
   return done;
 }

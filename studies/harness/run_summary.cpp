@@ -165,6 +165,14 @@ std::string start_text(const Scene& scene, const StaticSample& at) {
                                           : "; joint free" + held);
 }
 
+template <class Line>
+void warning_lines(const RunResult& result, const Line& line) {
+  for (const Warning& warning : result.warnings) {
+    line("warning", warning.message);
+    line("", "try: " + warning.remedy);
+  }
+}
+
 std::string static_summary(const Scene& scene, const RunResult& result) {
   std::ostringstream text;
   const auto line = [&text](const char* name, const std::string& value) {
@@ -193,6 +201,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
   }
   for (const double frequency : result.frequencies) line("frequency", in_digits(frequency, 8) + " Hz");
   line("wall time", in_digits(result.timing.motion, 3) + " s");
+  warning_lines(result, line);
   return text.str();
 }
 
@@ -202,9 +211,9 @@ void joint_lines(const Scene& scene, const Sample& last, const Line& line) {
   if (last.joints.size() > 1) {
     std::string places;
     for (const SlidingSample& joint : last.joints) {
-      places += (places.empty() ? "" : ", ") + (joint.position ? in_digits(*joint.position, 8) : "off the beam");
+      places += (places.empty() ? "" : ", ") + (joint.position ? in_digits(*joint.position, 8) + " m" : "off the beam");
     }
-    line("joints at", places + " m along it");
+    line("joints at", places);
     return;
   }
   if (last.joint_position) line("joint position", in_digits(*last.joint_position, 8) + " m");
@@ -247,10 +256,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   line("steps", steps_text(scene, result));
   line("wall time", in_digits(result.timing.motion, 3) + " s motion, " + in_digits(result.timing.length_control, 3) +
                         " s length control");
-  for (const Warning& warning : result.warnings) {
-    line("warning", warning.message);
-    line("", "try: " + warning.remedy);
-  }
+  warning_lines(result, line);
   return text.str();
 }
 

@@ -154,6 +154,7 @@ Json compare_runs(const RunFile& a, const RunFile& b, double tolerance) {
                {"status", {a.status(), b.status()}},
                {"options", option_differences(scene_to_json(a.scene), scene_to_json(b.scene))},
                {"common_samples", pairs.size()},
+               {"common_until", a.t[pairs.back()[0]]},
                {"samples", {a.t.size(), b.t.size()}}};
   Json& list = json["quantities"] = Json::array();
   double largest = 0, apart_from = nan;
@@ -203,7 +204,9 @@ std::string comparison_text(const Json& comparison) {
     text << "  " << option.at("option").get<std::string>() << ": " << excerpt(option.at("a")) << " | "
          << excerpt(option.at("b")) << '\n';
   }
-  text << "samples: " << comparison.at("common_samples") << " in common; the largest difference of each quantity\n";
+  text << "samples: " << comparison.at("common_samples") << " in common, of " << comparison.at("samples")[0] << " | "
+       << comparison.at("samples")[1] << ", up to t = " << digits(comparison.at("common_until"), 6)
+       << " s; the largest difference of each quantity\n";
   for (const Json& row : comparison.at("quantities")) {
     text << "  " << row.at("quantity").get<std::string>() << ": " << digits(row.at("largest"))
          << (row.at("unit") == "-" ? "" : " " + row.at("unit").get<std::string>())
@@ -214,6 +217,11 @@ std::string comparison_text(const Json& comparison) {
   for (const Json& row : comparison.at("events")) {
     text << "events " << row.at("type").get<std::string>() << ": " << row.at("a") << " | " << row.at("b")
          << ", at most " << digits(row.at("furthest_apart")) << " s apart\n";
+  }
+  const Json& status = comparison.at("status");
+  if (status[0] != status[1]) {
+    text << "status: " << status[0].get<std::string>() << " | " << status[1].get<std::string>()
+         << ", so the runs are not the same\n";
   }
   if (comparison.at("tolerance").is_number()) {
     text << "positions are " << (comparison.at("within") ? "" : "NOT ") << "within "
