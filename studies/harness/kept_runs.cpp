@@ -35,7 +35,8 @@ fs::path file_of(const Scene& scene) {
 
 /// Beside the scene goes what its options do not say: who has chosen the integrator.
 RunResult simulate_apart(const Scene& scene, const ProgressCallback& progress) {
-  const Json asked{{"scene", scene_to_json(scene)}, {"automatic", scene.integrator.automatic}};
+  const Json asked{
+      {"scene", scene_to_json(scene)}, {"automatic", scene.integrator.automatic}, {"assumed", scene.assumed}};
   const ProcessResult process = run_process(
       {current->program, "kept-run", current->folder.string()}, [&progress] { return progress && !progress(0); },
       asked.dump());
@@ -88,6 +89,7 @@ std::string answer_of_kept_run(const fs::path& folder, const std::string& asked,
     const Json json = parse_json(asked);
     Scene scene = scene_from_json(json.at("scene"));
     scene.integrator.automatic = json.at("automatic");
+    scene.assumed = json.at("assumed");
     return simulate_kept(scene, progress);
   }));
 }

@@ -159,7 +159,7 @@ class Report {
     const double length = along.norm(), turns = load.magnitude.value / scene.beam.section.EI;
     const Vec<double, 3> kept = axis * axis.dot(along) / length, u = along / length - kept, v = axis.cross(u);
     const Vec<double, 3> exact =
-        kept * length + (std::sin(turns * length) * u + (1 - std::cos(turns * length)) * v) / turns;
+        kept * length + (portable::sin(turns * length) * u + (1 - portable::cos(turns * length)) * v) / turns;
     std::vector<double> levels, errors;
     for (const int n : meshes("helix")) {
       const RunResult run = StudyContext::simulate_to_the_end(scene_of("helix", n));

@@ -162,7 +162,11 @@ TEST(SpaceLaw, RefusesByName) {
        }},
       {"/loads/0/at", "node",
        [](Scene& s) {
-         s.loads = {{.type = LoadType::moment, .at = LoadPlace::point, .x = {}, .magnitude = {.value = 1}, .turn = {}}};
+         s.loads = {{.type = LoadType::moment,
+                     .at = LoadPlace::point,
+                     .x = {.value = 0.3},
+                     .magnitude = {.value = 1},
+                     .turn = {}}};
        }},
       {"/integrator/type", "generalized-alpha", [](Scene& s) { s.integrator.type = IntegratorType::energy_momentum; }},
       {"/integrator/type", "generalized-alpha",
