@@ -129,8 +129,8 @@ TEST_F(RunsApart, FailAsTheyWould) {
 
 TEST_F(RunsApart, KnowWhoChoseTheIntegrator) {
   const KeptRuns kept(kept_, program_of_runs);
-  Scene scene = parse_scene(R"({"beam": {"elements": 8, "material": {"youngs_modulus": 2e11}}, "duration": 0.1,
-    "supports": [{"at": "start", "type": "clamp"}], "integrator": {"type": "dopri5"}, "output": {"interval": 0.05}})");
+  Scene scene = parse_scene(R"({"beam": {"elements": 8, "section": {"radius": 0.01},
+    "material": {"density": 7200, "youngs_modulus": 2e11}}, "duration": 0.1, "supports": [{"at": "start", "type": "clamp"}], "integrator": {"type": "dopri5"}, "output": {"interval": 0.05}})");
   for (const bool automatic : {false, true}) {
     scene.integrator.automatic = automatic;
     const RunResult result = run(scene);
