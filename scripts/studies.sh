@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs studies one after another (each spreads its own runs over the threads) and judges their reports.
 #   scripts/studies.sh run    PROFILE OUT JOBS [STUDY]   run all studies, or one
-#   scripts/studies.sh update PROFILE OUT JOBS [STUDY]   run those that have no report of a completed run
+#   scripts/studies.sh update PROFILE OUT JOBS [STUDY]   run those that have no report of a completed run; with another
+#                                                        profile than full, of this program and this study
 #   scripts/studies.sh gate   PROFILE OUT JOBS [STUDY]   evaluate the gates of the reports; with PROFILE full and all
 #                                                        studies also compare the READMEs with them
 # The times of files decide nothing: a copied tree has others.
@@ -25,6 +26,15 @@ finished_line() {
 }
 done_before() { [[ -e $finished ]] && completed "$1" && grep -qxF "$(finished_line "$1")" "$finished"; }
 
+# The same of each report, for `update`: that of profile full is committed, and judged as it is.
+made=$out/.made
+made_by_this() { [[ $profile == full ]] || grep -qsxF "$(finished_line "$1")" "$made"; }
+note_made() {
+  [[ $profile != full ]] || return 0
+  { grep -v "^$1 " "$made" 2> /dev/null || true; finished_line "$1"; } > "$made.new"
+  mv "$made.new" "$made"
+}
+
 # On two cores, to one digit; the studies spread over the cores that there are.
 if [[ $action == run && -z ${5:-} ]]; then
   if [[ $profile == full ]]; then minutes="about 18 minutes"; else minutes="about 2 minutes"; fi
@@ -35,7 +45,9 @@ case $action in
   update)
     mkdir -p "$out"
     todo=()
-    for study in "${studies[@]}"; do completed "$study" || todo+=("$study"); done
+    for study in "${studies[@]}"; do
+      { completed "$study" && made_by_this "$study"; } || todo+=("$study")
+    done
     [[ ${#todo[@]} -gt 0 ]] || exit 0
     # Side by side, a core each, so that none is idle while a study waits for its longest run. The last one first: it takes
     # one core however many there are (work_precision, which measures times). Gates are judged afterwards, all together.
@@ -49,7 +61,10 @@ case $action in
       [[ $code -lt 128 ]] || exit 255  # stopped by the user: xargs starts no more, and the next call carries on
       [[ $code -le 1 ]]' || code=$?
     case $code in
-      0) exit 0 ;;
+      0)
+        for study in "${todo[@]}"; do note_made "$study"; done
+        exit 0
+        ;;
       124 | 125) exit 130 ;;
       *) exit 3 ;;
     esac
@@ -65,7 +80,7 @@ case $action in
       code=0
       "$vlbeam" study "$study" --profile "$profile" --out "$out" --jobs "$jobs" || code=$?
       if [[ $code -ge 128 ]]; then exit "$code"; fi  # stopped by the user: the next run carries on
-      if [[ $code -ge 1 ]]; then failed=$code; fi
+      if [[ $code -ge 1 ]]; then failed=$code; else note_made "$study"; fi
       if [[ $code -eq 0 && -z ${5:-} ]]; then finished_line "$study" >> "$finished"; fi
     done
     rm -f "$finished"
