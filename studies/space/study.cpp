@@ -58,8 +58,10 @@ class Report {
 
   StudyReport operator()() {
     quarter_arc();
+    polynomial_arc();
     bend();
     helix();
+    spring();
     buckling();
     modes();
     arc_modes();
@@ -72,12 +74,17 @@ class Report {
     report_.tables.push_back(std::move(arc_modes_));
     report_.tables.push_back(std::move(twisted_));
     report_.tables.push_back(std::move(fed_));
-    report_.figures = {{.name = "errors",
-                        .caption =
-                            "A quarter arc across its plane: error of its end against mesh and torsional stiffness; a "
-                            "driven free arc; a shaft under torque; a shaft that runs through two clamps",
-                        .script = "errors.gp",
-                        .variables = {{"folder", context_.folder.string()}}}};
+    report_.tables.push_back(std::move(shapes_));
+    report_.figures = {
+        {.name = "errors",
+         .caption = "A quarter arc across its plane: error of its end against mesh and torsional stiffness; a "
+                    "driven free arc; a shaft under torque; a shaft that runs through two clamps",
+         .script = "errors.gp",
+         .variables = {{"folder", context_.folder.string()}}},
+        {.name = "shapes",
+         .caption = "A rod that a moment rolls up to a helix, and the bend of 45 degrees, in perspective",
+         .script = "shapes.gp",
+         .variables = {{"folder", context_.folder.string()}}}};
     return std::move(report_);
   }
 
@@ -98,7 +105,22 @@ class Report {
     report_.cases.push_back({.options = options, .results = results});
   }
 
+  /// Keeps five of the equilibria of a path, to be drawn.
+  void draw(const char* problem, const RunResult& run) {
+    const auto& all = run.configurations;
+    constexpr std::array<double, 5> shares{0, 0.125, 0.25, 0.5, 1};
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const auto at = static_cast<std::size_t>(shares[i] * static_cast<double>(all.size() - 1));
+      for (const Point& r : all[at].r) shapes_.rows.push_back({problem, i, r[0], r[1], r[2]});
+    }
+  }
+
   /// Bending and torsion of a curved beam (Castigliano): P R^3 (pi/4/EI + (3 pi/4 - 2)/GIp).
+  static double exact_arc(const Scene& scene) {
+    const Section& section = scene.beam.section;
+    return scene.loads.front().magnitude.value * (pi / 4 / section.EI + (3 * pi / 4 - 2) / section.GIp);
+  }
+
   void quarter_arc() {
     std::vector<Case> cases;
     const auto torsions = context_.config.at("torsion").get<std::vector<double>>();
@@ -115,10 +137,7 @@ class Report {
     double worst = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Case& item = cases[i];
-      const Section& section = item.scene.beam.section;
-      const double exact =
-          item.scene.loads.front().magnitude.value * (pi / 4 / section.EI + (3 * pi / 4 - 2) / section.GIp);
-      const double error = std::abs(runs[i]->samples.back().end[2] / exact - 1);
+      const double error = std::abs(runs[i]->samples.back().end[2] / exact_arc(item.scene) - 1);
       const std::string name = "quarter_arc_" + number_text(item.torsion);
       arcs_.rows.push_back({item.torsion, item.elements, error});
       report_.measured[name + "_n" + std::to_string(item.elements)] = error;
@@ -135,6 +154,45 @@ class Report {
     report_.measured["quarter_arc_worst_n8"] = worst;
   }
 
+  /// The same on elements without weights, which know the arc to their order only.
+  void polynomial_arc() {
+    std::vector<double> levels, errors;
+    for (const int n : meshes("quarter_arc")) {
+      Scene scene = scene_of("quarter_arc", n);
+      scene.beam.element = ElementKind::ale_ancf;
+      const RunResult run = StudyContext::simulate_to_the_end(scene);
+      const double error = std::abs(run.samples.back().end[2] / exact_arc(scene) - 1);
+      report_.measured["polynomial_arc_n" + std::to_string(n)] = error;
+      keep({{"problem", "polynomial_arc"}, {"elements", n}}, {{"error", error}});
+      levels.push_back(n);
+      errors.push_back(error);
+    }
+    report_.fits.push_back(fit_order("polynomial_arc", levels, errors, {.floor = 1e-8}));
+  }
+
+  /// A spring of whole turns under a small force along its axis, which a moment brings there: the wire bears P R about
+  /// the direction that it goes round, P R^2 L (cos^2/GIp + sin^2/EI) of its angle to the turns (Castigliano).
+  void spring() {
+    std::vector<double> levels, errors;
+    for (const int n : meshes("spring")) {
+      const Scene scene = scene_of("spring", n);
+      const CurveSpec& curve = scene.beam.curve;
+      const Section& s = scene.beam.section;
+      const double turns = (curve.to_degrees - curve.from_degrees) / 360, round = 2 * pi * curve.radius,
+                   wire = std::hypot(round, curve.pitch), flat = round / wire, steep = curve.pitch / wire;
+      const double force = scene.loads.front().magnitude.value;
+      const double exact =
+          force * curve.radius * curve.radius * turns * wire * (flat * flat / s.GIp + steep * steep / s.EI);
+      const RunResult run = StudyContext::simulate_to_the_end(scene);
+      const double error = std::abs((run.samples.back().end[2] - turns * curve.pitch) / exact - 1);
+      report_.measured["spring_n" + std::to_string(n)] = error;
+      keep({{"problem", "spring"}, {"elements", n}}, {{"error", error}});
+      levels.push_back(n);
+      errors.push_back(error);
+    }
+    report_.fits.push_back(fit_order("spring", levels, errors, {.floor = 1e-7}));
+  }
+
   /// Bathe & Bolourchi (1979). Published elements shear; the known end is of an independent static code without shear.
   void bend() {
     const auto known = context_.config.at("bend_end").get<std::vector<double>>();
@@ -145,6 +203,7 @@ class Report {
       double most = 0;
       for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(end[c] - known[c]));
       report_.measured["bend_n" + std::to_string(n)] = most;
+      if (n == meshes("bend").back()) draw("bend", run);
       report_.measured["bend_change_n" + std::to_string(n)] = finest.empty() ? 0 : distance(end, finest);
       keep({{"problem", "bend"}, {"elements", n}}, {{"end", end}, {"off", most}});
       finest = end;
@@ -165,6 +224,7 @@ class Report {
       const RunResult run = StudyContext::simulate_to_the_end(scene_of("helix", n));
       const double error = (vector_of<3>(run.samples.back().end) - exact).norm() / length;
       report_.measured["helix_n" + std::to_string(n)] = error;
+      if (n == meshes("helix").back()) draw("helix", run);
       keep({{"problem", "helix"}, {"elements", n}}, {{"error", error}});
       levels.push_back(n);
       errors.push_back(error);
@@ -358,6 +418,9 @@ class Report {
                  "Shaft that runs at v through two clamps under an even torque: v/c, elements, energy of torsion [J], "
                  "the exact one",
              .columns = {"speed", "elements", "torsion", "exact", "error"}};
+  Table shapes_{.name = "shapes",
+                .caption = "Shapes on the way to the load, 0 to 4: nodes of the finest mesh [m]",
+                .columns = {"problem", "shape", "x", "y", "z"}};
   StudyReport report_;
 };
 
