@@ -179,7 +179,8 @@ class Report {
       const CurveSpec& curve = scene.beam.curve;
       const Section& s = scene.beam.section;
       const double turns = (curve.to_degrees - curve.from_degrees) / 360, round = 2 * pi * curve.radius,
-                   wire = std::hypot(round, curve.pitch), flat = round / wire, steep = curve.pitch / wire;
+                   wire = std::sqrt(round * round + curve.pitch * curve.pitch), flat = round / wire,
+                   steep = curve.pitch / wire;
       const double force = scene.loads.front().magnitude.value;
       const double exact =
           force * curve.radius * curve.radius * turns * wire * (flat * flat / s.GIp + steep * steep / s.EI);
