@@ -2,17 +2,16 @@
 
 #include <functional>
 
-#include "core/element/active.hpp"
-#include "core/element/triad.hpp"
+#include "core/element/frame_element.hpp"
 
 namespace vlbeam {
 
-/// A moment on the section at a node of a beam with frames, as a function of time.
+/// A moment on the section at a node of a beam with frames, as a function of time. Its axis, a unit vector, stays in
+/// space; or it follows the section, and has its components along the tangent, y and z of that.
 struct SectionMoment {
   int node = 0;  ///< negative ones count from the last, -1
-  Vec<double, 3>
-      direction;         ///< unit vector in space; if it follows, components along the tangent, y and z of the section
-  bool follows = false;  ///< it turns with the section
+  Vec<double, 3> direction;
+  bool follows = false;
   std::function<double(double t)> size = {};  ///< [N m]
 };
 
