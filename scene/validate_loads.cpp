@@ -127,7 +127,7 @@ void check_ground(const Scene& scene) {
     if (height < scene.ground->height - slack) {
       refuse("/ground/height", number_text(scene.ground->height),
              "the support at the " + std::string(name) + " of the beam would be below the floor: it must be at most " +
-                 number_text(height + 0.0) + " [m]");
+                 number_text(height == 0 ? 0 : height) + " [m]");  // not -0
     }
   }
 }

@@ -105,6 +105,20 @@ class Report {
     report_.cases.push_back({.options = options, .results = results});
   }
 
+  /// Keeps error(n) of each mesh, and fits their order.
+  template <class Error>
+  void refine(const std::string& problem, const std::vector<int>& elements, const Error& error,
+              const OrderFitOptions& options = {}) {
+    std::vector<double> levels, errors;
+    for (const int n : elements) {
+      levels.push_back(n);
+      errors.push_back(error(n));
+      report_.measured[problem + "_n" + std::to_string(n)] = errors.back();
+      keep({{"problem", problem}, {"elements", n}}, {{"error", errors.back()}});
+    }
+    report_.fits.push_back(fit_order(problem, levels, errors, options));
+  }
+
   /// Keeps five of the equilibria of a path, to be drawn.
   void draw(const char* problem, const RunResult& run) {
     const auto& all = run.configurations;
@@ -156,42 +170,30 @@ class Report {
 
   /// The same on elements without weights, which know the arc to their order only.
   void polynomial_arc() {
-    std::vector<double> levels, errors;
-    for (const int n : meshes("quarter_arc")) {
+    const auto error = [&](int n) {
       Scene scene = scene_of("quarter_arc", n);
       scene.beam.element = ElementKind::ale_ancf;
-      const RunResult run = StudyContext::simulate_to_the_end(scene);
-      const double error = std::abs(run.samples.back().end[2] / exact_arc(scene) - 1);
-      report_.measured["polynomial_arc_n" + std::to_string(n)] = error;
-      keep({{"problem", "polynomial_arc"}, {"elements", n}}, {{"error", error}});
-      levels.push_back(n);
-      errors.push_back(error);
-    }
-    report_.fits.push_back(fit_order("polynomial_arc", levels, errors, {.floor = 1e-8}));
+      return std::abs(StudyContext::simulate_to_the_end(scene).samples.back().end[2] / exact_arc(scene) - 1);
+    };
+    refine("polynomial_arc", meshes("quarter_arc"), error, {.floor = 1e-8});
   }
 
   /// A spring of whole turns under a small force along its axis, which a moment brings there: the wire bears P R about
   /// the direction that it goes round, P R^2 L (cos^2/GIp + sin^2/EI) of its angle to the turns (Castigliano).
   void spring() {
-    std::vector<double> levels, errors;
-    for (const int n : meshes("spring")) {
-      const Scene scene = scene_of("spring", n);
-      const CurveSpec& curve = scene.beam.curve;
-      const Section& s = scene.beam.section;
-      const double turns = (curve.to_degrees - curve.from_degrees) / 360, round = 2 * pi * curve.radius,
-                   wire = std::sqrt(round * round + curve.pitch * curve.pitch), flat = round / wire,
-                   steep = curve.pitch / wire;
-      const double force = scene.loads.front().magnitude.value;
-      const double exact =
-          force * curve.radius * curve.radius * turns * wire * (flat * flat / s.GIp + steep * steep / s.EI);
-      const RunResult run = StudyContext::simulate_to_the_end(scene);
-      const double error = std::abs((run.samples.back().end[2] - turns * curve.pitch) / exact - 1);
-      report_.measured["spring_n" + std::to_string(n)] = error;
-      keep({{"problem", "spring"}, {"elements", n}}, {{"error", error}});
-      levels.push_back(n);
-      errors.push_back(error);
-    }
-    report_.fits.push_back(fit_order("spring", levels, errors, {.floor = 1e-7}));
+    const Scene scene = scene_of("spring", 1);
+    const CurveSpec& curve = scene.beam.curve;
+    const Section& s = scene.beam.section;
+    const double turns = (curve.to_degrees - curve.from_degrees) / 360, round = 2 * pi * curve.radius,
+                 wire = std::sqrt(round * round + curve.pitch * curve.pitch), flat = round / wire,
+                 steep = curve.pitch / wire, force = scene.loads.front().magnitude.value;
+    const double exact =
+        force * curve.radius * curve.radius * turns * wire * (flat * flat / s.GIp + steep * steep / s.EI);
+    const auto error = [&](int n) {
+      const RunResult run = StudyContext::simulate_to_the_end(scene_of("spring", n));
+      return std::abs((run.samples.back().end[2] - turns * curve.pitch) / exact - 1);
+    };
+    refine("spring", meshes("spring"), error, {.floor = 1e-7});
   }
 
   /// Bathe & Bolourchi (1979). Published elements shear; the known end is of an independent static code without shear.
@@ -220,17 +222,12 @@ class Report {
     const Vec<double, 3> kept = axis * axis.dot(along) / length, u = along / length - kept, v = axis.cross(u);
     const Vec<double, 3> exact =
         kept * length + (portable::sin(turns * length) * u + (1 - portable::cos(turns * length)) * v) / turns;
-    std::vector<double> levels, errors;
-    for (const int n : meshes("helix")) {
+    const auto error = [&](int n) {
       const RunResult run = StudyContext::simulate_to_the_end(scene_of("helix", n));
-      const double error = (vector_of<3>(run.samples.back().end) - exact).norm() / length;
-      report_.measured["helix_n" + std::to_string(n)] = error;
       if (n == meshes("helix").back()) draw("helix", run);
-      keep({{"problem", "helix"}, {"elements", n}}, {{"error", error}});
-      levels.push_back(n);
-      errors.push_back(error);
-    }
-    report_.fits.push_back(fit_order("helix", levels, errors));
+      return (vector_of<3>(run.samples.back().end) - exact).norm() / length;
+    };
+    refine("helix", meshes("helix"), error);
   }
 
   void buckling() {
