@@ -24,7 +24,7 @@ struct ChainState {
   std::vector<double> rest;        ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
   const Axis<D>* rest_curve = nullptr;  ///< what new nodes follow then
   /// How sections are turned at the nodes, and are at rest, where they have frames. Cuts and merges leave them as they
-  /// were, and BeamSystem brings them up to date.
+  /// were, and CurrentBeam brings them up to date.
   std::vector<SectionState> sections, rest_sections;
   std::shared_ptr<const RestTriads> rest_triads = {};  ///< what new nodes, and those that move, follow at rest then
   /// The beam's slope behind a joint.

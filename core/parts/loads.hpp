@@ -52,7 +52,7 @@ Vec<Real, 2> turning_force(double moment, const Vec<Real, 2>& r_x) {
 /// Forces on material points of a beam, and along all of it. A force F on the material point x is N^T F of the
 /// element that holds it, N = [S, y_A, y_B]; along the beam it acts on the mark of a joint, if that is an end of it. A
 /// moment is the same of the slope, with N_x. What is distributed evenly acts as gravity does, of the beam alone: see
-/// BeamSystem::beam_gravity.
+/// CurrentBeam::beam_gravity.
 template <int D>
 struct Loads {
   using ElementMatrix = PointMatrix<D>;

@@ -74,7 +74,7 @@ namespace {
 template <int D>
 void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                 const TangentWeights& by, Eigen::MatrixXd LinearFlow::*which, LinearFlows& flows) {
-  ImplicitBeam<D> view(beam);
+  ImplicitBeam<D> view(beam.accelerations());
   Eigen::MatrixXd axis, angles;
   view.travelling_tangent(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
   const Spin* spin = beam.spin();
@@ -95,7 +95,7 @@ void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::Vect
 
 template <int D>
 Eigen::VectorXd steady_state(BeamSystem<D>& beam, const Eigen::VectorXd& guess, double t, bool unstable) {
-  ImplicitBeam<D> flow(beam);
+  ImplicitBeam<D> flow(beam.accelerations());
   const Eigen::Index n = beam.coordinates();
   Eigen::VectorXd q = guess.head(n), r(n);
   const Eigen::VectorXd v = guess.segment(n, n), a = Eigen::VectorXd::Zero(n);

@@ -1,11 +1,11 @@
 // A state as a chain, and a chain as a state.
-#include "core/system/beam_system.hpp"
+#include "core/system/current_beam.hpp"
 
 namespace vlbeam {
 
 template <int D>
-Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
+Eigen::VectorXd CurrentBeam<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(layout_.state());
   y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
   y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -25,15 +25,15 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
     y[layout_.mark()] = chain.rider->x;
     y[coordinates() + layout_.mark()] = chain.rider->rate;
   }
-  for (Eigen::Index k = 0; frames_ && k < frames_->nodes(); ++k) {
+  for (Eigen::Index k = 0; sections_.frames && k < sections_.frames->nodes(); ++k) {
     y[angles() + k] = chain.sections[static_cast<std::size_t>(k)].angle;
     y[coordinates() + angles() + k] = chain.sections[static_cast<std::size_t>(k)].spin;
   }
   if (old.size() == 0) return y;
   const Eigen::Index tallies = layout_.tallies.count();
   y.tail(tallies) = old.tail(tallies);
-  if (spin_) {
-    const Eigen::Index count = spin_->coordinates(), before = (old.size() - tallies) / 2;
+  if (sections_.spin) {
+    const Eigen::Index count = sections_.spin->coordinates(), before = (old.size() - tallies) / 2;
     y.segment(angles(), count) = old.segment(before - count, count);
     y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
   }
@@ -41,7 +41,7 @@ Eigen::VectorXd BeamSystem<D>::state_of(const ChainState<D>& chain, const Eigen:
 }
 
 template <int D>
-ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
+ChainState<D> CurrentBeam<D>::chain(const Eigen::VectorXd& y, double t) const {
   ChainState<D> result;
   result.mesh = mesh_;
   if (moving_) {
@@ -56,25 +56,28 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
   result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + layout_.mark());
   result.rest = rest_;
   result.rest_curve = model_.rest.get();
-  if (frames_) {
-    result.sections = frames_->sections(y.data(), y.data() + coordinates());
-    result.rest_sections = rest_sections_;
-    result.rest_triads = rest_triads_;
+  if (sections_.frames) {
+    result.sections = sections_.frames->sections(y.data(), y.data() + coordinates());
+    result.rest_sections = sections_.rest;
+    result.rest_triads = sections_.rest_triads;
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
     result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
     auto& joint = result.joints.emplace_back();
-    joint = {.node = place.node, .rate = y[coordinates() + place.mark], .index = index_[i], .touches = touches_[i]};
+    joint = {.node = place.node,
+             .rate = y[coordinates() + place.mark],
+             .index = joints_[i].index,
+             .touches = joints_[i].touches};
     if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates() + place.behind)};
     if (!result.curved_at_rest()) continue;
     const auto at_joint = model_.rest->derivatives(y[place.mark]);
     position<D>(result.rest.data(), place.node) = at_joint[0];
     slope<D>(result.rest.data(), place.node) = at_joint[1];
     if constexpr (D == 3) {
-      if (!frames_) continue;
+      if (!sections_.frames) continue;
       result.rest_sections[static_cast<std::size_t>(place.node)].direction =
-          rest_triads_->template direction<double>(y[place.mark], at_joint[1]);
+          sections_.rest_triads->template direction<double>(y[place.mark], at_joint[1]);
     }
   }
   for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
@@ -91,8 +94,8 @@ ChainState<D> BeamSystem<D>::chain(const Eigen::VectorXd& y, double t) const {
 }
 
 template <int D>
-std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(const Eigen::VectorXd& y,
-                                                                             int index) const {
+std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(const Eigen::VectorXd& y,
+                                                                               int index) const {
   const auto at = [&](Eigen::Index place) {
     return MassMotion{y.segment<D>(place), y.segment<D>(coordinates() + place)};
   };
@@ -101,7 +104,7 @@ std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(con
     return MassMotion{motion.r, motion.v};
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (index_[i] == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
+    if (joints_[i].index == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
   }
   for (std::size_t i = 0; i < departed_.size(); ++i) {
     if (departed_[i] == index) return at(departed_at(i));
@@ -109,11 +112,11 @@ std::optional<typename BeamSystem<D>::MassMotion> BeamSystem<D>::mass_motion(con
   return std::nullopt;
 }
 
-template Eigen::VectorXd BeamSystem<2>::state_of(const ChainState<2>&, const Eigen::VectorXd&) const;
-template ChainState<2> BeamSystem<2>::chain(const Eigen::VectorXd&, double) const;
-template std::optional<BeamSystem<2>::MassMotion> BeamSystem<2>::mass_motion(const Eigen::VectorXd&, int) const;
-template Eigen::VectorXd BeamSystem<3>::state_of(const ChainState<3>&, const Eigen::VectorXd&) const;
-template ChainState<3> BeamSystem<3>::chain(const Eigen::VectorXd&, double) const;
-template std::optional<BeamSystem<3>::MassMotion> BeamSystem<3>::mass_motion(const Eigen::VectorXd&, int) const;
+template Eigen::VectorXd CurrentBeam<2>::state_of(const ChainState<2>&, const Eigen::VectorXd&) const;
+template ChainState<2> CurrentBeam<2>::chain(const Eigen::VectorXd&, double) const;
+template std::optional<CurrentBeam<2>::MassMotion> CurrentBeam<2>::mass_motion(const Eigen::VectorXd&, int) const;
+template Eigen::VectorXd CurrentBeam<3>::state_of(const ChainState<3>&, const Eigen::VectorXd&) const;
+template ChainState<3> CurrentBeam<3>::chain(const Eigen::VectorXd&, double) const;
+template std::optional<CurrentBeam<3>::MassMotion> CurrentBeam<3>::mass_motion(const Eigen::VectorXd&, int) const;
 
 }  // namespace vlbeam

@@ -15,11 +15,11 @@ NodalCubic<double, D> mean(const NodalCubic<double, D>& a, const NodalCubic<doub
 
 template <int D>
 void ConservingStep<D>::refresh() {
-  if (revision_ == system_.revision()) return;
-  revision_ = system_.revision();
-  const auto& mesh = system_.mesh();
-  const BeamRule rule = beam_rule(system_.model().quadrature_points, system_.model().axial_strain);
-  const int joint = system_.has_joint() ? system_.places().front().node : -2;
+  if (revision_ == beam_.revision()) return;
+  revision_ = beam_.revision();
+  const auto& mesh = beam_.mesh();
+  const BeamRule rule = beam_rule(beam_.model().quadrature_points, beam_.model().axial_strain);
+  const int joint = beam_.has_joint() ? beam_.places().front().node : -2;
   fixed_.clear();
   for (int k = 0; k < mesh.elements(); ++k) {
     if (k == joint || k + 1 == joint) continue;
@@ -33,9 +33,9 @@ template <int D>
 double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                                    const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) {
   refresh();
-  const auto& model = system_.model();
-  const auto& mesh = system_.mesh();
-  const MovingLaw<D> law = system_.moving_law(t + h / 2);
+  const auto& model = beam_.model();
+  const auto& mesh = beam_.mesh();
+  const MovingLaw<D> law = beam_.moving_law(t + h / 2);
   const double rhoA = model.section.rhoA;
   double dissipation = 0;
   r.setZero();
@@ -61,8 +61,8 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
   }
 
   const Eigen::Index extra = node_size<D> * Eigen::Index{mesh.last() + 1};
-  if (system_.has_joint()) {
-    const int j = system_.places().front().node;
+  if (beam_.has_joint()) {
+    const int j = beam_.places().front().node;
     auto coordinates = [&](const Eigen::VectorXd& c, int k, double left, double right) {
       return MovingCoordinates<double, D>{element_nodes<D>(c.data(), k), left, right};
     };
@@ -79,14 +79,14 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     add(j - 1, conserving_residual<MovingEnds::b, D>(
                    {coordinates(q0, j - 1, start, q0[extra]), coordinates(q1, j - 1, start, q1[extra])},
                    {coordinates(v0, j - 1, 0, v0[extra]), coordinates(v1, j - 1, 0, v1[extra])}, h,
-                   mesh.weights[ju - 1], system_.moving_parts()[0].table, law));
+                   mesh.weights[ju - 1], beam_.moving_parts()[0].table, law));
     add(j,
         conserving_residual<MovingEnds::a, D>({coordinates(q0, j, q0[extra], end), coordinates(q1, j, q1[extra], end)},
                                               {coordinates(v0, j, v0[extra], 0), coordinates(v1, j, v1[extra], 0)}, h,
-                                              mesh.weights[ju], system_.moving_parts()[1].table, law));
+                                              mesh.weights[ju], beam_.moving_parts()[1].table, law));
     position<D>(out, j) +=
-        system_.joint(0).law.mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
-  } else if (const auto& rider = system_.rider()) {
+        beam_.joint(0).law.mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
+  } else if (const auto& rider = beam_.rider()) {
     const int k = rider->element;
     const auto part =
         conserving_rider<D>(rider->curve, {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)},
@@ -97,11 +97,11 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     position<D>(out, k + 1) += part.nodes[2];
     slope<D>(out, k + 1) += part.nodes[3];
     r[extra] = part.x;
-  } else if (!system_.departed().empty()) {
+  } else if (!beam_.departed().empty()) {
     r.segment<D>(extra) =
         model.joints.front().law.mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
   }
-  system_.holding().project(out);
+  beam_.holding().project(out);
   return dissipation;
 }
 

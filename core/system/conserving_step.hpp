@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/element/fixed_element.hpp"
-#include "core/system/beam_system.hpp"
+#include "core/system/current_beam.hpp"
 
 namespace vlbeam {
 
@@ -14,7 +14,7 @@ template <int D>
 class ConservingStep {
  public:
   /// `system` must outlive this object; its events may change it at any time.
-  explicit ConservingStep(BeamSystem<D>& system) : system_(system) {}
+  explicit ConservingStep(CurrentBeam<D>& beam) : beam_(beam) {}
 
   /// r = (p_1 - p_0)/h - f, with gravity as it is in the middle of the step. Returns the mean power lost to damping
   /// [W].
@@ -30,7 +30,7 @@ class ConservingStep {
 
   void refresh();
 
-  BeamSystem<D>& system_;
+  CurrentBeam<D>& beam_;
   std::size_t revision_ = static_cast<std::size_t>(-1);
   std::vector<FixedElement> fixed_;
 };

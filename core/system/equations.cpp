@@ -8,31 +8,31 @@ namespace vlbeam {
 template <int D>
 double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                               Eigen::VectorXd& r) const {
-  const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
-  const Vec<double, D> on_beam = system_.beam_gravity(t);
+  const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
+  const Vec<double, D> on_beam = beam_.beam_gravity(t);
   r.setZero();
   double lost = 0;
   at_spans([&](const Span<D>& span) { lost += span.add_forces(q.data(), v.data(), on_beam, r.data()); });
-  for (const auto& part : system_.acting()) lost += part->add_force(now, r.data()).dissipated;
+  for (const auto& part : beam_.acting()) lost += part->add_force(now, r.data()).dissipated;
   r = -r;
-  const PointMasses<D>& masses = system_.model().masses;
+  const PointMasses<D>& masses = beam_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
   at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data()); });
-  if (system_.frames() != nullptr) system_.frames()->add_inertia(q.data(), v.data(), a.data(), r.data());
-  if (system_.moving_mesh() != nullptr) {
-    lost += system_.add_travelling_residual(q.data(), v.data(), a.data(), t, r.data());
-  } else if (system_.has_joint()) {
+  if (beam_.frames() != nullptr) beam_.frames()->add_inertia(q.data(), v.data(), a.data(), r.data());
+  if (beam_.moving_mesh() != nullptr) {
+    lost += flow_.add_residual(q.data(), v.data(), a.data(), t, r.data());
+  } else if (beam_.has_joint()) {
     add_joints(now, r, lost);
-  } else if (system_.rider()) {
+  } else if (beam_.rider()) {
     add_rider(now, r, lost);
   }
-  for (std::size_t i = 0; i < system_.departed().size(); ++i) {
-    const Eigen::Index at = system_.layout().departed_mass(static_cast<int>(i));
-    const double mass = system_.model().joints[static_cast<std::size_t>(system_.departed()[i])].law.mass;
+  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
+    const Eigen::Index at = beam_.layout().departed_mass(static_cast<int>(i));
+    const double mass = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass;
     r.segment<D>(at) = mass * (a.segment<D>(at) - now.gravity);
   }
-  if (Spin* spin = system_.spin()) {
-    const Eigen::Index at = system_.layout().angle();
+  if (Spin* spin = beam_.spin()) {
+    const Eigen::Index at = beam_.layout().angle();
     lost += spin->residual(q.data() + at, v.data() + at, a.data() + at, t, r.data() + at);
   }
   return lost;
@@ -41,9 +41,9 @@ double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v
 template <int D>
 template <class Function>
 void Equations<D>::at_moving_parts(const Motion<D>& now, const Function& function) const {
-  MovingLaw<D> law = system_.moving_law(now.t);
-  for (const MovingPart& part : system_.moving_parts()) {
-    const auto rest = system_.rest_of(part, now.beam.q);
+  MovingLaw<D> law = beam_.moving_law(now.t);
+  for (const MovingPart& part : beam_.moving_parts()) {
+    const auto rest = beam_.rest_of(part, now.beam.q);
     law.rest = rest ? &*rest : nullptr;
     switch (part.ends) {
       case MovingEnds::a:
@@ -62,8 +62,8 @@ void Equations<D>::at_moving_parts(const Motion<D>& now, const Function& functio
 /// Elements at joints, joint by joint what slides there, and its friction.
 template <int D>
 void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const {
-  const ChainView<D>&beam = now.beam, accelerations = system_.view(beam.q, now.a);
-  const auto& places = system_.places();
+  const ChainView<D>&beam = now.beam, accelerations = beam_.view(beam.q, now.a);
+  const auto& places = beam_.places();
   at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
     const int k = part.element;
     const auto of = moving_residual<Ends, double, D>(beam.coordinates(k), beam.rates(k), accelerations.rates(k),
@@ -77,10 +77,10 @@ void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& 
     }
   });
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const SlidingJoint& joint = system_.joint(i).law;
+    const SlidingJoint& joint = beam_.joint(i).law;
     auto lacking = position<D>(r.data(), places[i].node);
     const Vec<double, D> inertia = joint.mass * (position<D>(now.a, places[i].node) - now.gravity);
-    const Vec<double, D> pull = system_.held(i) == nullptr ? inertia : Vec<double, D>(-lacking);
+    const Vec<double, D> pull = beam_.held(i) == nullptr ? inertia : Vec<double, D>(-lacking);
     lacking += inertia;
     r[places[i].mark] += joint.turning * now.a[places[i].mark];
     if (!joint.friction) continue;
@@ -92,11 +92,11 @@ void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& 
 
 template <int D>
 void Equations<D>::add_rider(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const {
-  const auto& rider = *system_.rider();
-  const Eigen::Index x = system_.layout().mark();
+  const auto& rider = *beam_.rider();
+  const Eigen::Index x = beam_.layout().mark();
   const auto part =
-      rider_residual<double, D>(system_.rider_motion(now.beam.q, now.beam.rate), element_nodes<D>(now.a, rider.element),
-                                now.a[x], system_.model().joints.front().law, now.gravity, rider.held);
+      rider_residual<double, D>(beam_.rider_motion(now.beam.q, now.beam.rate), element_nodes<D>(now.a, rider.element),
+                                now.a[x], beam_.model().joints.front().law, now.gravity, rider.held);
   position<D>(r.data(), rider.element) += part.nodes[0];
   slope<D>(r.data(), rider.element) += part.nodes[1];
   position<D>(r.data(), rider.element + 1) += part.nodes[2];
@@ -108,30 +108,30 @@ void Equations<D>::add_rider(const Motion<D>& now, Eigen::VectorXd& r, double& l
 template <int D>
 void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                             const TangentWeights& by, BeamMatrix<D>& tangent) {
-  const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
-  tangent.start(system_.layout().nodes, system_.places());
+  const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
+  tangent.start(beam_.layout().nodes, beam_.places());
   if constexpr (D == 3) {
-    if (system_.frames() != nullptr) tangent.add_angles();
+    if (beam_.frames() != nullptr) tangent.add_angles();
   }
-  if (system_.moving_mesh() != nullptr) {
+  if (beam_.moving_mesh() != nullptr) {
     add_travelling_elements(now, by, tangent);
   } else {
     add_elements(now, by, tangent);
   }
-  for (const auto& part : system_.acting()) part->add_tangent(now, by, tangent);
-  if (!system_.model().rubs()) return;
-  const auto& places = system_.places();
+  for (const auto& part : beam_.acting()) part->add_tangent(now, by, tangent);
+  if (!beam_.model().rubs()) return;
+  const auto& places = beam_.places();
   bool held = false;
-  for (std::size_t i = 0; i < places.size(); ++i) held = held || system_.held(i) != nullptr;
+  for (std::size_t i = 0; i < places.size(); ++i) held = held || beam_.held(i) != nullptr;
   if (held) {
     lacking_.resize(q.size());
     residual(q, v, a, t, lacking_);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const SlidingJoint& joint = system_.joint(i).law;
+    const SlidingJoint& joint = beam_.joint(i).law;
     if (!joint.friction) continue;
     Vec<double, D> pull = joint.mass * (position<D>(a.data(), places[i].node) - now.gravity);
-    const bool holds = system_.held(i) != nullptr;
+    const bool holds = beam_.held(i) != nullptr;
     if (holds) pull -= position<D>(lacking_.data(), places[i].node);
     add_friction_tangent<D>(joint, places[i], pull, holds, q.data(), v.data(), by, tangent);
   }
@@ -140,8 +140,8 @@ void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, 
 /// Elements, those at joints among them, and what slides there.
 template <int D>
 void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const {
-  const auto& joints = system_.model().joints;
-  const ChainView<D>&beam = now.beam, accelerations = system_.view(beam.q, now.a);
+  const auto& joints = beam_.model().joints;
+  const ChainView<D>&beam = now.beam, accelerations = beam_.view(beam.q, now.a);
   auto *diagonal = tangent.diagonal.data(), *upper = tangent.upper.data(), *lower = tangent.lower.data();
   at_spans([&](const Span<D>& span) { span.add_tangent(beam.q, beam.rate, by, diagonal, upper, lower); });
   at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
@@ -154,20 +154,20 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
                                                 beam.weights(k), part.table, law),
                         marks);
   });
-  for (std::size_t i = 0; i < system_.places().size(); ++i) {
-    const SlidingJoint& joint = system_.joint(i).law;
-    tangent.add_mass(system_.places()[i].node, by.a * joint.mass);
-    tangent.entry(system_.places()[i].mark, system_.places()[i].mark) += by.a * joint.turning;
+  for (std::size_t i = 0; i < beam_.places().size(); ++i) {
+    const SlidingJoint& joint = beam_.joint(i).law;
+    tangent.add_mass(beam_.places()[i].node, by.a * joint.mass);
+    tangent.entry(beam_.places()[i].mark, beam_.places()[i].mark) += by.a * joint.turning;
   }
-  if (const auto& rider = system_.rider()) {
+  if (const auto& rider = beam_.rider()) {
     tangent.add_border(rider->element);
     tangent.add_element(
         beam, rider->element,
-        rider_tangent<D>(system_.rider_motion(beam.q, beam.rate), element_nodes<D>(now.a, rider->element),
-                         now.a[system_.layout().mark()], joints.front().law, now.gravity, rider->held, by),
+        rider_tangent<D>(beam_.rider_motion(beam.q, beam.rate), element_nodes<D>(now.a, rider->element),
+                         now.a[beam_.layout().mark()], joints.front().law, now.gravity, rider->held, by),
         {0, -1});
   }
-  for (const int index : system_.departed()) {
+  for (const int index : beam_.departed()) {
     for (int c = 0; c < D; ++c) {
       tangent.add_border(0);
       const int last = tangent.borders() - 1;
@@ -180,9 +180,9 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
 template <int D>
 void Equations<D>::add_travelling_elements(const Motion<D>& now, const TangentWeights& by,
                                            BeamMatrix<D>& tangent) const {
-  system_.travel(now.t);
-  const auto& model = system_.model();
-  const MovingMesh<D>& mesh = *system_.moving_mesh();
+  beam_.travel(now.t);
+  const auto& model = beam_.model();
+  const MovingMesh<D>& mesh = *beam_.moving_mesh();
   const ChainView<D>& beam = now.beam;
   at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
     if constexpr (Ends == MovingEnds::both) {

@@ -1,18 +1,19 @@
 #pragma once
 
 #include "core/beam/beam_matrix.hpp"
-#include "core/system/beam_system.hpp"
+#include "core/system/current_beam.hpp"
+#include "core/system/flow.hpp"
 
 namespace vlbeam {
 
-/// The equations of motion of a beam system as a residual r = M a - Q and its exact tangent: the sum over all that acts
+/// The equations of motion of a beam as a residual r = M a - Q and its exact tangent: the sum over all that acts
 /// on it. What holds it, and what a thread does to its angles, is for who solves them. At rest they are those of
 /// statics.
 template <int D>
 class Equations {
  public:
-  /// `system` must outlive this object; its events may change it at any time.
-  explicit Equations(BeamSystem<D>& system) : system_(system) {}
+  /// `beam` must outlive this object; its events may change it at any time.
+  explicit Equations(CurrentBeam<D>& beam) : beam_(beam), flow_(beam) {}
 
   /// Writes r of the coordinates of the state, at the start of an array that may be longer; returns the power lost [W].
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
@@ -21,6 +22,11 @@ class Equations {
   /// else.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                 const TangentWeights& by, BeamMatrix<D>& tangent);
+  /// What the matter brings that flows in, in a second, at the accelerations `a`: by the elements of the last residual,
+  /// which Newton's last correction is next to nothing away from.
+  Tally flow_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) {
+    return flow_.power(q.data(), v.data(), a.data(), t);
+  }
 
  private:
   void add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const;
@@ -33,12 +39,13 @@ class Equations {
   /// Calls function(span) for the runs of fixed elements.
   template <class Function>
   void at_spans(const Function& function) const {
-    function(system_.left());
-    function(system_.right());
-    for (const SpanBetween<D>& span : system_.between()) function(span.span());
+    function(beam_.left());
+    function(beam_.right());
+    for (const SpanBetween<D>& span : beam_.between()) function(span.span());
   }
 
-  BeamSystem<D>& system_;
+  CurrentBeam<D>& beam_;
+  mutable Flow<D> flow_;
   Eigen::VectorXd lacking_;  ///< of what holds joints
 };
 

@@ -1,17 +1,17 @@
 // What an event makes of a beam and its state.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/length_control/least_change.hpp"
 #include "core/length_control/relaxation.hpp"
+#include "core/system/beam_observation.hpp"
 #include "core/system/beam_system.hpp"
 #include "core/system/event_limits.hpp"
 
 namespace vlbeam {
 namespace {
-
-using namespace event_limits;
 
 constexpr double restored_energy = 1e-9;  // of the energies there are
 
@@ -20,10 +20,11 @@ bool relaxes(const LengthControl& control) {
   return control.cut == CutPolicy::relaxed || control.merge == MergePolicy::relaxed;
 }
 
-ComputationFailed ran_into_support(bool held, Direction direction, double t) {
-  return {std::string(held ? "the joint" : "the sliding mass") + " ran into the support at the beam's " +
-              (direction == Direction::forward ? "end" : "start"),
-          t};
+/// Whether an event changes the mesh.
+bool remeshes(EventType type) {
+  using enum EventType;
+  return type == segment_merge || type == segmentation || type == merging || type == reweighting || type == end_merge ||
+         type == end_cut;
 }
 
 }  // namespace
@@ -32,130 +33,99 @@ ComputationFailed ran_into_support(bool held, Direction direction, double t) {
 template <int D>
 MergedWeights BeamSystem<D>::renew_weights(ChainState<D>& chain, std::size_t which, double t) const {
   const ChainState<D> before = chain;
-  const int node = places_[which].node;
+  const int node = places()[which].node;
   MergedWeights renewed;
   for (const int k : {node - 1, node}) {
     if (k < 0 || k == chain.mesh.elements()) continue;
     const auto i = static_cast<std::size_t>(k);
     const auto& x = chain.mesh.x;
     if (lost_weight(chain.mesh.weights[i].on(x[i], x[i + 1])) < -0.5 * smallest_weight) continue;
-    renewed = least_change(chain, before, k, true, moving_law(t));
+    renewed = least_change(chain, before, k, true, Beam::moving_law(t));
   }
   return renewed;
 }
 
 template <int D>
 double BeamSystem<D>::clear_of_end() const {
-  return rider_->end + (rider_->at_end() ? -1 : 1) * clearance * model_.length_control.standard_length;
-}
-
-template <int D>
-void BeamSystem<D>::hit(ChainState<D>& chain, Eigen::VectorXd& y, double t) {
-  const Impact& impact = model_.joints.front().at_support;
-  const int outwards = rider_->at_end() ? 1 : -1;
-  if (impact.law == AtSupport::stop) {
-    throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);
-  }
-  // a momentum J on x changes velocities by J M^-1 e_x
-  const Eigen::Index x = coordinates() + layout_.mark();
-  Eigen::VectorXd answer = Eigen::VectorXd::Unit(coordinates(), layout_.mark()), momentum(coordinates());
-  if (!solve_mass({}, y.data(), answer.data())) throw ran_into_support(false, Direction::forward, t);
-  multiply_mass({}, y.data(), answer.data(), momentum.data());
-  auto strike = [&](double restitution) {
-    auto rate = y.segment(coordinates(), coordinates());
-    const double change = -(1 + restitution) * rate[layout_.mark()] / answer[layout_.mark()];
-    layout_.tallies.add({.supports = change * (momentum.dot(rate) - momentum[layout_.mark()] * rate[layout_.mark()])},
-                        y);
-    rate += change * answer;
-  };
-  bool rests = impact.law == AtSupport::rest || impact.restitution == 0;
-  if (!rests) {
-    strike(impact.restitution);
-    Eigen::VectorXd rates(y.size());
-    rhs(y, rates, t);
-    const double falls = outwards * rates[x];
-    rests = falls > 0 && y[x] * y[x] < 2 * falls * least_bounce * model_.length_control.standard_length;
-  }
-  if (rests) strike(0);
-  chain = this->chain(y, t);
-  chain.rider->held = rests;
-  chain.rider->x = rests ? rider_->end : clear_of_end();
-  if (rests) chain.rider->rate = 0;
+  return rider()->end + (rider()->at_end() ? -1 : 1) * event_limits::clearance * model().length_control.standard_length;
 }
 
 template <int D>
 void BeamSystem<D>::check_leaving(const PendingEvent& due, double t) const {
   const bool forward = due.direction == Direction::forward;
-  const int node = places_[due.which].node;
-  if (!(forward ? node + 1 == mesh_.last() : node == 1)) {
+  const int node = places()[due.which].node;
+  if (!(forward ? node + 1 == mesh().last() : node == 1)) {
     throw ComputationFailed("tangled mesh: the sliding mass ran into a node; switch length control on", t);
   }
-  if (!(forward ? model_.end_releases : model_.start_releases)) {
+  if (!(forward ? model().end_releases : model().start_releases)) {
     throw ran_into_support(joint(due.which).support.has_value(), due.direction, t);
   }
-  for (const Tie& tie : ties_) {
-    if (tie.behind != index_[due.which] && tie.ahead != index_[due.which]) continue;
-    throw ComputationFailed("the joint " + std::to_string(index_[due.which]) +
-                                ", which a block holds, comes to a free end: take a longer beam, or a shorter duration",
-                            t);
-  }
+  if (!links_.in_block(joint_index(due.which))) return;
+  throw ComputationFailed("the joint " + std::to_string(joint_index(due.which)) +
+                              ", which a block holds, comes to a free end: take a longer beam, or a shorter duration",
+                          t);
 }
 
 template <int D>
 MergedWeights BeamSystem<D>::change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t) {
-  const auto& control = model_.length_control;
+  const auto& control = model().length_control;
   switch (due.type) {
     case EventType::separation: {
-      const int index = rider_ ? 0 : index_[due.which];
-      const auto mass = mass_motion(y, index);
-      if (rider_) {
+      const int index = rider() ? 0 : joint_index(due.which);
+      const auto mass = Beam::mass_motion(y, index);
+      if (rider()) {
         chain.rider.reset();
       } else {
-        separate(chain, due.direction, control, model_.transport);
+        separate(chain, due.direction, control, model().transport);
         if (!chain.joints.empty()) chain.joints.back().touches[1] = {};
       }
-      const ModelJoint<D>& left = model_.joints[static_cast<std::size_t>(index)];
+      const ModelJoint<D>& left = model().joints[static_cast<std::size_t>(index)];
       if (!left.support && left.law.mass > 0) chain.departed.push_back({index, mass->r, mass->v});
       return {};
     }
     case EventType::segment_merge:
     case EventType::segmentation:
     case EventType::merging:
-      return segment_and_merge(chain, due.which, due.direction, due.remeshing, control, moving_law(t));
+      return segment_and_merge(chain, due.which, due.direction, due.remeshing, control, Beam::moving_law(t));
     case EventType::reweighting:
       return renew_weights(chain, due.which, t);
     case EventType::end_merge:
-      return merge_at_end(chain, due.direction, control, moving_law(t));
+      return merge_at_end(chain, due.direction, control, Beam::moving_law(t));
     case EventType::end_cut: {
-      const MergedWeights merged = cut_at_end(chain, control, moving_law(t));
-      if (rider_law().kinked()) {
+      const MergedWeights merged = cut_at_end(chain, control, Beam::moving_law(t));
+      if (Beam::rider_law().kinked()) {
         auto& node = chain.joints.front();
         node.kink = {slope<D>(chain.q.data(), node.node), slope<D>(chain.rate.data(), node.node)};
       }
       return merged;
     }
     case EventType::contact:
-      if (rider_) {
-        hit(chain, y, t);
+      if (rider()) {
+        const bool rests = impacts_.hit(y, t);
+        chain = Beam::chain(y, t);
+        chain.rider->held = rests;
+        chain.rider->x = rests ? rider()->end : clear_of_end();
+        if (rests) chain.rider->rate = 0;
       } else {
-        strike(y, t);
-        chain = this->chain(y, t);
+        impacts_.strike(y, t);
+        chain = Beam::chain(y, t);
       }
       return {};
     case EventType::lift_off:
-      if (rider_) {
+      if (rider()) {
         chain.rider->held = false;
         chain.rider->x = clear_of_end();
       } else {
-        const auto parts = std::ranges::find_if(resting_, [&](const Contact& contact) {
-          return contact.which == due.which && (contact.support < 0) == (due.direction == Direction::backward);
+        const bool at_start = due.direction == Direction::backward;
+        const auto parts = std::ranges::find_if(links_.resting(), [&](const NodeContact<D>& contact) {
+          return contact.which == due.which && (contact.support < 0) == at_start;
         });
-        open_contact(Contact(*parts), y);
-        chain = this->chain(y, t);
+        links_.open(NodeContact<D>(*parts), y);
+        chain = Beam::chain(y, t);
       }
       return {};
     case EventType::passage:
-      passed_[static_cast<std::size_t>(index_[due.which])] += due.direction == Direction::forward ? 1 : -1;
+      Beam::pass(due.which, due.direction == Direction::forward ? 1 : -1);
       return {};
   }
   return {};
@@ -164,16 +134,16 @@ MergedWeights BeamSystem<D>::change(const PendingEvent& due, ChainState<D>& chai
 template <int D>
 int BeamSystem<D>::relax_after(const std::vector<PendingEvent>& dues, ChainState<D>& chain, double t,
                                double excess) const {
-  const auto& control = model_.length_control;
+  const auto& control = model().length_control;
   std::vector<GivingNode> giving;
   const auto slope_is_free = [&](int node) {
     if (node == 0 || node == chain.mesh.last()) {
-      const auto& support = node == 0 ? model_.start : model_.end;
+      const auto& support = node == 0 ? model().start : model().end;
       if ((support.free_slope == 0).any()) return false;
     }
     const auto* const at = chain.joint_at(node);
     if (at == nullptr) return true;
-    const auto& support = model_.joints[static_cast<std::size_t>(at->index)].support;
+    const auto& support = model().joints[static_cast<std::size_t>(at->index)].support;
     return !at->kink && !(support && (support->free_slope == 0).any());
   };
   const auto place_is_free = [&](int node) {
@@ -213,124 +183,147 @@ int BeamSystem<D>::relax_after(const std::vector<PendingEvent>& dues, ChainState
     }
   }
   if (giving.empty()) return 0;
-  return relax(chain, giving, beam_rule(model_.quadrature_points, model_.axial_strain), moving_law(t), excess);
+  return relax(chain, giving, beam_rule(model().quadrature_points, model().axial_strain), Beam::moving_law(t), excess);
 }
 
 template <int D>
-void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
-  if (moving_) stop_travelling(index, t);
-  const auto started = std::chrono::steady_clock::now();
-  impose(y, t);
-  orient(t);
-  if (turns_away(index, y, t)) return frames_->follow(y.data(), y.data() + coordinates());
-  const bool ramped = ramp_.due(model_.gravity_ramp);
-  if (ramped) ramp_.advance(t, moment(y, t));
-  const std::vector<PendingEvent> dues = all_due(index, y, t);
-  const EventType type = dues.front().type;
-  const bool leaving = type == EventType::separation;
-  if (leaving && has_joint()) check_leaving(dues.front(), t);
+void BeamSystem<D>::change_mesh(const std::vector<PendingEvent>& dues, std::vector<EventRecord<D>>& records,
+                                double t) const {
+  ChainState<D>& chain = records.front().after;
+  const auto remesh = [&](const PendingEvent& due, const Remeshing& what) {
+    return segment_and_merge(chain, due.which, due.direction, what, model().length_control, Beam::moving_law(t));
+  };
+  // cuts first, at places that no merge has moved: mirror images stay mirror images
+  for (const PendingEvent& due : dues) {
+    if (due.remeshing.cut) remesh(due, {true, false});
+  }
+  for (std::size_t i = 0; i < dues.size(); ++i) {
+    if (dues[i].remeshing.merge) records[i].merged = remesh(dues[i], {false, true});
+  }
+}
+
+template <int D>
+std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y,
+                                                      double t) const {
   std::vector<EventRecord<D>> records(dues.size());
   for (std::size_t i = 0; i < dues.size(); ++i) {
     records[i].t = t;
     records[i].type = dues[i].type;
-    records[i].joint = rider_ ? 0 : index_[dues[i].which];
-    records[i].joint_position = y[rider_ ? layout_.mark() : places_[dues[i].which].mark];
+    records[i].joint = rider() ? 0 : joint_index(dues[i].which);
+    records[i].joint_position = y[rider() ? layout().mark() : places()[dues[i].which].mark];
     records[i].restored = true;
   }
-  EventRecord<D>& record = records.front();
-  record.before = chain(y, t);
-  record.after = record.before;
-  // an event of the mesh changes the two elements on either side, or, where slopes change too, one more
-  const bool reshapes = type == EventType::reweighting || model_.length_control.merge == MergePolicy::least_change ||
-                        relaxes(model_.length_control);
+  records.front().before = records.front().after = Beam::chain(y, t);
+  return records;
+}
+
+template <int D>
+typename BeamSystem<D>::Reach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues) const {
+  const EventType type = dues.front().type;
+  const LengthControl& control = model().length_control;
+  const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
+  const bool reshapes =
+      type == EventType::reweighting || control.merge == MergePolicy::least_change || relaxes(control);
   const int reach = reshapes ? 3 : 2;
-  int lowest = mesh_.elements(), highest = 0;
+  Reach result{mesh().elements(), 0};
   for (const PendingEvent& due : dues) {
-    const int middle = rider_ ? rider_->element : places_[due.which].node;
-    lowest = std::min(lowest, std::max(0, middle - reach));
-    highest = std::max(highest, std::min(mesh_.elements(), middle + reach));
+    const int middle = rider() ? rider()->element : places()[due.which].node;
+    result.lowest = std::min(result.lowest, std::max(0, middle - reach));
+    result.highest = std::max(result.highest, std::min(mesh().elements(), middle + reach));
   }
-  auto energies = [&](const ChainState<D>& state, int points) {
+  // a projection or an impact changes velocities everywhere, and a rider's is not a node's
+  result.everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider().has_value() ||
+                      Beam::frames() != nullptr;
+  return result;
+}
+
+template <int D>
+void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const Reach& reach, const Eigen::VectorXd& old,
+                                        const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t) {
+  velocities_.project(record.before, reach.lowest, reach.highest, y, t);
+  if (old_frames == nullptr || !(model().frames->section.rhoIp > 0)) return;
+  const Eigen::Index before = (old.size() - layout().tallies.count()) / 2;
+  Beam::frames()->project_spins(*old_frames, old.data(), old.data() + before, y.data(), y.data() + coordinates());
+}
+
+template <int D>
+void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
+  const auto started = std::chrono::steady_clock::now();
+  Beam::impose(y, t);
+  Beam::orient(t);
+  if (guards_.turns_away(index, y, t)) return Beam::frames()->follow(y.data(), y.data() + coordinates());
+  const bool ramped = ramp_.due(model().gravity_ramp);
+  if (ramped) ramp_.advance(t, moment(y, t));
+  const std::vector<PendingEvent> dues = guards_.due(index, y, t);
+  const EventType type = dues.front().type;
+  const bool leaving = type == EventType::separation;
+  if (leaving && has_joint()) check_leaving(dues.front(), t);
+
+  std::vector<EventRecord<D>> records = records_of(dues, y, t);
+  EventRecord<D>& record = records.front();
+  const LengthControl& control = model().length_control;
+  const int own_points = model().quadrature_points;
+  const Reach before = reach_of(dues);
+  const auto energy_of = [&](const ChainState<D>& chain, const Reach& reach, int points) {
     Observation<D> seen;
-    const int more = state.mesh.elements() - record.before.mesh.elements();
-    observe_elements(state, lowest, highest + more, t, points, seen);
+    observe_elements(*this, chain, reach.lowest, reach.highest, t, points, seen);
     return seen.energy;
   };
-  const bool remeshes = type == EventType::segment_merge || type == EventType::segmentation ||
-                        type == EventType::merging || type == EventType::reweighting || type == EventType::end_merge ||
-                        type == EventType::end_cut;
-  const bool transfers = remeshes && model_.length_control.velocities != VelocityTransfer::nodal;
-  // a projection or an impact changes velocities everywhere, and a rider's is not a node's
-  const bool everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider_ || frames_;
-  const Energy before = everywhere ? observe(y, t, ledger_points).energy : energies(record.before, ledger_points);
-  const double own_before =
-      (everywhere ? observe(y, t, model_.quadrature_points).energy : energies(record.before, model_.quadrature_points))
-          .total();
-
-  const Eigen::VectorXd momenta_before = momenta(y, t);
-  const double work_before = layout_.tallies.of(y).supports;
+  const auto energy_at = [&](const ChainState<D>& chain, const Reach& reach, int points) {
+    return reach.everywhere ? observe(y, t, points).energy : energy_of(chain, reach, points);
+  };
+  const Energy energy_before = energy_at(record.before, before, ledger_points);
+  const double own_before = energy_at(record.before, before, own_points).total();
+  const Eigen::VectorXd momenta_before = velocities_.momenta(y, t);
+  const double work_before = layout().tallies.of(y).supports;
 
   if (dues.size() == 1) {
-    records.front().merged = change(dues.front(), record.after, y, t);
-  } else {  // cuts first, at places that no merge has moved: mirror images stay mirror images
-    const auto remesh = [&](const PendingEvent& due, const Remeshing& what) {
-      return segment_and_merge(record.after, due.which, due.direction, what, model_.length_control, moving_law(t));
-    };
-    for (const PendingEvent& due : dues) {
-      if (due.remeshing.cut) remesh(due, {true, false});
-    }
-    for (std::size_t i = 0; i < dues.size(); ++i) {
-      if (dues[i].remeshing.merge) records[i].merged = remesh(dues[i], {false, true});
-    }
+    record.merged = change(dues.front(), record.after, y, t);
+  } else {
+    change_mesh(dues, records, t);
   }
-  if (frames_) turn_sections(record.before, y, record.after);
-  if (remeshes && relaxes(model_.length_control)) {
-    const auto stored = [&](const ChainState<D>& state) {
-      const Energy energy = energies(state, model_.quadrature_points);
+  if (Beam::frames() != nullptr) Beam::turn_sections(record.before, y, record.after);
+  Reach after = before;
+  after.highest += record.after.mesh.elements() - record.before.mesh.elements();
+  if (remeshes(type) && relaxes(control)) {
+    const auto stored = [&](const ChainState<D>& chain, const Reach& reach) {
+      const Energy energy = energy_of(chain, reach, own_points);
       return energy.axial + energy.bending;
     };
-    record.relaxation = relax_after(dues, record.after, t, stored(record.after) - stored(record.before));
+    record.relaxation = relax_after(dues, record.after, t, stored(record.after, after) - stored(record.before, before));
   }
   const Eigen::VectorXd old = y;
-  const std::shared_ptr<Frames> old_frames = frames_;
-  const Eigen::Index old_coordinates = coordinates();
-  adopt(record.after);
-  orient(t);
-  y = state_of(record.after, old);
-  const int highest_after = highest + record.after.mesh.elements() - record.before.mesh.elements();
+  const std::shared_ptr<Frames> old_frames = Beam::shared_frames();
+  take(record.after);
+  Beam::orient(t);
+  y = Beam::state_of(record.after, old);
+
+  const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
+  const bool conserves = transfers && control.velocities == VelocityTransfer::conservative;
   if (transfers) {
-    project_velocities(record.before, lowest, highest_after, y, t);
-    if (frames_ && model_.frames->section.rhoIp > 0) {
-      frames_->project_spins(*old_frames, old.data(), old.data() + old_coordinates, y.data(), y.data() + coordinates());
-    }
-    if (model_.length_control.velocities == VelocityTransfer::conservative) {
-      restore(momenta_before, own_before, y, t);
-    }
-    record.after = this->chain(y, t);
-    record.jump = observe(y, t, ledger_points).energy - before;
-    record.discrete_jump = observe(y, t, model_.quadrature_points).energy.total() - own_before;
-    if (model_.length_control.velocities == VelocityTransfer::conservative) {
-      const double size = std::abs(before.kinetic) + before.axial + before.bending + std::abs(before.gravity);
-      record.restored = std::abs(record.discrete_jump) <= restored_energy * size;
-    }
-  } else if (everywhere) {
-    if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
-      project_velocities(record.before, lowest, lowest, y, t);
-      record.after = this->chain(y, t);
-    }
-    record.jump = observe(y, t, ledger_points).energy - before;
-    record.discrete_jump = observe(y, t, model_.quadrature_points).energy.total() - own_before;
-  } else {
-    record.jump = energies(record.after, ledger_points) - before;
-    record.discrete_jump = energies(record.after, model_.quadrature_points).total() - own_before;
+    transfer_velocities(record, after, old, old_frames, y, t);
+  } else if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
+    velocities_.project(record.before, before.lowest, before.lowest, y, t);
   }
-  if (model_.driven()) {  // what supports do in an impact is no jump
-    const double work = layout_.tallies.of(y).supports - work_before;
+  if (conserves) {
+    const auto total = [&](const Eigen::VectorXd& state) { return observe(state, t, own_points).energy.total(); };
+    velocities_.restore(momenta_before, own_before, total, y, t);
+  }
+  if (transfers || type == EventType::end_merge) record.after = Beam::chain(y, t);
+  record.jump = energy_at(record.after, after, ledger_points) - energy_before;
+  record.discrete_jump = energy_at(record.after, after, own_points).total() - own_before;
+  if (conserves) {
+    const double size =
+        std::abs(energy_before.kinetic) + energy_before.axial + energy_before.bending + std::abs(energy_before.gravity);
+    record.restored = std::abs(record.discrete_jump) <= restored_energy * size;
+  }
+  if (model().driven()) {  // what supports do in an impact is no jump
+    const double work = layout().tallies.of(y).supports - work_before;
     record.jump.kinetic -= work;
     record.jump.supplied -= work;
     record.discrete_jump -= work;
   }
-  if (!leaving) record.momentum_jump = momenta(y, t) - momenta_before;
+  if (!leaving) record.momentum_jump = velocities_.momenta(y, t) - momenta_before;
   if (ramped) ramp_.restart(t, moment(y, t));
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!on_event) return;
@@ -342,19 +335,29 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   }
 }
 
-template double BeamSystem<2>::clear_of_end() const;
 template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
+template double BeamSystem<2>::clear_of_end() const;
 template void BeamSystem<2>::check_leaving(const PendingEvent&, double) const;
 template MergedWeights BeamSystem<2>::change(const PendingEvent&, ChainState<2>&, Eigen::VectorXd&, double);
+template void BeamSystem<2>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<2>>&, double) const;
 template int BeamSystem<2>::relax_after(const std::vector<PendingEvent>&, ChainState<2>&, double, double) const;
-template void BeamSystem<2>::hit(ChainState<2>&, Eigen::VectorXd&, double);
+template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
+                                                               double) const;
+template BeamSystem<2>::Reach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&) const;
+template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const Reach&, const Eigen::VectorXd&,
+                                                 const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
-template double BeamSystem<3>::clear_of_end() const;
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
+template double BeamSystem<3>::clear_of_end() const;
 template void BeamSystem<3>::check_leaving(const PendingEvent&, double) const;
 template MergedWeights BeamSystem<3>::change(const PendingEvent&, ChainState<3>&, Eigen::VectorXd&, double);
+template void BeamSystem<3>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<3>>&, double) const;
 template int BeamSystem<3>::relax_after(const std::vector<PendingEvent>&, ChainState<3>&, double, double) const;
-template void BeamSystem<3>::hit(ChainState<3>&, Eigen::VectorXd&, double);
+template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
+                                                               double) const;
+template BeamSystem<3>::Reach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&) const;
+template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const Reach&, const Eigen::VectorXd&,
+                                                 const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 
 }  // namespace vlbeam

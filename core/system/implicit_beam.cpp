@@ -10,19 +10,19 @@
 namespace vlbeam {
 template <int D>
 void ImplicitBeam<D>::rebuild() const {
-  revision_ = system_.revision();
-  layout_ = system_.layout();
-  reference_mass_ = system_.model().section.rhoA * system_.mesh().length() / system_.mesh().elements();
+  revision_ = beam_.revision();
+  layout_ = beam_.layout();
+  reference_mass_ = beam_.model().section.rhoA * beam_.mesh().length() / beam_.mesh().elements();
   supports_.clear();
   if (with_multipliers()) supports_.adopt(holding().nodes());
-  kinks_.adopt(system_, !with_multipliers());
-  links_.adopt(system_.links());
+  kinks_.adopt(beam_, !with_multipliers());
+  links_.adopt(accelerations_.links().all());
   layout_.multipliers = supports_.count() + kinks_.count() + links_.count();
 }
 
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
-  std::vector<FieldRun> runs = layout().fields(system_.spin());
+  std::vector<FieldRun> runs = layout().fields(beam_.spin());
   supports_.add_fields(layout().multiplier(), runs);
   if (kinks_.count() > 0) runs.push_back({Field::slope_multiplier, first_kink_multiplier(), kinks_.count()});
   for (Eigen::Index i = 0; i < links_.count(); ++i) runs.push_back({Field::multiplier, first_link_multiplier() + i});
@@ -31,7 +31,7 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
 
 template <int D>
 void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
-  const Eigen::Index n = coordinates(), own = system_.coordinates();
+  const Eigen::Index n = coordinates(), own = beam_.coordinates();
   q.setZero(n);
   v.setZero(n);
   q.head(own) = y.head(own);
@@ -40,15 +40,15 @@ void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen
 
 template <int D>
 void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
-  const Eigen::Index own = system_.coordinates();
-  y_.setZero(system_.size());
-  dydt_.resize(system_.size());
+  const Eigen::Index own = beam_.coordinates();
+  y_.setZero(beam_.layout().state());
+  dydt_.resize(beam_.layout().state());
   contract(q, v, y_);
-  system_.rhs(y_, dydt_, t);
+  accelerations_.rates(y_, dydt_, t);
   a.setZero(q.size());
   a.head(own) = dydt_.segment(own, own);
   if (multipliers() == 0) return;
-  a.tail(links_.count()) = -system_.link_forces() / reference_mass_;
+  a.tail(links_.count()) = -accelerations_.link_forces() / reference_mass_;
   // what the equations of motion lack is what the constraints give
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
@@ -70,10 +70,10 @@ double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::Vec
 template <int D>
 double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                                  Eigen::VectorXd& r) {
-  system_.count_evaluation();
+  accelerations_.count_evaluation();
   refresh();
   const auto& held = holding().at(t);
-  if (!system_.travel(t)) {
+  if (!beam_.travel(t)) {
     r.setConstant(std::numeric_limits<double>::quiet_NaN());
     return 0;
   }
@@ -85,12 +85,12 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   }
   if (!with_multipliers()) holding().project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  if (const auto nut = system_.nut_place()) {
+  if (const auto nut = beam_.nut_place()) {
     const Eigen::Index mark = places()[*nut].mark, at = angles();
-    r.segment(at, system_.spin()->coordinates()) -= nut_torque(*nut, q, v, r[mark]);
-    r[mark] = system_.nut().off(*system_.spin(), q.data() + at, v.data() + at, q[mark]);
+    r.segment(at, beam_.spin()->coordinates()) -= nut_torque(*nut, q, v, r[mark]);
+    r[mark] = beam_.nut().off(*beam_.spin(), q.data() + at, v.data() + at, q[mark]);
   }
-  if (const Spin* spin = system_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
+  if (const Spin* spin = beam_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
   const Eigen::Index first = layout().multiplier();
   supports_.add_residual(held, q.data(), a.data() + first, reference_mass_, r.data(), r.data() + first);
   links_.write_values(q.data(), r.data() + first_link_multiplier());
@@ -121,10 +121,10 @@ void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::Ve
 
 template <int D>
 bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const {
-  const bool guides = system_.model().guides();
-  if (!system_.model().driven() || (with_multipliers() && !guides)) return false;
+  const bool guides = beam_.model().guides();
+  if (!beam_.model().driven() || (with_multipliers() && !guides)) return false;
   offset.setZero(q.size());
-  at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - system_.guided(i, t)->value; });
+  at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - beam_.guided(i, t)->value; });
   if (!with_multipliers()) holding().add_offset(t, q.data(), offset.data());
   return true;
 }
@@ -132,32 +132,31 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
 template <int D>
 Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                       double t) {
-  if (system_.moving_mesh() != nullptr) {
-    // by the elements of the last residual, which Newton's last correction is next to nothing away from
-    return system_.model().books_flow ? system_.flow_power(q.data(), v.data(), a.data(), t) : Tally{};
+  if (beam_.moving_mesh() != nullptr) {
+    return beam_.model().books_flow ? equations_.flow_power(q, v, a, t) : Tally{};
   }
   Tally power;
-  if (system_.model().tallies().loads) {
+  if (beam_.model().tallies().loads) {
     free_.setZero(q.size());
-    const Motion<D> now = system_.motion(q.data(), v.data(), a.data(), t);
-    for (const auto& part : system_.acting()) {
+    const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
+    for (const auto& part : beam_.acting()) {
       if (part->has_power()) power.loads += part->add_force(now, free_.data()).loads;
     }
-    power.loads += system_.line_power(now.beam, t);
-    power.supports += system_.fed_line_power(now.beam, t);
+    power.loads += beam_.line_power(now.beam, t);
+    power.supports += beam_.fed_line_power(now.beam, t);
   }
-  if (Spin* spin = system_.spin(); spin != nullptr && spin->model().supplied()) {
+  if (Spin* spin = beam_.spin(); spin != nullptr && spin->model().supplied()) {
     const Eigen::Index at = angles();
     Eigen::VectorXd by_nut;
-    if (const auto nut = system_.nut_place()) {
+    if (const auto nut = beam_.nut_place()) {
       free_.resize(q.size());
       free_residual(q, v, a, t, free_);
       by_nut = nut_torque(*nut, q, v, free_[places()[*nut].mark]);
     }
     power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t, by_nut.size() > 0 ? &by_nut : nullptr);
   }
-  if (!system_.model().driven()) return power;
-  system_.count_evaluation();
+  if (!beam_.model().driven()) return power;
+  accelerations_.count_evaluation();
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
   at_guides([&](std::size_t i) { power.supports += free_[places()[i].mark] * v[places()[i].mark]; });
@@ -169,12 +168,12 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
 template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                           const Eigen::VectorXd& a, double h, double t) {
-  if (!system_.model().section.damped() || !system_.travel(t + h / 2)) return std::nullopt;
+  if (!beam_.model().section.damped() || !beam_.travel(t + h / 2)) return std::nullopt;
   y_ = 0.5 * (q0 + q1);
   dydt_ = (q1 - q0) / h;
   free_.resize(q0.size());
   const double lost = equations_.residual(y_, dydt_, a, t + h / 2, free_);
-  system_.travel(t + h);
+  beam_.travel(t + h);
   return lost;
 }
 
@@ -182,19 +181,18 @@ template <int D>
 double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
                                             const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
                                             Eigen::VectorXd& r) {
-  if (system_.model().spin) {
+  if (beam_.model().spin) {
     throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
   }
-  if (system_.frames() != nullptr) {
+  if (beam_.frames() != nullptr) {
     throw ModelError("integrator", "\"energy-momentum\"", "it knows no frames in space: take any other integrator");
   }
-  if (driven() || system_.moving_mesh() != nullptr || system_.model().loads.present() ||
-      system_.model().drag.present()) {
+  if (driven() || beam_.moving_mesh() != nullptr || beam_.model().loads.present() || beam_.model().drag.present()) {
     throw ModelError(
         "integrator", "\"energy-momentum\"",
         "it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
   }
-  system_.count_evaluation();
+  accelerations_.count_evaluation();
   return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
 }
 
@@ -207,7 +205,7 @@ void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::
   axis.setZero(after_nodes(), after_nodes());
   tangent_.expand(axis);
   angles.resize(0, 0);
-  const Spin* spin = system_.spin();
+  const Spin* spin = beam_.spin();
   if (spin == nullptr) return;
   spin->assemble(by, spin_tangent_);
   const Eigen::Index size = 2 * Eigen::Index{nodes()};  // an angle and a twist a node
@@ -224,9 +222,9 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   links_.add_tangent(q.data(), a.data() + first_link_multiplier(), reference_mass_, constraint_scale_, tangent_);
   if (!with_multipliers()) holding().project(tangent_);
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
-  const auto nut = system_.nut_place();
+  const auto nut = beam_.nut_place();
   if (nut) take_nut(*nut, reference_mass_ * by.a);
-  if (const Spin* spin = system_.spin()) {
+  if (const Spin* spin = beam_.spin()) {
     spin->assemble(by, spin_tangent_);
     if (!spin->factor(by.a, spin_tangent_)) return false;
   }
@@ -238,7 +236,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
 template <int D>
 Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                             double push) const {
-  return system_.nut().torque(*system_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
+  return beam_.nut().torque(*beam_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
 }
 
 template <int D>
@@ -261,13 +259,13 @@ void ImplicitBeam<D>::take_nut(std::size_t which, double size) {
 template <int D>
 void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                  const Eigen::VectorXd& a, double t) {
-  const Spin& spin = *system_.spin();
+  const Spin& spin = *beam_.spin();
   const Eigen::Index mark = places()[which].mark;
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
   const double push = free_[mark];
   tangent_.solve(nut_.column.data());
-  nut_.thread = system_.nut().thread(spin, q.data() + angles(), v.data() + angles(), q[mark]);
+  nut_.thread = beam_.nut().thread(spin, q.data() + angles(), v.data() + angles(), q[mark]);
   const auto where_free = [&](Eigen::VectorXd torque) {
     for (const DrivenAngle& drive : spin.model().drives) torque[spin.angle(drive.node)] = 0;
     return torque;
@@ -325,7 +323,7 @@ template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  const auto nut = system_.nut_place();
+  const auto nut = beam_.nut_place();
   const Eigen::Index x = nut ? places()[*nut].mark : 0;
   const double off = nut ? std::exchange(r[x], 0) : 0;
   // what has a tangent of its own stands between the others and multipliers
@@ -336,7 +334,7 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   if (turning > 0) swap_multipliers(multipliers());
   tangent_.solve(r.data());
   if (turning > 0) swap_multipliers(turning);
-  if (const Spin* spin = system_.spin()) {
+  if (const Spin* spin = beam_.spin()) {
     auto turn = r.segment(angles(), spin->coordinates());
     if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;
     spin_tangent_.solve(turn.data());
@@ -348,7 +346,7 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
       r[x] = moves;
     }
   }
-  if (system_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
+  if (beam_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
     holding().project(r.data());
   }
 }
@@ -361,10 +359,10 @@ OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double 
   free_residual(q, v, Eigen::VectorXd::Zero(q.size()), t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
-  forces.on_masses.assign(system_.model().joints.size(), Vec<double, D>::Zero());
+  forces.on_masses.assign(beam_.model().joints.size(), Vec<double, D>::Zero());
   for (std::size_t i = 0; i < places().size(); ++i) {
-    auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
-    on_mass = -position<D>(free_.data(), places()[i].node) - system_.joint(i).law.mass * system_.gravity(t);
+    auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
+    on_mass = -position<D>(free_.data(), places()[i].node) - beam_.joint(i).law.mass * beam_.gravity(t);
   }
   return forces;
 }
@@ -378,44 +376,43 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   free_residual(q, v, a, t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
-  if (const Spin* spin = system_.spin()) {
+  if (const Spin* spin = beam_.spin()) {
     Eigen::VectorXd torques = free_.segment(angles(), spin->coordinates());
-    if (const auto nut = system_.nut_place()) {
+    if (const auto nut = beam_.nut_place()) {
       torques -= nut_torque(*nut, q, v, free_[places()[*nut].mark]);
     }
     forces.drives = spin->drive_torques(torques.data());
   }
-  for (const auto& [node, support] : system_.model().held_nodes) {
+  for (const auto& [node, support] : beam_.model().held_nodes) {
     forces.guides.push_back(free_.segment<B>(Eigen::Index{B} * node));
   }
-  const auto& joints = system_.model().joints;
+  const auto& joints = beam_.model().joints;
   forces.on_masses.assign(joints.size(), Vec<double, D>::Zero());
   forces.guiding.assign(joints.size(), 0);
   for (const JointPlace& place : places()) forces.mark_accelerations.push_back(a[place.mark]);
-  at_guides([&](std::size_t i) {
-    forces.guiding[static_cast<std::size_t>(system_.joint_index(i))] = free_[places()[i].mark];
-  });
-  if (const auto nut = system_.nut_place()) {
-    forces.guiding[static_cast<std::size_t>(system_.joint_index(*nut))] = free_[places()[*nut].mark];
+  at_guides(
+      [&](std::size_t i) { forces.guiding[static_cast<std::size_t>(beam_.joint_index(i))] = free_[places()[i].mark]; });
+  if (const auto nut = beam_.nut_place()) {
+    forces.guiding[static_cast<std::size_t>(beam_.joint_index(*nut))] = free_[places()[*nut].mark];
   }
-  if (const auto& rider = system_.rider()) {
-    const auto at = system_.rider_motion(q.data(), v.data());
+  if (const auto& rider = beam_.rider()) {
+    const auto at = beam_.rider_motion(q.data(), v.data());
     const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
                                         at.r_x * a[after_nodes()] + at.remainder;
-    forces.on_masses.front() = joints.front().law.mass * (acceleration - system_.gravity(t));
+    forces.on_masses.front() = joints.front().law.mass * (acceleration - beam_.gravity(t));
   }
   for (std::size_t i = 0; i < places().size(); ++i) {
     const Vec<double, D> acceleration = position<D>(a.data(), places()[i].node);  // it moves with the mass
-    auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
-    on_mass = system_.joint(i).law.mass * (acceleration - system_.gravity(t));
-    if (system_.held(i) != nullptr)
+    auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
+    on_mass = beam_.joint(i).law.mass * (acceleration - beam_.gravity(t));
+    if (beam_.held(i) != nullptr)
       on_mass -= position<D>(free_.data(), places()[i].node);  // what holds it does the rest
   }
   for (std::size_t c = 0; c < links_.all().size(); ++c) {  // and so does what it is linked to
     const auto& link = links_.all()[c];
-    const Vec<double, D> push = system_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
+    const Vec<double, D> push = accelerations_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
     for (std::size_t i = 0; i < places().size(); ++i) {
-      auto& on_mass = forces.on_masses[static_cast<std::size_t>(system_.joint_index(i))];
+      auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
       if (places()[i].node == link.ahead) on_mass -= push;
       if (places()[i].node == link.behind) on_mass += push;
     }

@@ -5,36 +5,38 @@
 #include "core/beam/beam_matrix.hpp"
 #include "core/dynamics/second_order.hpp"
 #include "core/joint/kinks.hpp"
-#include "core/system/beam_system.hpp"
+#include "core/system/accelerations.hpp"
 #include "core/system/conserving_step.hpp"
 #include "core/system/equations.hpp"
 #include "core/system/node_link.hpp"
+#include "core/system/observation.hpp"
 #include "core/system/support_constraints.hpp"
 #include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
-/// A beam system as an implicit method sees it: residual M a - Q and its exact tangent. The tangent is block
+/// A beam as an implicit method sees it: residual M a - Q and its exact tangent. The tangent is block
 /// tridiagonal in the nodes with a border; fixed elements contribute the second derivative of their strain energy, the
 /// elements at joints the derivative of their whole residual (inertia, velocity terms and configurational force
 /// included).
 ///
-/// Its coordinates are those of BeamSystem's state, and behind them multipliers: with Constraints::multipliers those of
-/// supports, whose reactions they are; always those of conditions on the slopes of kinked joints, and of links:
+/// Its coordinates are those of CurrentBeam's state, and behind them multipliers: with Constraints::multipliers those
+/// of supports, whose reactions they are; always those of conditions on the slopes of kinked joints, and of links:
 /// blocks, and what rests against each other. The border of the tangent holds the joints' material coordinates, the
 /// slopes behind kinks, the positions of masses that have left, and the multipliers.
 template <int D>
 class ImplicitBeam final : public SecondOrderSystem {
  public:
-  /// `system` must outlive this object; its events may change it at any time.
-  explicit ImplicitBeam(BeamSystem<D>& system) : system_(system), equations_(system), conserving_step_(system) {}
+  /// `of` must outlive this object; events may change the beam at any time.
+  explicit ImplicitBeam(Accelerations<D>& of)
+      : accelerations_(of), beam_(of.beam()), equations_(of.beam()), conserving_step_(of.beam()) {}
 
   Eigen::Index coordinates() const override { return layout().coordinates(); }
   Eigen::Index multipliers() const override { return layout().multipliers; }
   std::vector<FieldRun> fields() const override;
   void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
   void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override {
-    const Eigen::Index own = system_.coordinates();
+    const Eigen::Index own = beam_.coordinates();
     y.head(own) = q.head(own);
     y.segment(own, own) = v.head(own);
   }
@@ -44,9 +46,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
   void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                         Eigen::VectorXd& rates) const override;
-  bool driven() const override { return system_.model().driven() || system_.nut_place(); }
+  bool driven() const override { return beam_.model().driven() || beam_.nut_place(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
-  Tallies tallies() const override { return system_.model().tallies(); }
+  Tallies tallies() const override { return beam_.model().tallies(); }
   Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
   std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                            const Eigen::VectorXd& a, double h, double t) override;
@@ -84,15 +86,15 @@ class ImplicitBeam final : public SecondOrderSystem {
   using Block = Eigen::Matrix<double, B, B>;
   /// What depends on the mesh.
   void refresh() const {
-    if (revision_ != system_.revision()) rebuild();
+    if (revision_ != beam_.revision()) rebuild();
   }
   void rebuild() const;
   /// Where the multipliers of the conditions on slopes and of links stand, behind those of supports.
   Eigen::Index first_kink_multiplier() const { return layout().multiplier() + supports_.count(); }
   Eigen::Index first_link_multiplier() const { return first_kink_multiplier() + kinks_.count(); }
-  bool with_multipliers() const { return system_.model().constraints == Constraints::multipliers; }
-  const std::vector<JointPlace>& places() const { return system_.places(); }
-  const Held<D>& holding() const { return system_.holding(); }
+  bool with_multipliers() const { return beam_.model().constraints == Constraints::multipliers; }
+  const std::vector<JointPlace>& places() const { return beam_.places(); }
+  const Held<D>& holding() const { return beam_.holding(); }
   /// Lets the conditions on slopes be those that serve at q.
   void choose_conditions(const Eigen::VectorXd& q) const {
     kinks_.choose(q.data(), [](Eigen::Index /*first*/, int /*count*/) {});
@@ -101,7 +103,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   template <class Function>
   void at_guides(const Function& function) const {
     for (std::size_t i = 0; i < places().size(); ++i) {
-      if (system_.guides(i)) function(i);
+      if (beam_.guides(i)) function(i);
     }
   }
   /// That of the state, with multipliers.
@@ -131,7 +133,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   void add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
   double element_length() const;  ///< mean of the mesh [m]
   double wave_time() const;       ///< of an axial wave through such an element [s]
-  BeamSystem<D>& system_;
+  Accelerations<D>& accelerations_;
+  CurrentBeam<D>& beam_;
   Equations<D> equations_;
   ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);

@@ -12,13 +12,13 @@
 namespace vlbeam {
 template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
-  if (system_.spin() != nullptr) {
+  if (beam_.spin() != nullptr) {
     throw ModelError("integrator", "\"rosenbrock4\"", "its Jacobian knows no spin: take any other integrator");
   }
   refresh();
   const Eigen::Index n = coordinates();
   Eigen::VectorXd exact = y;
-  system_.impose(exact, t);
+  beam_.impose(exact, t);
   const Eigen::VectorXd q = exact.head(n), v = exact.segment(n, n);
   a_.resize(n);
   acceleration(q, v, t, a_);
@@ -50,15 +50,15 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   if (y.size() > 2 * n) add_tallies(exact, t, dfdy);
 
   dfdt.setZero();
-  const auto& model = system_.model();
+  const auto& model = beam_.model();
   const bool rubs = model.rubs();
   const bool turned = model.frames && model.frames->loaded();
   if (model.driven() || model.travels() || model.loads.present() || turned || (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
   } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that
     weightless_.resize(y.size());
-    system_.rhs(y, weightless_, 0);
-    system_.rhs(y, dfdt, model.gravity_ramp);
+    accelerations_.rates(y, weightless_, 0);
+    accelerations_.rates(y, dfdt, model.gravity_ramp);
     dfdt = smooth_ramp(t, model.gravity_ramp).rate * (dfdt - weightless_);
   }
 }
@@ -70,7 +70,7 @@ template <int D>
 void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy) {
   const Eigen::Index n = coordinates(), tallies = y.size() - 2 * n;
   double sliding = std::numeric_limits<double>::infinity();  // velocity at which friction fades
-  for (const auto& joint : system_.model().joints) {
+  for (const auto& joint : beam_.model().joints) {
     if (joint.law.friction) sliding = std::min(sliding, joint.law.friction->velocity);
   }
   Eigen::VectorXd more(y.size());
@@ -78,7 +78,7 @@ void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::Mat
     rhs_difference(y, t, k, size, more);
     dfdy.col(k).tail(tallies) = more.tail(tallies);
   };
-  for_each_coordinate(system_.fields(), [&](Field field, Eigen::Index k) {
+  for_each_coordinate(beam_.layout().fields(beam_.spin()), [&](Field field, Eigen::Index k) {
     const double size = field == Field::slope ? 1 : element_length();
     difference(k, size);
     difference(n + k, field == Field::mark && std::isfinite(sliding) ? sliding : size / wave_time());
@@ -93,20 +93,20 @@ void ImplicitBeam<D>::rhs_difference(const Eigen::VectorXd& y, double t, Eigen::
   Eigen::VectorXd at = y, less(y.size());
   at[k] = y[k] + step;
   const double above = at[k];
-  system_.rhs(at, result, t);
+  accelerations_.rates(at, result, t);
   at[k] = y[k] - step;
-  system_.rhs(at, less, t);
+  accelerations_.rates(at, less, t);
   result = (result - less) / (above - at[k]);
 }
 
 template <int D>
 double ImplicitBeam<D>::element_length() const {
-  return system_.mesh().length() / system_.mesh().elements();
+  return beam_.mesh().length() / beam_.mesh().elements();
 }
 
 template <int D>
 double ImplicitBeam<D>::wave_time() const {
-  const BeamSection& section = system_.model().section;
+  const BeamSection& section = beam_.model().section;
   return element_length() * std::sqrt(section.rhoA / section.stiffness.EA);
 }
 
@@ -145,7 +145,7 @@ void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::Matri
   const std::vector<Look> ahead{{0, -25.0 / 12}, {1, 4}, {2, -3}, {3, 4.0 / 3}, {4, -0.25}};  // none before t = 0
   Eigen::VectorXd there(y.size());
   for (const auto& [step, weight] : t < 2 * instant ? ahead : around) {
-    system_.rhs(y, there, t + step * instant);
+    accelerations_.rates(y, there, t + step * instant);
     dfdt += weight / instant * there;
   }
 }

@@ -1,26 +1,31 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <boost/container/small_vector.hpp>
 
-#include "core/system/beam_system.hpp"
+#include "core/system/current_beam.hpp"
 
 namespace vlbeam {
 
 /// M a = F with some accelerations a_s given: the others follow from M a = F - M a_s, and what holds a_s is M a - F.
 /// Only the elements at a support or at a joint that is held couple a_s to anything.
 template <int D>
-class BeamSystem<D>::PrescribedMotion {
+class PrescribedMotion {
  public:
+  using Vector = Vec<double, D>;
+  using JointElements = typename CurrentBeam<D>::JointElements;
+  using EndInertia = std::array<FixedInertia, 2>;  ///< of the first and the last element, without joints
+
   /// Takes the inertia of the given accelerations from the forces. `at_joints` holds the elements at the joints; q and
   /// its rates are as the supports have them.
-  PrescribedMotion(const BeamSystem& system, const JointElements& at_joints, const double* q, const double* rate,
-                   double* force, double t)
-      : system_(&system) {
+  PrescribedMotion(const CurrentBeam<D>& beam, const EndInertia& ends, const JointElements& at_joints, const double* q,
+                   const double* rate, double* force, double t)
+      : beam_(&beam), ends_(&ends) {
     add_supports(at_joints, q, rate, force, t);
     add_joints(at_joints, force, t);
     for (const Side& side : sides_) {
-      const auto parts = system_->vectors_of(force, side.element);
+      const auto parts = beam_->vectors_of(force, side.element);
       for (std::size_t k = 0; k < side.driven; ++k) {
         const std::size_t row = side.held + k;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -37,7 +42,7 @@ class BeamSystem<D>::PrescribedMotion {
   void complete(double* a) const {
     for (const Side& side : sides_) {
       if (!side.of_node) continue;
-      const auto parts = system_->vectors_of(a, side.element);
+      const auto parts = beam_->vectors_of(a, side.element);
       for (std::size_t k = 0; k < side.driven; ++k) {
         Eigen::Map<Vector>(parts[side.held + k]) += side.parts[k].acceleration;
       }
@@ -47,7 +52,7 @@ class BeamSystem<D>::PrescribedMotion {
   /// `on_rider` acts on the rider, whose shape functions are `s`, and its opposite on the beam.
   void add_rider(const Vector& on_rider, const std::array<double, 4>& s) {
     for (Side& side : sides_) {
-      if (side.element != system_->rider_->element) continue;
+      if (side.element != beam_->rider()->element) continue;
       for (std::size_t k = 0; k < side.driven; ++k) side.parts[k].force -= s[side.held + k] * on_rider;
     }
   }
@@ -56,7 +61,7 @@ class BeamSystem<D>::PrescribedMotion {
   double power(double* a) const {
     double sum = 0;
     for (const Side& side : sides_) {
-      const auto parts = system_->vectors_of(a, side.element);
+      const auto parts = beam_->vectors_of(a, side.element);
       for (std::size_t k = 0; k < side.driven; ++k) {
         const std::size_t row = side.held + k;
         Vector reaction = -side.parts[k].force + side.lumped * Eigen::Map<const Vector>(parts[row]);
@@ -91,11 +96,11 @@ class BeamSystem<D>::PrescribedMotion {
   static constexpr std::size_t usual = 6;  // sides: two supports and two joints
 
   void add_supports(const JointElements& at_joints, const double* q, const double* rate, double* force, double t) {
-    for (const HeldNode<D>& held : system_->held_.at(t)) {
+    for (const HeldNode<D>& held : beam_->holding().at(t)) {
       if (held.end < 0) continue;
       const bool start = held.end == 0;
-      Side& side = sides_.emplace_back(side_of(start ? 0 : system_->mesh_.elements() - 1, start ? 0 : 2, at_joints));
-      const auto parts = system_->vectors_of(force, side.element);
+      Side& side = sides_.emplace_back(side_of(start ? 0 : beam_->mesh().elements() - 1, start ? 0 : 2, at_joints));
+      const auto parts = beam_->vectors_of(force, side.element);
       side.parts[0] = {Eigen::Map<const Vector>(parts[side.held]), held.driven.rate, held.driven.acceleration};
       if (!held.turns()) continue;
       const Vector s = slope<D>(q, held.node), s_rate = slope<D>(rate, held.node);
@@ -107,7 +112,7 @@ class BeamSystem<D>::PrescribedMotion {
   }
 
   void add_joints(const JointElements& at_joints, const double* force, double t) {
-    for (const HeldNode<D>& held : system_->held_.at(t)) {
+    for (const HeldNode<D>& held : beam_->holding().at(t)) {
       if (held.joint < 0 || held.motion == nullptr) continue;
       for (const bool before : {true, false}) {
         Side& side = sides_.emplace_back(side_of(before ? held.node - 1 : held.node, before ? 2 : 0, at_joints));
@@ -115,7 +120,7 @@ class BeamSystem<D>::PrescribedMotion {
         side.of_node = before;
         if (!before) continue;
         side.parts[0].force = position<D>(force, held.node);
-        side.lumped = system_->joint(static_cast<std::size_t>(held.joint)).law.mass;
+        side.lumped = beam_->joint(static_cast<std::size_t>(held.joint)).law.mass;
       }
     }
   }
@@ -124,7 +129,7 @@ class BeamSystem<D>::PrescribedMotion {
     Side result;
     result.element = element;
     result.held = held;
-    const auto& parts = system_->parts_;
+    const auto& parts = beam_->moving_parts();
     const auto moving =
         std::find_if(parts.begin(), parts.end(), [&](const MovingPart& part) { return part.element == element; });
     if (moving != parts.end()) {
@@ -132,20 +137,21 @@ class BeamSystem<D>::PrescribedMotion {
       result.mass = eq.mass;
       result.by_joint = {eq.mass_a, eq.mass_b};
       const auto mark = [&](int joint) {
-        return joint < 0 ? Eigen::Index{-1} : system_->places_[static_cast<std::size_t>(joint)].mark;
+        return joint < 0 ? Eigen::Index{-1} : beam_->places()[static_cast<std::size_t>(joint)].mark;
       };
       result.marks = {mark(moving->a), mark(moving->b)};
     } else {
-      result.mass = system_->end_inertia_[held == 0 ? 0 : 1].mass;
+      result.mass = (*ends_)[held == 0 ? 0 : 1].mass;
       for (auto& row : result.mass) {
-        for (double& entry : row) entry *= system_->model_.section.rhoA;
+        for (double& entry : row) entry *= beam_->model().section.rhoA;
       }
-      add_point_masses(system_->model_.masses.points, system_->mesh_, element, result.mass);
+      add_point_masses(beam_->model().masses.points, beam_->mesh(), element, result.mass);
     }
     return result;
   }
 
-  const BeamSystem* system_;
+  const CurrentBeam<D>* beam_;
+  const EndInertia* ends_;
   boost::container::small_vector<Side, usual> sides_;
 };
 

@@ -58,7 +58,7 @@ TYPED_TEST(ImplicitTravelTest, ResidualVanishesAtTheAccelerationsOfTheExplicitFo
   for (const auto& [formulation, field] : choices) {
     const BeamModel<D> model = whirling<D>(formulation, field);
     BeamSystem<D> beam(model, straight_chain(model));
-    ImplicitBeam<D> flow(beam);
+    ImplicitBeam<D> flow(beam.accelerations());
     const Eigen::Index n = beam.coordinates();
     const Eigen::VectorXd y = random_state(beam, this->random_);
     const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
@@ -75,7 +75,7 @@ TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
   for (const auto& [formulation, field] : choices) {
     const BeamModel<D> model = whirling<D>(formulation, field);
     BeamSystem<D> beam(model, straight_chain(model));
-    ImplicitBeam<D> flow(beam);
+    ImplicitBeam<D> flow(beam.accelerations());
     const Eigen::Index n = beam.coordinates();
     const Eigen::VectorXd y = random_state(beam, this->random_);
     const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);

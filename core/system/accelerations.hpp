@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/system/beam_mass.hpp"
+#include "core/system/flow.hpp"
+
+namespace vlbeam {
+
+/// The equations of motion of a beam between two events in minimal coordinates, as explicit methods take them:
+/// y' = f(t, y), with M a = Q solved for the accelerations.
+template <int D>
+class Accelerations {
+ public:
+  using Vector = Vec<double, D>;
+  using JointElements = typename CurrentBeam<D>::JointElements;
+
+  /// All must outlive this object.
+  Accelerations(CurrentBeam<D>& beam, const BeamLinks<D>& links, BeamMass<D>& mass)
+      : beam_(beam), links_(links), mass_(mass), flow_(beam) {}
+
+  CurrentBeam<D>& beam() const { return beam_; }
+  const BeamLinks<D>& links() const { return links_; }
+
+  /// Writes y' at (y, t); not a number where the mass matrix is singular or nodes tangle.
+  void rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t);
+  /// Forces along links, as evaluated last: positive where they push [N].
+  const Eigen::VectorXd& link_forces() const { return link_forces_; }
+  /// The same at a state.
+  Eigen::VectorXd forces_of_links(const Eigen::VectorXd& y, double t) const;
+  /// Generalized force of the support on the x of a held rider [N].
+  double contact_force(const Eigen::VectorXd& y, double t) const;
+
+  /// Evaluations of the equations, as accelerations or as a residual.
+  std::size_t evaluations() const { return evaluations_; }
+  void count_evaluation() { ++evaluations_; }
+  void set_evaluations(std::size_t count) { evaluations_ = count; }
+  /// After each change of the beam.
+  void adopt();
+
+ private:
+  /// Writes the accelerations; returns powers, nothing where there is no solution.
+  std::optional<Tally> solve(const double* q, const double* rate, double t, double* a);
+  // Forces in `a` become accelerations; `pull` is what moving supports do.
+  bool solve_travelling(const double* q, const double* rate, double t, double* a,
+                        std::optional<PrescribedMotion<D>>& pull);
+  bool solve_at_joints(const double* q, const double* rate, double t, double* a,
+                       std::optional<PrescribedMotion<D>>& pull, Tally& power);
+  bool solve_without_joints(const double* q, const double* rate, double t, double* a,
+                            std::optional<PrescribedMotion<D>>& pull, Tally& power);
+  /// What links do to the accelerations.
+  bool press(const double* q, const double* rate, double* a, Tally& power);
+  /// What acts on the coordinates but for spin, and its power but for what accelerations tell.
+  Tally add_forces(const double* q, const double* rate, double t, double* force, JointElements& elements) const;
+
+  CurrentBeam<D>& beam_;
+  const BeamLinks<D>& links_;
+  BeamMass<D>& mass_;
+  Flow<D> flow_;
+  JointElements elements_;               ///< of rates()
+  std::vector<JointMotion<D>> motions_;  ///< the same
+  Eigen::VectorXd imposed_, link_forces_;
+  std::size_t evaluations_ = 0;
+};
+
+extern template class Accelerations<2>;
+extern template class Accelerations<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/system/current_beam.hpp"
+#include "core/system/observation.hpp"
+
+namespace vlbeam {
+
+/// Adds energies and momenta of the elements `first` to `last` - 1 of a chain, point masses on them included, by
+/// `points` Gauss points an element; the model is that of the beam.
+template <int D>
+void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
+                      Observation<D>& seen);
+
+/// Energies, momenta and length of the whole at the state y, but for the work of gravity that grows.
+template <int D>
+Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y, double t, int points, bool strains);
+
+}  // namespace vlbeam

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+
+#include "core/system/beam_mass.hpp"
+
+namespace vlbeam {
+
+/// Velocities of a new mesh from the field of the old one, and momenta and energy as they were before.
+template <int D>
+class VelocityProjection {
+ public:
+  using Vector = Vec<double, D>;
+  using JointElements = typename CurrentBeam<D>::JointElements;
+  using EnergyOf = std::function<double(const Eigen::VectorXd& y)>;
+
+  /// Both must outlive this object.
+  VelocityProjection(const CurrentBeam<D>& beam, BeamMass<D>& mass) : beam_(beam), mass_(mass) {}
+
+  /// Replaces the rates in `y`, a state of the mesh made from `before`, by the projection of the old velocity field,
+  /// which differs on the elements `first` to `last`.
+  void project(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t);
+  /// Linear and angular momentum of beam and mass, by the model's own points.
+  Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t) const;
+  /// Gives the rates in `y` these momenta, by the least change, and this total energy, by scaling the velocity
+  /// fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
+  void restore(const Eigen::VectorXd& momenta, double total, const EnergyOf& energy, Eigen::VectorXd& y, double t);
+
+ private:
+  /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
+  Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
+  /// M phi of the rigid motions phi at the positions `y`: translations, then rotations about the origin.
+  Eigen::MatrixXd rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const;
+  /// Angular momentum of sections that spin [kg m^2/s].
+  Vec<double, 3> spin_momentum(const Eigen::VectorXd& y) const {
+    Frames* const frames = beam_.frames();
+    return frames != nullptr ? frames->observe(y.data(), y.data() + beam_.coordinates()).momentum
+                             : Vec<double, 3>::Zero();
+  }
+  /// restore(), once, of the motion of the axis.
+  void restore_axis(const Eigen::VectorXd& momenta, double total, const EnergyOf& energy, Eigen::VectorXd& y, double t);
+
+  const CurrentBeam<D>& beam_;
+  BeamMass<D>& mass_;
+};
+
+extern template class VelocityProjection<2>;
+extern template class VelocityProjection<3>;
+
+}  // namespace vlbeam
