@@ -31,6 +31,7 @@ constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drive
 
 // Tolerances of a step over the accuracy asked: errors of many steps add up.
 constexpr double implicit_share = 0.05, explicit_share = 0.05;
+constexpr double share_with_events = 0.032;  // where joints pass from element to element: a whip multiplies errors
 constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
 constexpr double newton_share = 0.1, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
@@ -43,7 +44,7 @@ constexpr double explicit_work = 6.5, explicit_limit = 1.6;  // of a step of dop
 constexpr double horizon = 100;   // of the usual longest steps: for as long the methods are compared
 constexpr double hopeless = 2e4;  // work over the horizon, at the usual accuracy
 constexpr double trial_steps = 60, trial_share = 0.1;  // of the horizon
-constexpr double growth = 2;  // of implicit steps behind the trial: motion that has grown allows longer ones
+constexpr double growth = 2.5;  // of implicit steps behind the trial: motion that has grown allows longer ones
 
 /// Rounded down, to be read.
 double two_digits(double value) {
@@ -89,7 +90,9 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.rho_inf = automatic_rho_inf;
   spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   // what errors of steps add up to falls with the power 2/3 of their tolerance
-  const double share = implicit_share * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
+  const bool events = !sliding_joints(scene).empty() && scene.length_control.enabled;
+  const double share =
+      (events ? share_with_events : implicit_share) * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;
   // next to nothing, for positions have no size of their own: it keeps its ratio where tolerances are refined
   spec.rtol = two_digits(std::max(relative_share * allowed / length, rounding));

@@ -34,9 +34,9 @@ class GeneralizedAlpha final : public Stepper {
     const Eigen::Index n = system_.coordinates();
     r_.resize(n);
     system_.expand(y, base_q_, base_v_);
-    if (!started_) start(t, n);
-    start_ = end_;
     const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
+    if (!started_) start(t, h, n);
+    start_ = end_;
     const bool prescribed = system_.multipliers() > 0 || system_.driven();
     if (h < shortest_share * options_.step && !stalled_ && prescribed) {
       drift(y, t, h);
@@ -88,9 +88,21 @@ class GeneralizedAlpha final : public Stepper {
     tangent_by_a_ = 0;
   }
 
+  void keep_for_event(const Stepper& other, bool at_start) override {
+    const auto& to_event = dynamic_cast<const GeneralizedAlpha&>(other);
+    const StepEnd& last = at_start ? to_event.start_ : to_event.end_;
+    before_event_.true_acceleration = last.true_acceleration;
+    // the step to the event may have been a short one: what `a` is ahead of that is taken from the whole one
+    before_event_.a = before_event_.true_acceleration + (start_.a - start_.true_acceleration);
+    before_event_.h = start_.h;
+    crosses_event_ = true;
+  }
+
   void exchange(Memory& memory) override {
     system_.exchange(memory);
     memory(started_);
+    memory(crosses_event_);
+    if (crosses_event_) before_event_.exchange(memory);
     if (!started_) return;
     end_.exchange(memory);
     memory(allowed_);
@@ -163,13 +175,18 @@ class GeneralizedAlpha final : public Stepper {
     }
   };
 
-  void start(double t, Eigen::Index n) {
+  void start(double t, double h, Eigen::Index n) {
     end_.true_acceleration.resize(n);
     system_.acceleration(base_q_, base_v_, t, end_.true_acceleration);
     end_.a = end_.true_acceleration;
     end_.h = 0;
+    tangent_by_a_ = 0;
+    q_ = base_q_;
+    v_ = base_v_;
+    if (crosses_event_) go_on(t, h);
+    crosses_event_ = false;
     const double dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
-    end_.power = system_.supplied_power(base_q_, base_v_, end_.true_acceleration, t);
+    end_.power = system_.supplied_power(q_, v_, end_.true_acceleration, t);
     end_.power.dissipated = dissipation;
     stop_.set_fields(system_.fields());
     allowed_.setConstant(n, options_.tolerances.atol);
@@ -182,7 +199,30 @@ class GeneralizedAlpha final : public Stepper {
     from_q_ = base_q_;
     motion_until_event_ = motion_;
     started_ = true;
-    tangent_by_a_ = 0;
+  }
+
+  /// Lets the method go on through an event with its accelerations of before. Those of the equations of motion tell, in
+  /// all modes, what the event has changed of the forces: a merged element that is 1e-9 m off its shape would throw a
+  /// mode faster than the step a million times as far as it will swing, and a method that starts anew in each step,
+  /// where events are as frequent, gives such modes energy. Of that change the method takes what its step can follow,
+  /// by its own tangent S = K + by_v C + by_a M: in slow modes all but a share of (frequency x step)^2.
+  void go_on(double t, double h) {
+    other_a_ = next_a_ = end_.true_acceleration;
+    if (!system_.carry(before_event_.true_acceleration, t, other_a_)) return;
+    system_.carry(before_event_.a, t, next_a_);
+    next_a_ -= other_a_;
+    system_.residual(base_q_, base_v_, other_a_, t, r_);
+    tangent_.set(base_q_, base_v_, other_a_, t, {1, by_v(h), by_a(h)});
+    if (!linearize()) return;
+    if (counters_) ++counters_->tangents;
+    tangent_by_a_ = by_a(h);
+    system_.solve(r_);
+    if (!r_.allFinite()) return;
+    end_.true_acceleration = other_a_ - by_a(h) * r_;
+    end_.a = end_.true_acceleration + next_a_;
+    end_.h = before_event_.h;
+    q_ -= r_;  // with these accelerations forces balance there, those of supports among them
+    v_ -= by_v(h) * r_;
   }
 
   double by_a(double h) const { return (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)); }
@@ -363,6 +403,8 @@ class GeneralizedAlpha final : public Stepper {
   NewtonStop stop_;
   Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates
   Eigen::VectorXd error_;                       ///< estimated, of the positions
+  StepEnd before_event_;                        ///< where crosses_event_
+  bool crosses_event_ = false;                  ///< the next start is behind an event, through which it goes on
   Eigen::VectorXd from_q_;                      ///< where the coordinates started, or were at the last event
   double motion_ = 0, motion_until_event_ = 0;  ///< [m], largest displacement so far
   double noise_step_ = 0;                       ///< [s], that its noise belongs to

@@ -123,6 +123,9 @@ class SideStepper {
     return y_;
   }
 
+  /// Behind the last call of at().
+  const Stepper& stepper() const { return *stepper_; }
+
   void exchange(Memory& memory) {
     own_.exchange(memory);
     stepper_->exchange(memory);
@@ -138,9 +141,12 @@ class SideStepper {
 };
 
 struct Located {
+  enum class Where { start, inside, end };  ///< of the step
+
   int index = -1;
   double t = 0;
   Eigen::VectorXd y;
+  Where where = Where::inside;
 };
 
 /// One step of the main stepper, in which events are looked for.
@@ -218,17 +224,23 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
   for (std::size_t k = 0; k < at_end.size(); ++k) {  // what was due before the step makes no step too long
     if (at_end[k].value > event_tolerance && at_start[k].value >= -guard_tolerance) {
-      return {static_cast<int>(k), step.t0, step.y0};
+      return {static_cast<int>(k), step.t0, step.y0, Located::Where::start};
     }
   }
   if (std::ranges::any_of(at_end, [&](const Guard& guard) { return guard.value > options.largest_overshoot; })) {
     throw SideStepUnderflow{step.t0, 0};
   }
   Located first;
+  std::size_t last = 0;  // guard that was located
   for (std::size_t k = 0; k < at_end.size(); ++k) {
     if (at_end[k].value <= event_tolerance) continue;
-    const Located found = exactly ? locate(ode, side, main, step, k) : Located{static_cast<int>(k), step.t1, step.y1};
+    last = k;
+    const Located found = exactly ? locate(ode, side, main, step, k)
+                                  : Located{static_cast<int>(k), step.t1, step.y1, Located::Where::end};
     if (first.index < 0 || found.t < first.t) first = found;
+  }
+  if (exactly && first.index >= 0 && first.index != static_cast<int>(last)) {  // `side` is to end there
+    side.at(main, step.y0, step.t0, first.t);
   }
   return first;
 }
@@ -399,6 +411,10 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       event = {};
       y = Eigen::VectorXd(state_at(ode, side, *stepper, {t_before, before, t, y}, t_end));
       t = t_end;
+    }
+    if (event.index >= 0) {
+      stepper->keep_for_event(event.where == Located::Where::inside ? side.stepper() : *stepper,
+                              event.where == Located::Where::start);
     }
     const bool cut = event.index >= 0 && event.t < t;
     if (cut) {

@@ -37,6 +37,9 @@ class SecondOrderSystem {
   }
   /// Acceleration (and multipliers) consistent with (q, v) at time t.
   virtual void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) = 0;
+  /// Puts the accelerations (and multipliers) `before` the last event, an array of coordinates of then, in the place of
+  /// those in `a`, which are consistent with the state after it. Returns false where they do not go on through it.
+  virtual bool carry(const Eigen::VectorXd& /*before*/, double /*t*/, Eigen::VectorXd& /*a*/) const { return false; }
   /// r = M(q) a - Q(q, v, t); returns the power lost to damping [W].
   virtual double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                           Eigen::VectorXd& r) = 0;

@@ -33,6 +33,9 @@ class Stepper {
   virtual bool try_step(Ode& ode, Eigen::VectorXd& y, double& t, double& dt) = 0;
   /// Forgets what it kept of earlier steps: for a state or an equation that is not the last step's.
   virtual void reset() = 0;
+  /// Keeps what is to go on through an event, after which it is reset(): from the end of the last step of `other`, a
+  /// stepper of the same method, or, `at_start`, from where that step started.
+  virtual void keep_for_event(const Stepper& /*other*/, bool /*at_start*/) {}
   /// Gets ready to repeat the last successful step of `other`, a stepper of the same method.
   virtual void resume(const Stepper& /*other*/) { reset(); }
   /// Writes or reads what it keeps from one step to the next. Not between a failed step and its repetition.

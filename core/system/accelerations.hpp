@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/system/beam_mass.hpp"
+#include "core/system/event_map.hpp"
 #include "core/system/flow.hpp"
 
 namespace vlbeam {
@@ -22,6 +23,8 @@ class Accelerations {
 
   CurrentBeam<D>& beam() const { return beam_; }
   const BeamLinks<D>& links() const { return links_; }
+  /// The beam before its last event.
+  EventMap<D>& last_event() { return last_event_; }
 
   /// Writes y' at (y, t); not a number where the mass matrix is singular or nodes tangle.
   void rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t);
@@ -57,6 +60,7 @@ class Accelerations {
   CurrentBeam<D>& beam_;
   const BeamLinks<D>& links_;
   BeamMass<D>& mass_;
+  EventMap<D> last_event_;
   Flow<D> flow_;
   JointElements elements_;               ///< of rates()
   std::vector<JointMotion<D>> motions_;  ///< the same

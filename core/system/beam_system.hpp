@@ -10,6 +10,7 @@
 #include "core/system/beam_mass.hpp"
 #include "core/system/current_beam.hpp"
 #include "core/system/event_guards.hpp"
+#include "core/system/event_ledger.hpp"
 #include "core/system/impacts.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/ramp_work.hpp"
@@ -99,13 +100,6 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
-  /// The elements whose shape an event changes, from `lowest` to before `highest`: the two on either side, or, where
-  /// slopes change too, one more. And whether velocities change on others.
-  struct Reach {
-    int lowest, highest;
-    bool everywhere = false;
-  };
-
   /// The beam becomes that of a chain, and all that depends on it follows.
   void take(const ChainState<D>& chain);
   /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
@@ -118,9 +112,10 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   void change_mesh(const std::vector<PendingEvent>& dues, std::vector<EventRecord<D>>& records, double t) const;
   std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y,
                                          double t) const;
-  Reach reach_of(const std::vector<PendingEvent>& dues) const;
+  /// The two elements on either side, or, where slopes change too, one more.
+  EventReach reach_of(const std::vector<PendingEvent>& dues) const;
   /// Gives the new mesh in `y` the velocities of the beam before, of the state `old`.
-  void transfer_velocities(const EventRecord<D>& record, const Reach& reach, const Eigen::VectorXd& old,
+  void transfer_velocities(const EventRecord<D>& record, const EventReach& reach, const Eigen::VectorXd& old,
                            const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t);
   /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
   /// gone; the iterations it took.

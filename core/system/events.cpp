@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/length_control/least_change.hpp"
 #include "core/length_control/relaxation.hpp"
-#include "core/system/beam_observation.hpp"
 #include "core/system/beam_system.hpp"
 #include "core/system/event_limits.hpp"
 
@@ -218,28 +217,24 @@ std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingE
 }
 
 template <int D>
-typename BeamSystem<D>::Reach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues) const {
-  const EventType type = dues.front().type;
+EventReach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues) const {
   const LengthControl& control = model().length_control;
-  const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
   const bool reshapes =
-      type == EventType::reweighting || control.merge == MergePolicy::least_change || relaxes(control);
+      dues.front().type == EventType::reweighting || control.merge == MergePolicy::least_change || relaxes(control);
   const int reach = reshapes ? 3 : 2;
-  Reach result{mesh().elements(), 0};
+  EventReach result{mesh().elements(), 0};
   for (const PendingEvent& due : dues) {
     const int middle = rider() ? rider()->element : places()[due.which].node;
     result.lowest = std::min(result.lowest, std::max(0, middle - reach));
     result.highest = std::max(result.highest, std::min(mesh().elements(), middle + reach));
   }
-  // a projection or an impact changes velocities everywhere, and a rider's is not a node's
-  result.everywhere = transfers || type == EventType::contact || type == EventType::end_merge || rider().has_value() ||
-                      Beam::frames() != nullptr;
   return result;
 }
 
 template <int D>
-void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const Reach& reach, const Eigen::VectorXd& old,
-                                        const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t) {
+void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
+                                        const Eigen::VectorXd& old, const std::shared_ptr<Frames>& old_frames,
+                                        Eigen::VectorXd& y, double t) {
   velocities_.project(record.before, reach.lowest, reach.highest, y, t);
   if (old_frames == nullptr || !(model().frames->section.rhoIp > 0)) return;
   const Eigen::Index before = (old.size() - layout().tallies.count()) / 2;
@@ -263,17 +258,14 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   EventRecord<D>& record = records.front();
   const LengthControl& control = model().length_control;
   const int own_points = model().quadrature_points;
-  const Reach before = reach_of(dues);
-  const auto energy_of = [&](const ChainState<D>& chain, const Reach& reach, int points) {
-    Observation<D> seen;
-    observe_elements(*this, chain, reach.lowest, reach.highest, t, points, seen);
-    return seen.energy;
-  };
-  const auto energy_at = [&](const ChainState<D>& chain, const Reach& reach, int points) {
-    return reach.everywhere ? observe(y, t, points).energy : energy_of(chain, reach, points);
-  };
-  const Energy energy_before = energy_at(record.before, before, ledger_points);
-  const double own_before = energy_at(record.before, before, own_points).total();
+  const EventReach reach = reach_of(dues);
+  // an impact, or a mass that gets a node or loses it, changes more than a mesh; frames have energies of their own
+  const bool looks_at_all =
+      type == EventType::contact || type == EventType::end_merge || rider().has_value() || Beam::frames() != nullptr;
+  const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
+  const bool conserves = transfers && control.velocities == VelocityTransfer::conservative;
+  const Energy energy_before = looks_at_all ? observe(y, t, ledger_points).energy : Energy{};
+  const Energy own_before = looks_at_all || conserves ? observe(y, t, own_points).energy : Energy{};
   const Eigen::VectorXd momenta_before = velocities_.momenta(y, t);
   const double work_before = layout().tallies.of(y).supports;
 
@@ -283,14 +275,15 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     change_mesh(dues, records, t);
   }
   if (Beam::frames() != nullptr) Beam::turn_sections(record.before, y, record.after);
-  Reach after = before;
-  after.highest += record.after.mesh.elements() - record.before.mesh.elements();
   if (remeshes(type) && relaxes(control)) {
-    const auto stored = [&](const ChainState<D>& chain, const Reach& reach) {
-      const Energy energy = energy_of(chain, reach, own_points);
-      return energy.axial + energy.bending;
-    };
-    record.relaxation = relax_after(dues, record.after, t, stored(record.after, after) - stored(record.before, before));
+    const Energy stored = energy_jump(*this, record.before, record.after, reach, t, own_points);
+    record.relaxation = relax_after(dues, record.after, t, stored.axial + stored.bending);
+  }
+  const bool goes_on = remeshes(type) && !rider() && type != EventType::end_merge;
+  if (goes_on || type == EventType::passage) {
+    accelerations_.last_event().remember(*this, record.before);
+  } else {
+    accelerations_.last_event().forget();
   }
   const Eigen::VectorXd old = y;
   const std::shared_ptr<Frames> old_frames = Beam::shared_frames();
@@ -298,23 +291,27 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   Beam::orient(t);
   y = Beam::state_of(record.after, old);
 
-  const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
-  const bool conserves = transfers && control.velocities == VelocityTransfer::conservative;
   if (transfers) {
+    EventReach after = reach;
+    after.highest += record.after.mesh.elements() - record.before.mesh.elements();
     transfer_velocities(record, after, old, old_frames, y, t);
   } else if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
-    velocities_.project(record.before, before.lowest, before.lowest, y, t);
+    velocities_.project(record.before, reach.lowest, reach.lowest, y, t);
   }
+  const auto jump = [&](const Eigen::VectorXd& state, const Energy& was, int points) {
+    if (looks_at_all) return observe(state, t, points).energy - was;
+    return energy_jump(*this, record.before, Beam::chain(state, t), reach, t, points);
+  };
   if (conserves) {
-    const auto total = [&](const Eigen::VectorXd& state) { return observe(state, t, own_points).energy.total(); };
-    velocities_.restore(momenta_before, own_before, total, y, t);
+    const auto gained = [&](const Eigen::VectorXd& state) { return jump(state, own_before, own_points).total(); };
+    velocities_.restore(momenta_before, gained, y, t);
   }
   if (transfers || type == EventType::end_merge) record.after = Beam::chain(y, t);
-  record.jump = energy_at(record.after, after, ledger_points) - energy_before;
-  record.discrete_jump = energy_at(record.after, after, own_points).total() - own_before;
+  record.jump = jump(y, energy_before, ledger_points);
+  record.discrete_jump = jump(y, own_before, own_points).total();
   if (conserves) {
     const double size =
-        std::abs(energy_before.kinetic) + energy_before.axial + energy_before.bending + std::abs(energy_before.gravity);
+        std::abs(own_before.kinetic) + own_before.axial + own_before.bending + std::abs(own_before.gravity);
     record.restored = std::abs(record.discrete_jump) <= restored_energy * size;
   }
   if (model().driven()) {  // what supports do in an impact is no jump
@@ -343,8 +340,8 @@ template void BeamSystem<2>::change_mesh(const std::vector<PendingEvent>&, std::
 template int BeamSystem<2>::relax_after(const std::vector<PendingEvent>&, ChainState<2>&, double, double) const;
 template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
                                                                double) const;
-template BeamSystem<2>::Reach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&) const;
-template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const Reach&, const Eigen::VectorXd&,
+template EventReach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&) const;
+template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const EventReach&, const Eigen::VectorXd&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
@@ -355,8 +352,8 @@ template void BeamSystem<3>::change_mesh(const std::vector<PendingEvent>&, std::
 template int BeamSystem<3>::relax_after(const std::vector<PendingEvent>&, ChainState<3>&, double, double) const;
 template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
                                                                double) const;
-template BeamSystem<3>::Reach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&) const;
-template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const Reach&, const Eigen::VectorXd&,
+template EventReach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&) const;
+template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const EventReach&, const Eigen::VectorXd&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

@@ -58,6 +58,19 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
   a.segment(first_kink_multiplier(), kinks_.count()) = -kinks_.nearest(q.data(), free_.data(), reference_mass_);
 }
 
+/// What is held or given in time is as it is now.
+template <int D>
+bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const {
+  Eigen::VectorXd carried = a;
+  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
+  carried -= a;
+  holding().at(t);
+  holding().project(carried.data());
+  at_guides([&](std::size_t i) { carried[places()[i].mark] = 0; });
+  a += carried;
+  return true;
+}
+
 /// With what links do, and without what holds.
 template <int D>
 double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,

@@ -41,6 +41,7 @@ class ImplicitBeam final : public SecondOrderSystem {
     y.segment(own, own) = v.head(own);
   }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
+  bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;

@@ -101,15 +101,15 @@ Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double 
 }
 
 template <int D>
-void VelocityProjection<D>::restore(const Eigen::VectorXd& momenta, double total, const EnergyOf& energy,
-                                    Eigen::VectorXd& y, double t) {
-  restore_axis(momenta, total, energy, y, t);
-  if (beam_.frames() != nullptr) restore_axis(momenta, total, energy, y, t);  // spins follow marks a little
+void VelocityProjection<D>::restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y,
+                                    double t) {
+  restore_axis(momenta, gained, y, t);
+  if (beam_.frames() != nullptr) restore_axis(momenta, gained, y, t);  // spins follow marks a little
 }
 
 template <int D>
-void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, double total, const EnergyOf& energy,
-                                         Eigen::VectorXd& y, double t) {
+void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const EnergyGained& gained, Eigen::VectorXd& y,
+                                         double t) {
   Eigen::VectorXd momenta = all;
   if constexpr (D == 3) momenta.tail<3>() -= spin_momentum(y);
   const JointElements elements = beam_.elements_at(y, t);
@@ -136,7 +136,7 @@ void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, double tota
   const double twice_kinetic = fluctuation.dot(of_fluctuation);
   if (!(twice_kinetic > 0)) return;
   // T(v + s w) = T(v) + (s + s^2/2) w.M w, for w is orthogonal to what else there is
-  const double missing = total - energy(y);
+  const double missing = -gained(y);
   const double root = 1 + 2 * missing / twice_kinetic;
   const double scaling = root > 0 ? std::min(std::sqrt(root) - 1, largest_scaling) : -1;
   rate += scaling * fluctuation;

@@ -12,7 +12,7 @@ class VelocityProjection {
  public:
   using Vector = Vec<double, D>;
   using JointElements = typename CurrentBeam<D>::JointElements;
-  using EnergyOf = std::function<double(const Eigen::VectorXd& y)>;
+  using EnergyGained = std::function<double(const Eigen::VectorXd& y)>;
 
   /// Both must outlive this object.
   VelocityProjection(const CurrentBeam<D>& beam, BeamMass<D>& mass) : beam_(beam), mass_(mass) {}
@@ -22,9 +22,9 @@ class VelocityProjection {
   void project(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t);
   /// Linear and angular momentum of beam and mass, by the model's own points.
   Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t) const;
-  /// Gives the rates in `y` these momenta, by the least change, and this total energy, by scaling the velocity
-  /// fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
-  void restore(const Eigen::VectorXd& momenta, double total, const EnergyOf& energy, Eigen::VectorXd& y, double t);
+  /// Gives the rates in `y` these momenta, by the least change, and takes the energy that they have `gained`, by
+  /// scaling the velocity fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
+  void restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
 
  private:
   /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
@@ -38,7 +38,7 @@ class VelocityProjection {
                              : Vec<double, 3>::Zero();
   }
   /// restore(), once, of the motion of the axis.
-  void restore_axis(const Eigen::VectorXd& momenta, double total, const EnergyOf& energy, Eigen::VectorXd& y, double t);
+  void restore_axis(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
 
   const CurrentBeam<D>& beam_;
   BeamMass<D>& mass_;

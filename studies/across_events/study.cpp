@@ -50,6 +50,21 @@ double cost(const Case& item) {
   return n * item.scene.duration * (item.exact ? 1e4 * n : 1 / item.scene.integrator.step);
 }
 
+/// A mesh so fine that the step is long for most of its modes, and events are as frequent as steps.
+void add_fine_mesh(const StudyContext& context, StudyReport& report) {
+  const Scene scene = scene_from_json(context.config.at("fine"));
+  const auto outcome =
+      context.sweep(std::vector{scene}, [](const Scene& fine) { return StudyContext::simulate_to_the_end(fine); })[0];
+  if (!outcome) {
+    report.cases.push_back({.options = {{"scene", "fine"}}, .results = {}, .failure = outcome.failure});
+    return;
+  }
+  report.measured["fine/events"] = static_cast<double>(outcome->events.size());
+  report.measured["fine/drift"] = outcome->max_energy_drift / outcome->max_kinetic;
+  report.measured["fine/rejected_share"] =
+      static_cast<double>(outcome->solver.rejected) / static_cast<double>(outcome->solver.steps);
+}
+
 StudyReport run(const StudyContext& context) {
   const auto cases = read_cases(context.config);
   const auto outcomes = context.sweep(
@@ -110,6 +125,7 @@ StudyReport run(const StudyContext& context) {
     }
     report.fits.push_back(fit);
   }
+  add_fine_mesh(context, report);
   return report;
 }
 

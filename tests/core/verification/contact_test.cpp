@@ -77,6 +77,7 @@ TEST(Contact, IsTheSameOnEveryMeshAndWithEveryMethod) {
         EXPECT_NEAR(hit.joint_position, 1, 1e-11);
         EXPECT_NEAR(hit.energy_jump.total(), (e * e - 1) * kinetic, 1e-6 * kinetic);
         for (const Sample& sample : result.samples) {
+          if (std::abs(sample.t - hit.t) < 1e-9) continue;  // of that instant, before or behind
           EXPECT_NEAR(sample.energy.total(), (sample.t < hit.t ? 1 : e * e) * kinetic, 1e-6 * kinetic) << sample.t;
         }
         EXPECT_NEAR(*result.samples.back().joint_position, 1 - e * speed * 0.02, 1e-6);

@@ -1,0 +1,128 @@
+#include "core/system/event_ledger.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/element/quadrature.hpp"
+#include "core/length_control/chain_motion.hpp"
+#include "core/system/beam_observation.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int exact_points = 4;  // of the square of a cubic
+
+/// Of velocities that are cubic along an element: of its integral, not of its points, as long as the rule is exact.
+struct CubicRule {
+  struct Point {
+    double weight;
+    std::array<double, 4> shape;  ///< of positions and, times the length, of slopes
+  };
+  std::array<Point, exact_points> points;
+
+  CubicRule() {
+    const QuadratureRule& rule = gauss_legendre(exact_points);
+    for (std::size_t p = 0; p < exact_points; ++p) {
+      const auto table = hermite_shape(rule[p].u);
+      points[p] = {rule[p].weight, {table[0][0], table[1][0], table[2][0], table[3][0]}};
+    }
+  }
+};
+
+/// The change of the kinetic energy from an element of one chain to the same one of another, for mass 1 per length.
+template <int D>
+class KineticChange {
+ public:
+  KineticChange(const BeamModel<D>& model, const ChainState<D>& before, const ChainState<D>& after, int points)
+      : model_(model), before_(before), after_(after), rule_(beam_rule(points, model.axial_strain)), points_(points) {}
+
+  double of(int k_before, int k_after) const {
+    const auto was = before_.rates(k_before), is = after_.rates(k_after);
+    const NodalCubic<double, D> change = difference(is.e, was.e);
+    const bool still = is.x_a == was.x_a && is.x_b == was.x_b;
+    if (still && change.r_a.isZero(0) && change.s_a.isZero(0) && change.r_b.isZero(0) && change.s_b.isZero(0)) return 0;
+    const Mesh& mesh = after_.mesh;
+    const auto k = static_cast<std::size_t>(k_after);
+    if (after_.moves(k_after) || mesh.weights[k].w != unit_weights || points_ < exact_points) {
+      return by_points(k_before, k_after);
+    }
+    static const CubicRule rule;
+    const double length = mesh.x[k + 1] - mesh.x[k];
+    double sum = 0;
+    for (const auto& [weight, shape] : rule.points) {
+      const std::array<double, 4> s{shape[0], length * shape[1], shape[2], length * shape[3]};
+      const Vec<double, D> v_was = combine_nodes<double, D>(s, was.e), v_change = combine_nodes<double, D>(s, change);
+      sum += weight * v_change.dot(2 * v_was + v_change);
+    }
+    return sum * length / 2;
+  }
+
+ private:
+  static NodalCubic<double, D> difference(const NodalCubic<double, D>& a, const NodalCubic<double, D>& b) {
+    return {a.r_a - b.r_a, a.s_a - b.s_a, a.r_b - b.r_b, a.s_b - b.s_b};
+  }
+  double by_points(int k_before, int k_after) const {
+    const auto of = [this](const ChainState<D>& chain, int k) {
+      return MovingKinematics<double, D>(chain.coordinates(k), chain.rates(k),
+                                         chain.moves(k) ? model_.transport : WeightTransport::frozen,
+                                         chain.mesh.weights[static_cast<std::size_t>(k)]);
+    };
+    const auto was = of(before_, k_before), is = of(after_, k_after);
+    double sum = 0;
+    for (const auto& [u, weight, feels] : with_mass(rule_)) {
+      const auto shape = rational_shape(is.weights(), u);
+      const Vec<double, D> v0 = was.at(u, shape).v, v1 = is.at(u, shape).v;
+      sum += weight * (v1 - v0).dot(v1 + v0);
+    }
+    return sum * is.length() / 2;
+  }
+
+  const BeamModel<D>& model_;
+  const ChainState<D>&before_, &after_;
+  BeamRule rule_;
+  int points_;
+};
+
+}  // namespace
+
+template <int D>
+Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, const ChainState<D>& after,
+                   const EventReach& reach, double t, int points) {
+  const int more = after.mesh.elements() - before.mesh.elements();
+  Observation<D> was, is;
+  observe_elements(beam, before, reach.lowest, reach.highest, t, points, was);
+  observe_elements(beam, after, reach.lowest, reach.highest + more, t, points, is);
+  Energy jump = is.energy - was.energy;
+
+  const BeamModel<D>& model = beam.model();
+  const KineticChange<D> change(model, before, after, points);
+  double outside = 0;
+  for (int k = 0; k < reach.lowest; ++k) outside += change.of(k, k);
+  for (int k = reach.highest; k < before.mesh.elements(); ++k) outside += change.of(k, k + more);
+  jump.kinetic += model.section.rhoA * outside;
+  const auto add_lumped = [&jump](double mass, const Vec<double, D>& v0, const Vec<double, D>& v1) {
+    jump.kinetic += 0.5 * mass * (v1 - v0).dot(v1 + v0);
+  };
+  for (const PointMass& point : model.masses.points) {
+    const int k = before.mesh.element_at(point.x);
+    if (k >= reach.lowest && k < reach.highest) continue;
+    const int k_after = k < reach.lowest ? k : k + more;
+    add_lumped(point.mass, motion_at(before, k, point.x, model.transport).v,
+               motion_at(after, k_after, point.x, model.transport).v);
+  }
+  for (const auto& from : before.joints) {
+    const auto to = std::ranges::find(after.joints, from.index, &ChainState<D>::Joint::index);
+    if (to == after.joints.end()) continue;  // it leaves with the velocity that it has
+    const SlidingJoint& law = model.joints[static_cast<std::size_t>(from.index)].law;
+    add_lumped(law.mass, position<D>(before.rate.data(), from.node), position<D>(after.rate.data(), to->node));
+    jump.kinetic += 0.5 * law.turning * (to->rate - from.rate) * (to->rate + from.rate);
+  }
+  return jump;
+}
+
+template Energy energy_jump(const CurrentBeam<2>&, const ChainState<2>&, const ChainState<2>&, const EventReach&,
+                            double, int);
+template Energy energy_jump(const CurrentBeam<3>&, const ChainState<3>&, const ChainState<3>&, const EventReach&,
+                            double, int);
+
+}  // namespace vlbeam

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/system/current_beam.hpp"
+
+namespace vlbeam {
+
+/// The beam before its last event, for what is known there and wanted on the beam after it: accelerations that go on.
+template <int D>
+class EventMap {
+ public:
+  /// Before an event of the mesh: `chain` is the beam as it is then.
+  void remember(const CurrentBeam<D>& beam, const ChainState<D>& chain) {
+    before_ = Before{chain, beam.places(), beam.layout()};
+  }
+  /// After an event behind which nothing goes on as before.
+  void forget() { before_.reset(); }
+
+  /// Puts the accelerations `a`, an array of coordinates of the beam before the event that may be longer, in the place
+  /// of those in `to`, of the beam after it: of nodes that are new, the field's there. Angles of new nodes stay as they
+  /// are in `to`. Returns false where they do not go on.
+  bool carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Eigen::VectorXd& to) const;
+
+ private:
+  struct Before {
+    ChainState<D> chain;
+    std::vector<JointPlace> places;
+    Layout<D> layout;
+  };
+
+  /// Acceleration of the material point x.
+  Vec<double, D> at(double x, WeightTransport transport, const Eigen::VectorXd& a) const;
+
+  std::optional<Before> before_;
+};
+
+extern template class EventMap<2>;
+extern template class EventMap<3>;
+
+}  // namespace vlbeam
