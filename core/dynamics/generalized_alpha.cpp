@@ -103,14 +103,14 @@ class GeneralizedAlpha final : public Stepper {
     memory(started_);
     memory(crosses_event_);
     if (crosses_event_) before_event_.exchange(memory);
+    memory(motion_);
+    memory(calm_);
     if (!started_) return;
     end_.exchange(memory);
     memory(allowed_);
     memory(from_q_);
-    memory(motion_);
     memory(motion_until_event_);
     memory(noise_step_);
-    memory(calm_);
     if (memory.reads()) {
       stop_.set_fields(system_.fields());
       for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(system_.coordinates());

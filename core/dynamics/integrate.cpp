@@ -126,10 +126,8 @@ class SideStepper {
   /// Behind the last call of at().
   const Stepper& stepper() const { return *stepper_; }
 
-  void exchange(Memory& memory) {
-    own_.exchange(memory);
-    stepper_->exchange(memory);
-  }
+  /// Of its stepper nothing stays from one call of at() to the next.
+  void exchange(Memory& memory) { own_.exchange(memory); }
 
  private:
   EventedOde& ode_;

@@ -112,8 +112,16 @@ Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, cons
   }
   for (const auto& from : before.joints) {
     const auto to = std::ranges::find(after.joints, from.index, &ChainState<D>::Joint::index);
-    if (to == after.joints.end()) continue;  // it leaves with the velocity that it has
     const SlidingJoint& law = model.joints[static_cast<std::size_t>(from.index)].law;
+    if (to ==
+        after.joints.end()) {  // a mass flies on; what holds a ring, and its wheel, have no more to do with the beam
+      jump.kinetic -= 0.5 * law.turning * from.rate * from.rate;
+      if (std::ranges::count(after.departed, from.index, &ChainState<D>::Departed::index) > 0) continue;
+      const Vec<double, D> v = position<D>(before.rate.data(), from.node);
+      jump.kinetic -= 0.5 * law.mass * v.squaredNorm();
+      jump.gravity += law.mass * beam.gravity(t).dot(position<D>(before.q.data(), from.node));
+      continue;
+    }
     add_lumped(law.mass, position<D>(before.rate.data(), from.node), position<D>(after.rate.data(), to->node));
     jump.kinetic += 0.5 * law.turning * (to->rate - from.rate) * (to->rate + from.rate);
   }

@@ -246,7 +246,10 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
   Beam::impose(y, t);
   Beam::orient(t);
-  if (guards_.turns_away(index, y, t)) return Beam::frames()->follow(y.data(), y.data() + coordinates());
+  if (guards_.turns_away(index, y, t)) {
+    accelerations_.last_event().forget();  // angles count from elsewhere now
+    return Beam::frames()->follow(y.data(), y.data() + coordinates());
+  }
   const bool ramped = ramp_.due(model().gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
   const std::vector<PendingEvent> dues = guards_.due(index, y, t);

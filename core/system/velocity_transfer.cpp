@@ -131,6 +131,7 @@ void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const Energ
 
   Eigen::VectorXd fluctuation = rate - motion * velocities_of(momenta);
   fluctuation.tail(beam_.layout().turning).setZero();
+  fluctuation.segment(beam_.layout().departed_mass(), D * beam_.layout().departed).setZero();  // they fly on
   Eigen::VectorXd of_fluctuation(beam_.coordinates());
   mass_.multiply(elements, y.data(), fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);

@@ -117,6 +117,12 @@ StudyReport run(const StudyContext& context) {
       least = std::min(least, order);
       largest = std::max(largest, order);
     }
+    const double order =
+        std::log(of_steps.front() / of_steps.back()) / std::log(steps[key].front() / steps[key].back());
+    auto& lowest = report.measured.try_emplace(name + "/least_order", order).first->second;
+    auto& highest = report.measured.try_emplace(name + "/largest_order", order).first->second;
+    lowest = std::min(lowest, order);
+    highest = std::max(highest, order);
     for (const double error : of_steps) {
       auto& smallest = report.measured.try_emplace(name + "/smallest_error", error).first->second;
       auto& worst = report.measured.try_emplace(name + "/largest_error", error).first->second;

@@ -335,7 +335,6 @@ class Report {
     for (const auto& [key, late_errors] : errors) {
       const OrderFit fit = fit_order("temporal_" + key, steps[key], late_errors);
       report_.measured["temporal_order_" + key] = fit.slope;
-      report_.measured["temporal_least_pair_" + key] = *std::ranges::min_element(fit.pairwise_orders);
       report_.measured["temporal_finest_" + key] = late_errors.back();
       report_.fits.push_back(fit);
     }

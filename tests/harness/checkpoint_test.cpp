@@ -60,6 +60,7 @@ std::vector<Case> cases() {
                    alpha(scene);
                    scene["integrator"].update({{"adaptive", true}, {"rtol", 1e-4}, {"atol", 1e-4}});
                  }});
+  all.push_back({"automatic", [](Json& scene) { scene["integrator"] = {{"accuracy", 1e-3}}; }});
   all.push_back({"multipliers, kinked in space", [alpha](Json& scene) {
                    alpha(scene);
                    scene.update({{"dimension", 3}, {"constraints", "multipliers"}, {"gravity", {0.5, -9.81, 2}}});
@@ -155,6 +156,25 @@ TEST_P(Continued, ChangeNoDigit) {
     EXPECT_EQ(kept.back().method, last.method);
     EXPECT_EQ(kept.back().past.size(), last.past.size());
   }
+}
+
+// A checkpoint at the end of a step that an event ends: the next step has not started yet.
+TEST(Checkpoint, BehindAnEventChangesNoDigit) {
+  Json json = falling();
+  json["integrator"] = {{"accuracy", 1e-3}};
+  const Scene scene = scene_from_json(json);
+  const RunResult whole = simulate(scene);
+  ASSERT_GE(whole.events.size(), 2U);
+  std::vector<Checkpoint> kept;
+  Checkpoints checkpoints;
+  checkpoints.every = whole.events[1].t - 1e-8;
+  checkpoints.keep = [&](const Checkpoint& one) { kept.push_back(one); };
+  simulate(scene, {}, &checkpoints);
+  ASSERT_FALSE(kept.empty());
+  ASSERT_EQ(kept.front().t, whole.events[1].t);
+  checkpoints.from = kept.front();
+  checkpoints.keep = {};
+  EXPECT_EQ(Json::diff(report_of(scene, simulate(scene, {}, &checkpoints)), report_of(scene, whole)), Json::array());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Continued, ::testing::ValuesIn(cases()));
