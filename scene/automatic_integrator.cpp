@@ -31,7 +31,8 @@ constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drive
 
 // Tolerances of a step over the accuracy asked: errors of many steps add up.
 constexpr double implicit_share = 0.05, explicit_share = 0.05;
-constexpr double share_with_events = 0.032;  // where joints pass from element to element: a whip multiplies errors
+constexpr double share_with_events =
+    0.032;  // where joints pass freely from element to element: a whip multiplies errors
 constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
 constexpr double newton_share = 0.1, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
@@ -90,7 +91,9 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.rho_inf = automatic_rho_inf;
   spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   // what errors of steps add up to falls with the power 2/3 of their tolerance
-  const bool events = !sliding_joints(scene).empty() && scene.length_control.enabled;
+  const auto joints = sliding_joints(scene);
+  const bool events = scene.length_control.enabled &&
+                      std::ranges::any_of(joints, [](const SlidingJointSpec& joint) { return !joint.x; });
   const double share =
       (events ? share_with_events : implicit_share) * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/geometry/elementary.hpp"
 #include "studies/harness/measures.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_sweep.hpp"
@@ -118,7 +119,7 @@ StudyReport run(const StudyContext& context) {
       largest = std::max(largest, order);
     }
     const double order =
-        std::log(of_steps.front() / of_steps.back()) / std::log(steps[key].front() / steps[key].back());
+        portable::log(of_steps.front() / of_steps.back()) / portable::log(steps[key].front() / steps[key].back());
     auto& lowest = report.measured.try_emplace(name + "/least_order", order).first->second;
     auto& highest = report.measured.try_emplace(name + "/largest_order", order).first->second;
     lowest = std::min(lowest, order);
