@@ -110,7 +110,8 @@ void VelocityProjection<D>::restore(const Eigen::VectorXd& momenta, const Energy
 template <int D>
 void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const EnergyGained& gained, Eigen::VectorXd& y,
                                          double t) {
-  Eigen::VectorXd momenta = all;
+  Eigen::VectorXd momenta;
+  momenta = all;
   if constexpr (D == 3) momenta.tail<3>() -= spin_momentum(y);
   const JointElements elements = beam_.elements_at(y, t);
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
