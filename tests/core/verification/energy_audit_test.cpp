@@ -146,8 +146,9 @@ TEST(EnergyLedger, ACableNeedsNoBendingStiffness) {
   EXPECT_LE(result.max_energy_drift, allowed_drift * result.max_kinetic);
 }
 
-// The step is 30 times the period of the fastest bending waves, and the joint passes an element in 2 steps at the end:
-// a method that starts anew at each event from the accelerations there drifts by 4e-4 and rejects 96 steps.
+// The step is longer than ten periods of the fastest bending waves, and the joint passes an element in about three
+// steps at the end: a method that starts anew at each event from the accelerations there drifts by 4e-4 and rejects 96
+// steps.
 TEST(FineMesh, EventsGiveModesFasterThanTheStepNothing) {
   auto scene = falling_beam(ElementKind::ale_rancf, 200);
   scene.integrator = {};
