@@ -360,7 +360,7 @@ struct IntegratorSpec {
   double step = 1e-3;                                   ///< methods of fixed step [s]
   double rho_inf = 0.9;                                 ///< generalized-alpha: spectral radius at infinity
   NewtonKind newton = NewtonKind::modified;             ///< generalized-alpha
-  double newton_tolerance = 1e-8;                       ///< generalized-alpha: what Newton leaves, over the increment
+  double newton_tolerance = 0;                          ///< generalized-alpha: what Newton leaves, over the increment
   bool adaptive = false;                                ///< generalized-alpha: the step follows rtol and atol
   ErrorEstimate error_estimate = ErrorEstimate::all;    ///< generalized-alpha, adaptive
   bool locate_events = true;

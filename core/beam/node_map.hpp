@@ -12,6 +12,10 @@ namespace vlbeam {
 template <int D>
 inline constexpr int node_size = 2 * D;
 
+/// Block of a tangent between two nodes, position and slope each.
+template <int D>
+using NodeTangent = Eigen::Matrix<double, node_size<D>, node_size<D>>;
+
 template <int D>
 Eigen::Map<Vec<double, D>> position(double* nodes, int k) {
   return Eigen::Map<Vec<double, D>>(nodes + node_size<D> * k);

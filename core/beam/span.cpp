@@ -5,6 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/beam/chord_tangent.hpp"
+#include "core/element/fixed_rest.hpp"
+
 namespace vlbeam {
 namespace {
 
@@ -57,32 +60,73 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
 }  // namespace
 
 template <int D>
+SpanKernels<D> span_kernels([[maybe_unused]] InstructionSet set) {
+#ifdef VLBEAM_HAS_AVX2
+  if (set == InstructionSet::avx2) return avx2::span_kernels<D>();
+#endif
+  return portable::span_kernels<D>();
+}
+
+template <int D>
+const SpanKernels<D>& span_kernels() {
+  static const SpanKernels<D> fastest = span_kernels<D>(fastest_instruction_set());
+  return fastest;
+}
+
+template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses)
+              const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses, Span* before)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
       support_(support),
       section_(section),
       curved_at_rest_(rest != nullptr) {
+  const int known = before != nullptr ? take_over(*before, mesh) : 0;
   build_packs(mesh, rule, rest, masses);
-  factor(mesh, rule, masses);
+  factor(known);
+}
+
+/// Tables of a curved rest shape are made anew: they depend on its nodes, too.
+template <int D>
+int Span<D>::take_over(Span& before, const Mesh& mesh) {
+  if (step_ != before.step_ || (support_.free_position != before.support_.free_position).any() ||
+      (support_.free_slope != before.support_.free_slope).any()) {
+    return 0;
+  }
+  const int common = std::min(count(), before.count());
+  int known = 0;
+  while (known < common && before.elements_[static_cast<std::size_t>(known)] == as_tabulated(mesh, element(known)))
+    ++known;
+  elements_ = std::move(before.elements_);
+  elements_.resize(static_cast<std::size_t>(known));
+  if (!curved_at_rest_) {
+    packs_ = std::move(before.packs_);
+    packs_.resize(static_cast<std::size_t>(known / Pack::width));
+    for (std::size_t p = 0; p < packs_.size(); ++p) packs_[p].first = first_of(static_cast<int>(p), Pack::width);
+  }
+  pivots_ = std::move(before.pivots_);
+  pivots_.resize(static_cast<std::size_t>(known));
+  load_ = std::move(before.load_);
+  load_.resize(static_cast<std::size_t>(known));
+  return known;
 }
 
 template <int D>
 void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest,
                           const std::vector<PointMass>& masses) {
-  const int low = std::min(outer_, open_), high = std::max(outer_, open_);
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
   auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
-  std::shared_ptr<const Tables> uniform;  // equal lengths and unit weights share one table
+  std::shared_ptr<const PackTables> uniform;  // equal lengths and unit weights share one table
   double uniform_length = 0;
   const auto bears_mass = [&](int k) {
     return std::any_of(masses.begin(), masses.end(),
                        [&](const PointMass& point) { return mesh.element_at(point.x) == k; });
   };
-  for (int first = low; first < high; first += Pack::width) {
-    const int count = std::min(Pack::width, high - first);
+  for (int i = static_cast<int>(elements_.size()); i < count(); ++i)
+    elements_.push_back(as_tabulated(mesh, element(i)));
+  for (int done = static_cast<int>(packs_.size()) * Pack::width; done < this->count(); done += Pack::width) {
+    const int count = std::min(Pack::width, this->count() - done), first = first_of(done / Pack::width, count);
     bool is_uniform = count == Pack::width && rest == nullptr;
     for (int k = first; k < first + count; ++k) {
       is_uniform = is_uniform && mesh.weights[static_cast<std::size_t>(k)].w == unit_weights &&
@@ -94,17 +138,18 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* 
     }
     std::vector<FixedBasis<double>> lanes;
     std::vector<std::vector<RestStrain<double>>> rest_lanes;
-    auto tables = std::make_shared<Tables>();
+    auto tables = std::make_shared<PackTables>();
     for (int k = first; k < first + count; ++k) {
       const auto& weights = mesh.weights[static_cast<std::size_t>(k)].w;
       lanes.push_back(fixed_basis(length(k), weights, rule));
       if (rest != nullptr) rest_lanes.push_back(strains_of<D>(element_nodes<D>(rest, k), lanes.back(), section_));
-      auto& mass = tables->mass[static_cast<std::size_t>(k - first)];
-      mass = fixed_inertia(length(k), weights, rule).mass;
-      for (auto& row : mass) {
-        for (auto& entry : row) entry *= section_.rhoA;
+      auto& inertia = tables->inertia[static_cast<std::size_t>(k - first)];
+      inertia = fixed_inertia(length(k), weights, rule);
+      for (auto& row : inertia.mass) {
+        for (double& entry : row) entry *= section_.rhoA;
       }
-      add_point_masses(masses, mesh, k, mass);
+      for (double& entry : inertia.load) entry *= section_.rhoA;
+      add_point_masses(masses, mesh, k, inertia.mass);
     }
     tables->basis = pack_basis(lanes);
     if (rest != nullptr) tables->rest = pack_rest(rest_lanes);
@@ -117,30 +162,45 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* 
 }
 
 template <int D>
-void Span<D>::factor(const Mesh& mesh, const BeamRule& rule, const std::vector<PointMass>& masses) {
-  const int low = std::min(outer_, open_), count = std::abs(open_ - outer_);
-  load_.assign(static_cast<std::size_t>(count) + 1, {0, 0});
+const FixedInertia& Span<D>::inertia(int i) const {
+  const PackOfElements& pack = packs_[static_cast<std::size_t>(i / Pack::width)];
+  return pack.tables->inertia[static_cast<std::size_t>(element(i) - pack.first)];
+}
+
+template <int D>
+void Span<D>::factor(int known) {
+  load_.resize(static_cast<std::size_t>(count()) + 1, {0, 0});
   NodeBlock<D> block;
   Components free_r = support_.free_position, free_s = support_.free_slope;
-  for (int k = outer_; k != open_; k += step_) {
-    const auto e = static_cast<std::size_t>(step_ > 0 ? k : k - 1);
-    FixedInertia inertia = fixed_inertia(mesh.x[e + 1] - mesh.x[e], mesh.weights[e].w, rule);
-    for (auto& row : inertia.mass) {
-      for (auto& entry : row) entry *= section_.rhoA;
-    }
-    add_point_masses(masses, mesh, static_cast<int>(e), inertia.mass);
-    const std::size_t node = e - static_cast<std::size_t>(low);
-    load_[node][0] += section_.rhoA * inertia.load[0];
-    load_[node][1] += section_.rhoA * inertia.load[1];
-    load_[node + 1][0] += section_.rhoA * inertia.load[2];
-    load_[node + 1][1] += section_.rhoA * inertia.load[3];
+  const std::size_t near = step_ > 0 ? 0 : 2, far = 2 - near;  // rows of an element's outer node and of the next one
+  // The block that the elimination of a node leaves to the next one, before that one's own next element.
+  const auto carry_on = [&](const FixedInertia& of, const Pivot& pivot) {
+    const auto& m = of.mass;
+    const auto& next = pivot.next;
+    block.rr = m[far][far] - (m[near][far] * next.rr + m[near + 1][far] * next.sr);
+    block.rs = m[far][far + 1] - (m[near][far] * next.rs + m[near + 1][far] * next.ss);
+    block.ss = m[far + 1][far + 1] - (m[near][far + 1] * next.rs + m[near + 1][far + 1] * next.ss);
+    free_r.setOnes();
+    free_s.setOnes();
+  };
+  if (known > 0) {
+    const FixedInertia& last = inertia(known - 1);
+    carry_on(last, pivots_.back());
+    load_[static_cast<std::size_t>(known)] = {last.load[far], last.load[far + 1]};
+  }
+  for (int i = known; i < count(); ++i) {
+    const FixedInertia& of = inertia(i);
+    const auto& m = of.mass;
+    auto &here = load_[static_cast<std::size_t>(i)], &there = load_[static_cast<std::size_t>(i) + 1];
+    here[0] += of.load[near];
+    here[1] += of.load[near + 1];
+    there[0] += of.load[far];
+    there[1] += of.load[far + 1];
 
-    const std::size_t i = step_ > 0 ? 0 : 2, j = 2 - i;  // rows of this node and of the next one inwards
-    const auto& m = inertia.mass;
-    block.rr += m[i][i];
-    block.rs += m[i][i + 1];
-    block.ss += m[i + 1][i + 1];
-    const CouplingBlock<double> c{m[i][j], m[i][j + 1], m[i + 1][j], m[i + 1][j + 1]};
+    block.rr += m[near][near];
+    block.rs += m[near][near + 1];
+    block.ss += m[near + 1][near + 1];
+    const CouplingBlock<double> c{m[near][far], m[near][far + 1], m[near + 1][far], m[near + 1][far + 1]};
     Pivot pivot;
     pivot.inverse = block.inverse(free_r, free_s);
     const auto& inv = pivot.inverse;
@@ -149,38 +209,72 @@ void Span<D>::factor(const Mesh& mesh, const BeamRule& rule, const std::vector<P
     }
     pivot.next = {inv.rr * c.rr + inv.rs * c.sr, inv.rr * c.rs + inv.rs * c.ss, inv.rs * c.rr + inv.ss * c.sr,
                   inv.rs * c.rs + inv.ss * c.ss};
-    NodeBlock<D> following;
-    following.rr = m[j][j] - (c.rr * pivot.next.rr + c.sr * pivot.next.sr);
-    following.rs = m[j][j + 1] - (c.rr * pivot.next.rs + c.sr * pivot.next.ss);
-    following.ss = m[j + 1][j + 1] - (c.rs * pivot.next.rs + c.ss * pivot.next.ss);
     pivots_.push_back(pivot);
-    block = following;
-    free_r.setOnes();
-    free_s.setOnes();
+    carry_on(of, pivot);
   }
   open_mass_ = block;
 }
 
 template <int D>
 double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
-  const double dissipation = forces(q, rate, force);
-  if (curved_at_rest_) rest_forces(q, force);
-  const int low = std::min(outer_, open_);
-  for (std::size_t k = 0; k < load_.size(); ++k) {
-    const int node = low + static_cast<int>(k);
-    position<D>(force, node) += load_[k][0] * gravity;
-    slope<D>(force, node) += load_[k][1] * gravity;
+  const SpanKernels<D>& kernels = span_kernels<D>();
+  const double dissipation = kernels.forces(packs_, section_, q, rate, force);
+  if (curved_at_rest_) kernels.rest_forces(packs_, section_, q, force);
+  for (std::size_t i = 0; i < load_.size(); ++i) {
+    const int at = node(static_cast<int>(i));
+    position<D>(force, at) += load_[i][0] * gravity;
+    slope<D>(force, at) += load_[i][1] * gravity;
   }
   return dissipation;
 }
 
 template <int D>
+void Span<D>::add_inertia(const double* a, double* out) const {
+  for (const auto& pack : packs_) {
+    for (int i = 0; i < pack.count; ++i) {
+      const int k = pack.first + i;
+      const auto& m = pack.tables->inertia[static_cast<std::size_t>(i)].mass;
+      const auto e = element_nodes<D>(a, k);
+      auto inertia = [&](std::size_t row) -> Vector {
+        return m[row][0] * e.r_a + m[row][1] * e.s_a + m[row][2] * e.r_b + m[row][3] * e.s_b;
+      };
+      position<D>(out, k) += inertia(0);
+      slope<D>(out, k) += inertia(1);
+      position<D>(out, k + 1) += inertia(2);
+      slope<D>(out, k + 1) += inertia(3);
+    }
+  }
+}
+
+template <int D>
+void Span<D>::rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+                            NodeTangent<D>* lower) const {
+  for (const auto& pack : packs_) {
+    for (int i = 0; i < pack.count; ++i) {
+      const int k = pack.first + i;
+      const auto tangent = rest_tangent<D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
+      add_chord_tangent<D>(
+          [&](std::size_t row, std::size_t column) -> Eigen::Matrix<double, D, D> {
+            return by_q * tangent[row][column];
+          },
+          diagonal + k, upper + k, lower + k);
+    }
+  }
+}
+
+template <int D>
+void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
+                          NodeTangent<D>* upper, NodeTangent<D>* lower) const {
+  span_kernels<D>().tangents(packs_, section_, q, rate, by, diagonal, upper, lower);
+  if (curved_at_rest_) rest_tangents(q, by.q, diagonal, upper, lower);
+}
+
+template <int D>
 typename Span<D>::Vector Span<D>::first_moment(const double* q) const {
   Vector sum = Vector::Zero();
-  const int low = std::min(outer_, open_);
-  for (std::size_t k = 0; k < load_.size(); ++k) {
-    const int node = low + static_cast<int>(k);
-    sum += load_[k][0] * position<D>(q, node) + load_[k][1] * slope<D>(q, node);
+  for (std::size_t i = 0; i < load_.size(); ++i) {
+    const int at = node(static_cast<int>(i));
+    sum += load_[i][0] * position<D>(q, at) + load_[i][1] * slope<D>(q, at);
   }
   return sum;
 }
@@ -225,5 +319,7 @@ void Span<D>::substitute(double* force) const {
 
 template class Span<2>;
 template class Span<3>;
+template SpanKernels<2> span_kernels(InstructionSet);
+template SpanKernels<3> span_kernels(InstructionSet);
 
 }  // namespace vlbeam

@@ -1,23 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_block.hpp"
-#include "core/beam/node_map.hpp"
 #include "core/beam/point_mass.hpp"
+#include "core/beam/span_kernels.hpp"
 #include "core/beam/support.hpp"
-#include "core/element/fixed_element.hpp"
-#include "core/element/pack.hpp"
-#include "core/element/rest_strain.hpp"
-#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
-
-/// Block of a tangent between two nodes, position and slope each.
-template <int D>
-using NodeTangent = Eigen::Matrix<double, node_size<D>, node_size<D>>;
 
 /// A run of fixed-length elements from an end of the beam, with its support, up to an open node where something else
 /// carries on. Its mass matrix is constant: factored once, block by block from the supported end, so that a
@@ -31,8 +22,10 @@ class Span {
   /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` holds the nodes of the
   /// rest shape, null for a straight, unstrained one; `masses` sit on the whole beam. Throws std::invalid_argument for
   /// a mass matrix that is not positive definite (too few quadrature points).
+  /// `before`, a span of the same beam on another mesh, gives away what holds for elements that both have next to the
+  /// outer node: the cost is that of the others.
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-       const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses = {});
+       const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -67,37 +60,46 @@ class Span {
   Components open_free_slope() const { return outer_ == open_ ? support_.free_slope : Components::Ones(); }
 
  private:
-  /// What elements of equal length and weights share: their bases, four to a pack, and rhoA times their mass.
-  struct Tables {
-    FixedBasis<Pack> basis;
-    std::vector<RestStrain<Pack>> rest;  ///< at the points of the basis; empty without a rest shape
-    std::array<std::array<std::array<double, 4>, 4>, Pack::width> mass;
-  };
-  struct PackOfElements {
-    int first;
-    int count;
-    std::shared_ptr<const Tables> tables;
-  };
   /// One elimination step: inverse of the node's block, and inverse times coupling to the next node inwards.
   struct Pivot {
     NodeBlock<D> inverse;
     CouplingBlock<Components> next;
   };
-  double forces(const double* q, const double* rate, double* force) const;
-  void rest_forces(const double* q, double* force) const;
   void rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                      NodeTangent<D>* lower) const;
+  /// What an element's tables were made for.
+  struct Element {
+    double x_a, x_b;
+    Weights<double> weights;
+    bool operator==(const Element&) const = default;
+  };
+  static Element as_tabulated(const Mesh& mesh, int k) {
+    const auto e = static_cast<std::size_t>(k);
+    return {mesh.x[e], mesh.x[e + 1], mesh.weights[e].w};
+  }
+  /// Elements and nodes are counted from the outer node inwards.
+  int element(int i) const { return step_ > 0 ? outer_ + i : outer_ - 1 - i; }
+  int node(int i) const { return outer_ + step_ * i; }
+  int count() const { return step_ * (open_ - outer_); }
+  /// Lowest element of the pack `p`, which holds `count` elements.
+  int first_of(int p, int count) const {
+    return step_ > 0 ? element(p * Pack::width) : element(p * Pack::width + count - 1);
+  }
+  const FixedInertia& inertia(int i) const;
+  /// Takes from `before` what goes on to hold; returns for how many elements.
+  int take_over(Span& before, const Mesh& mesh);
   void build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses);
-  void factor(const Mesh& mesh, const BeamRule& rule, const std::vector<PointMass>& masses);
+  void factor(int known);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
   BeamSection section_;
   bool curved_at_rest_;
+  std::vector<Element> elements_;
   std::vector<PackOfElements> packs_;
-  std::vector<Pivot> pivots_;  ///< from the outer node inwards, without the open node
+  std::vector<Pivot> pivots_;  ///< without the open node
   NodeBlock<D> open_mass_;
-  std::vector<std::array<double, 2>> load_;  ///< rhoA times the integral of a node's two shape functions, from low node
+  std::vector<std::array<double, 2>> load_;  ///< of nodes: rhoA times the integral of their two shape functions
 };
 
 extern template class Span<2>;

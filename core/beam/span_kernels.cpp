@@ -1,10 +1,13 @@
+// Compiled once for each instruction set, with VLBEAM_KERNELS its name. What is not inlined here would be a function
+// that the linker shares with units for other machines: a test looks for it.
 #include <algorithm>
 
-#include "core/beam/span.hpp"
+#include "core/beam/chord_tangent.hpp"
+#include "core/beam/span_kernels.hpp"
 #include "core/element/fixed_rest.hpp"
 #include "core/element/fixed_tangent.hpp"
 
-namespace vlbeam {
+namespace vlbeam::VLBEAM_KERNELS {
 namespace {
 
 template <int D>
@@ -32,22 +35,6 @@ std::array<int, Pack::width> lane_offsets(int count) {
   return offset;
 }
 
-/// Adds a ChordTangent, stiffness(i, j), of the element between the first node and the next. Unknowns r_A, s_A, r_B,
-/// s_B: r_A enters through minus the chord r_B - r_A, r_B through the chord.
-template <int D, class Stiffness>
-void add_chord_tangent(const Stiffness& stiffness, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
-                       NodeTangent<D>* lower) {
-  auto add = [&](NodeTangent<D>& block, int row, int column, double sign, std::size_t chord_row,
-                 std::size_t chord_column) {
-    block.template block<D, D>(row * D, column * D) += sign * stiffness(chord_row, chord_column);
-  };
-  auto &aa = diagonal[0], &ab = upper[0], &ba = lower[1], &bb = diagonal[1];
-  add(aa, 0, 0, 1, 0, 0), add(aa, 0, 1, -1, 0, 1), add(aa, 1, 0, -1, 1, 0), add(aa, 1, 1, 1, 1, 1);
-  add(ab, 0, 0, -1, 0, 0), add(ab, 0, 1, -1, 0, 2), add(ab, 1, 0, 1, 1, 0), add(ab, 1, 1, 1, 1, 2);
-  add(ba, 0, 0, -1, 0, 0), add(ba, 0, 1, 1, 0, 1), add(ba, 1, 0, -1, 2, 0), add(ba, 1, 1, 1, 2, 1);
-  add(bb, 0, 0, 1, 0, 0), add(bb, 0, 1, 1, 0, 2), add(bb, 1, 0, 1, 2, 0), add(bb, 1, 1, 1, 2, 2);
-}
-
 /// Adds the forces on the first `count` elements of a pack to the nodes from `out` on.
 template <int D>
 void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
@@ -61,6 +48,12 @@ void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
     }
   }
 }
+
+#ifdef VLBEAM_GENERAL_KERNELS
+constexpr bool has_general = true;
+#else
+constexpr bool has_general = false;  // it differentiates automatically, and not all of that is inlined
+#endif
 
 /// What a kernel is compiled for: branches on the section cost much between the few operations of a pack. Bending
 /// without damping, by either law, has its own, and so has stretching alone; all else shares one.
@@ -82,12 +75,17 @@ BeamSection known(BeamSection section) {
   return section;
 }
 
+bool is_general(const BeamSection& section) {
+  return section.damped() || (!section.bends() && section.stiffness.slackens());
+}
+
 /// Calls f with the kernel for the section.
 template <class Function>
 auto with_kernel(const BeamSection& section, const Function& f) {
-  if (section.damped()) return f.template operator()<Kernel::general>();
+  if constexpr (has_general) {
+    if (is_general(section)) return f.template operator()<Kernel::general>();
+  }
   if (!section.bends()) {
-    if (section.stiffness.slackens()) return f.template operator()<Kernel::general>();
     return section.stiffness.green() ? f.template operator()<Kernel::axial_green>()
                                      : f.template operator()<Kernel::axial_engineering>();
   }
@@ -99,8 +97,8 @@ auto with_kernel(const BeamSection& section, const Function& f) {
 // calls. Free functions: for a member of a class template GCC takes the attribute at its declaration only.
 
 /// `Sampled`: the axial strain has points of its own. Where it has none, the loop over them costs 2 %.
-template <int D, Kernel K, bool Sampled, class Packs>
-[[gnu::flatten]] double add_pack_forces(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
+template <int D, Kernel K, bool Sampled>
+[[gnu::flatten]] double add_pack_forces(Packs packs, const BeamSection& of, const double* q, const double* rate,
                                         double* force) {
   const BeamSection section = known<K>(of);
   double dissipation = 0;
@@ -123,8 +121,8 @@ template <int D, Kernel K, bool Sampled, class Packs>
   return dissipation;
 }
 
-template <int D, Kernel K, class Packs>
-[[gnu::flatten]] void add_pack_tangents(const Packs& packs, const BeamSection& of, const double* q, const double* rate,
+template <int D, Kernel K>
+[[gnu::flatten]] void add_pack_tangents(Packs packs, const BeamSection& of, const double* q, const double* rate,
                                         const TangentWeights& by, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                                         NodeTangent<D>* lower) {
   using Matrix = Eigen::Matrix<double, D, D>;
@@ -136,9 +134,11 @@ template <int D, Kernel K, class Packs>
     const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section);
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
-      if (section.damped()) {
-        viscous =
-            viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section, by);
+      if constexpr (K == Kernel::general) {
+        if (section.damped()) {
+          viscous =
+              viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section, by);
+        }
       }
       auto stiffness = [&](std::size_t row, std::size_t column) {
         Matrix result;
@@ -148,7 +148,7 @@ template <int D, Kernel K, class Packs>
         if (section.damped()) result += viscous[row][column];
         return result;
       };
-      const auto& m = pack.tables->mass[static_cast<std::size_t>(i)];
+      const auto& m = pack.tables->inertia[static_cast<std::size_t>(i)].mass;
       auto add_mass = [&](NodeTangent<D>& block, std::size_t row, std::size_t column) {
         for (std::size_t r = 0; r < 2; ++r) {
           for (std::size_t c = 0; c < 2; ++c) {
@@ -164,79 +164,42 @@ template <int D, Kernel K, class Packs>
   }
 }
 
-}  // namespace
-
 template <int D>
-double Span<D>::forces(const double* q, const double* rate, double* force) const {
-  const bool sampled = !packs_.empty() && !packs_.front().tables->basis.stretch.empty();
-  return with_kernel(section_, [&]<Kernel K>() {
-    return sampled ? add_pack_forces<D, K, true>(packs_, section_, q, rate, force)
-                   : add_pack_forces<D, K, false>(packs_, section_, q, rate, force);
+double forces(Packs packs, const BeamSection& section, const double* q, const double* rate, double* force) {
+  if (!has_general && is_general(section)) return portable::span_kernels<D>().forces(packs, section, q, rate, force);
+  const bool sampled = !packs.empty() && !packs.front().tables->basis.stretch.empty();
+  return with_kernel(section, [&]<Kernel K>() {
+    return sampled ? add_pack_forces<D, K, true>(packs, section, q, rate, force)
+                   : add_pack_forces<D, K, false>(packs, section, q, rate, force);
   });
 }
 
 template <int D>
-void Span<D>::rest_forces(const double* q, double* force) const {
-  for (const auto& pack : packs_) {
+[[gnu::flatten]] void rest_forces(Packs packs, const BeamSection& section, const double* q, double* force) {
+  for (const auto& pack : packs) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto f = rest_force<Pack, D>(pack.tables->basis, pack.tables->rest, e, section_);
+    const auto f = rest_force<Pack, D>(pack.tables->basis, pack.tables->rest, e, section);
     add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
   }
 }
 
 template <int D>
-void Span<D>::add_inertia(const double* a, double* out) const {
-  for (const auto& pack : packs_) {
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      const auto& m = pack.tables->mass[static_cast<std::size_t>(i)];
-      const auto e = element_nodes<D>(a, k);
-      auto inertia = [&](std::size_t row) -> Vector {
-        return m[row][0] * e.r_a + m[row][1] * e.s_a + m[row][2] * e.r_b + m[row][3] * e.s_b;
-      };
-      position<D>(out, k) += inertia(0);
-      slope<D>(out, k) += inertia(1);
-      position<D>(out, k + 1) += inertia(2);
-      slope<D>(out, k + 1) += inertia(3);
-    }
+void tangents(Packs packs, const BeamSection& section, const double* q, const double* rate, const TangentWeights& by,
+              NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) {
+  if (!has_general && is_general(section)) {
+    return portable::span_kernels<D>().tangents(packs, section, q, rate, by, diagonal, upper, lower);
   }
+  with_kernel(section,
+              [&]<Kernel K>() { add_pack_tangents<D, K>(packs, section, q, rate, by, diagonal, upper, lower); });
 }
+
+}  // namespace
 
 template <int D>
-void Span<D>::rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
-                            NodeTangent<D>* lower) const {
-  for (const auto& pack : packs_) {
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      const auto tangent = rest_tangent<D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
-      add_chord_tangent<D>(
-          [&](std::size_t row, std::size_t column) -> Eigen::Matrix<double, D, D> {
-            return by_q * tangent[row][column];
-          },
-          diagonal + k, upper + k, lower + k);
-    }
-  }
+SpanKernels<D> span_kernels() {
+  return {&forces<D>, &rest_forces<D>, &tangents<D>};
 }
+template SpanKernels<2> span_kernels();
+template SpanKernels<3> span_kernels();
 
-template <int D>
-void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
-                          NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  with_kernel(section_,
-              [&]<Kernel K>() { add_pack_tangents<D, K>(packs_, section_, q, rate, by, diagonal, upper, lower); });
-  if (curved_at_rest_) rest_tangents(q, by.q, diagonal, upper, lower);
-}
-
-template double Span<2>::forces(const double*, const double*, double*) const;
-template double Span<3>::forces(const double*, const double*, double*) const;
-template void Span<2>::rest_forces(const double*, double*) const;
-template void Span<3>::rest_forces(const double*, double*) const;
-template void Span<2>::rest_tangents(const double*, double, NodeTangent<2>*, NodeTangent<2>*, NodeTangent<2>*) const;
-template void Span<3>::rest_tangents(const double*, double, NodeTangent<3>*, NodeTangent<3>*, NodeTangent<3>*) const;
-template void Span<2>::add_inertia(const double*, double*) const;
-template void Span<3>::add_inertia(const double*, double*) const;
-template void Span<2>::add_tangent(const double*, const double*, const TangentWeights&, NodeTangent<2>*,
-                                   NodeTangent<2>*, NodeTangent<2>*) const;
-template void Span<3>::add_tangent(const double*, const double*, const TangentWeights&, NodeTangent<3>*,
-                                   NodeTangent<3>*, NodeTangent<3>*) const;
-
-}  // namespace vlbeam
+}  // namespace vlbeam::VLBEAM_KERNELS

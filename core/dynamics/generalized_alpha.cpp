@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/dynamics/newton_stop.hpp"
 #include "core/geometry/elementary.hpp"
@@ -9,7 +10,12 @@
 namespace vlbeam {
 namespace {
 
-constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
+constexpr double fast_contraction = 1e-3;  // with a tangent of the same step: the next step may keep it
+constexpr double newton_share = 1e-3;      // of a step's own error, that Newton's iteration may leave
+constexpr double first_newton = 1e-8, least_newton = 1e-10,
+                 most_newton = 1e-4;  // that it leaves at least and at most, of an increment
+constexpr double same_step = 0.05;    // relative difference of by_a: the tangent of nearly the same step
+constexpr double stagnation = 0.5;    // contraction with tangents of the same step: rounding, or far from a solution
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
@@ -25,7 +31,8 @@ class GeneralizedAlpha final : public Stepper {
         alpha_m_((2 * options.rho_inf - 1) / (options.rho_inf + 1)),
         alpha_f_(options.rho_inf / (options.rho_inf + 1)),
         gamma_(0.5 + alpha_f_ - alpha_m_),
-        beta_(0.25 * (gamma_ + 0.5) * (gamma_ + 0.5)) {
+        beta_(0.25 * (gamma_ + 0.5) * (gamma_ + 0.5)),
+        tolerance_(options.newton_tolerance > 0 ? options.newton_tolerance : first_newton) {
     history_.reserve(static_cast<std::size_t>(options.newton_iterations));
     if (counters) counters->longest.reserve(history_.capacity());
   }
@@ -49,20 +56,24 @@ class GeneralizedAlpha final : public Stepper {
     }
 
     double dissipation = 0;
+    const bool nearby = nearby_;
     predict(t, h);
-    bool solved = solve(t + h, h, options_.newton, dissipation);
+    bool solved = solve(t + h, h, options_.newton, nearby, dissipation);
     if (!solved && options_.newton == NewtonKind::modified) {  // before the step is given up: it would be another one
       predict(t, h);
-      solved = solve(t + h, h, NewtonKind::full, dissipation);
+      solved = solve(t + h, h, NewtonKind::full, false, dissipation);
     }
     if (!solved) {
       dt = h / 2;
-      tangent_by_a_ = 0;
+      tangent_by_a_ = solved_h_ = 0;
       stalled_ = true;
       return false;
     }
     next_a_ = (-1 / beta_) * (0.5 - beta_) * start_.a + (1 / (h * h * beta_)) * d_;
     stalled_ = false;
+    solved_h_ = h;
+    is_smooth_ = acceleration_predicts(h);
+    if (options_.newton_tolerance == 0) choose_tolerance(h);
     double next = options_.step;
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
@@ -105,6 +116,9 @@ class GeneralizedAlpha final : public Stepper {
     if (crosses_event_) before_event_.exchange(memory);
     memory(motion_);
     memory(calm_);
+    memory(was_slow_);
+    memory(is_smooth_);
+    memory(tolerance_);
     if (!started_) return;
     end_.exchange(memory);
     memory(allowed_);
@@ -123,6 +137,12 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   void resume(const Stepper& other) override {
+    tangent_by_a_ = 0;
+    solved_h_ = 0;
+    resume_nearby(other);
+  }
+
+  void resume_nearby(const Stepper& other) override {
     const auto& main = dynamic_cast<const GeneralizedAlpha&>(other);
     if (&main != this) {
       system_.follow(main.system_);
@@ -132,11 +152,14 @@ class GeneralizedAlpha final : public Stepper {
       motion_ = main.motion_;
       motion_until_event_ = main.motion_until_event_;
       calm_ = main.calm_;
+      was_slow_ = false;
     }
     end_ = main.start_;
+    tolerance_ = main.tolerance_;
+    is_smooth_ = main.is_smooth_;
     started_ = true;
     stalled_ = false;
-    tangent_by_a_ = 0;
+    nearby_ = solved_h_ > 0;
   }
 
  private:
@@ -228,19 +251,40 @@ class GeneralizedAlpha final : public Stepper {
   double by_a(double h) const { return (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)); }
   double by_v(double h) const { return gamma_ / (h * beta_); }
 
-  /// The velocity goes on. An acceleration carried on would throw stiff modes, whose period is shorter than the step,
-  /// far off: Newton would start from a torn mesh.
+  /// The velocity goes on, and the acceleration, too, where that is smooth: else it would throw stiff modes, whose
+  /// period is shorter than the step, far off, and Newton would start from a torn mesh.
   void predict(double t, double h) {
     const auto next_a = (-1 / beta_) * (0.5 - beta_) * start_.a;
     predicted_v_ = base_v_ + h * ((1 - gamma_) * start_.a + gamma_ * next_a);
     predicted_a_ =
         ((1 - alpha_m_) * next_a + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
-    d_.setZero(base_q_.size());
+    if (nearby_) {
+      const double ratio = h / solved_h_;
+      d_ *= ratio * ratio;
+    } else if (is_smooth_) {
+      d_ = (0.5 * h * h) * start_.a;
+    } else {
+      d_.setZero(base_q_.size());
+    }
+    nearby_ = false;
     complete(h);
     if (system_.driven_offset(q_, t + h, r_)) {  // what is driven has no equation that Newton would solve
       d_ -= r_;
       complete(h);
     }
+  }
+
+  /// Whether the end of this step was nearer to the acceleration going on than to the velocity alone. Slopes tell:
+  /// stiff modes turn them more than they move nodes.
+  bool acceleration_predicts(double h) const {
+    double off_acceleration = 0, off_velocity = 0;
+    for_each_coordinate(stop_.fields(), [&](Field field, Eigen::Index i) {
+      if (field != Field::slope) return;
+      const double off = d_[i] - 0.5 * h * h * start_.a[i];
+      off_acceleration += off * off;
+      off_velocity += d_[i] * d_[i];
+    });
+    return off_acceleration < off_velocity;
   }
 
   /// The end of the step, from what its positions are off the velocity going on. The increment is kept by itself: next
@@ -251,9 +295,13 @@ class GeneralizedAlpha final : public Stepper {
     acceleration_ = predicted_a_ + by_a(h) * d_;
   }
 
-  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls.
-  bool solve(double t, double h, NewtonKind kind, double& dissipation) {
-    if (by_a(h) != tangent_by_a_) tangent_by_a_ = 0;
+  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. Where the last step
+  /// with a kept tangent was slow, this one starts with its own. `nearby`: its tangent is that of nearly this step.
+  bool solve(double t, double h, NewtonKind kind, bool nearby, double& dissipation) {
+    const bool renew = was_slow_ && !nearby;
+    if (renew || std::abs(by_a(h) - tangent_by_a_) > (nearby ? same_step * by_a(h) : 0)) tangent_by_a_ = 0;
+    const bool starts_fresh = tangent_by_a_ == 0;
+    double slowest = 0;  // contraction
     if (h != noise_step_) stop_.forget_noise();
     noise_step_ = h;
     bool fresh = false;         // the tangent is of this step
@@ -274,9 +322,13 @@ class GeneralizedAlpha final : public Stepper {
       if (!r_.allFinite()) return false;
       d_ -= r_;
       complete(h);
-      const NewtonStop::Verdict verdict = stop_.judge(r_, d_, options_.newton_tolerance, slow_contraction);
+      const NewtonStop::Verdict verdict = stop_.judge(r_, d_, tolerance_, slow_contraction);
       count(stop_.error());
-      if (verdict == NewtonStop::Verdict::done) return true;
+      slowest = std::max(slowest, stop_.contraction());
+      if (verdict == NewtonStop::Verdict::done) {
+        was_slow_ = slowest > (starts_fresh ? fast_contraction : slow_contraction);
+        return true;
+      }
       if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(q_)) {
         measure_noise(t);
         if (stop_.settle()) return true;
@@ -317,9 +369,8 @@ class GeneralizedAlpha final : public Stepper {
 
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
   double error_ratio(double t, double h) {
-    const double share = h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6);
     const Eigen::Index count = q_.size() - system_.multipliers();
-    error_ = share * (next_a_ - start_.a);
+    error_ = error_constant(h) * (next_a_ - start_.a);
     if (options_.error_estimate == ErrorEstimate::filtered) filter_error(t + h, h, count);
     const double scale = share_of_motion();
     double largest = 0;
@@ -330,6 +381,21 @@ class GeneralizedAlpha final : public Stepper {
     }
     return largest;
   }
+
+  /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
+  /// makes, as it was in this step.
+  void choose_tolerance(double h) {
+    error_ = error_constant(h) * (next_a_ - start_.a);
+    const FieldNorms errors = field_norms(stop_.fields(), error_), increments = field_norms(stop_.fields(), d_);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Field field : {Field::position, Field::slope, Field::mark, Field::mass, Field::angle}) {
+      const auto f = static_cast<std::size_t>(field);
+      if (errors[f] > 0 && increments[f] > 0) least = std::min(least, errors[f] / increments[f]);
+    }
+    tolerance_ = std::clamp(newton_share * least, least_newton, most_newton);
+  }
+
+  double error_constant(double h) const { return h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6); }
 
   /// r is linear in the accelerations, and next to 0 at the end of the step: with more acceleration it is that of this.
   void filter_error(double t, double h, Eigen::Index count) {
@@ -391,6 +457,11 @@ class GeneralizedAlpha final : public Stepper {
   double alpha_m_, alpha_f_, gamma_, beta_;
   bool started_ = false;
   bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
+  bool was_slow_ = false;    ///< the tangent kept will be too old in the next step
+  bool is_smooth_ = false;   ///< the motion, so that its acceleration is worth carrying on
+  bool nearby_ = false;      ///< d_ and the tangent are of nearly the same step, `solved_h_` long
+  double solved_h_ = 0;      ///< [s]; 0 for none
+  double tolerance_;         ///< of Newton's iteration, of the increment
   int calm_ = 0;             ///< steps that may not be longer than the one before
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;

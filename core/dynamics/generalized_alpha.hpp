@@ -13,10 +13,12 @@ struct GeneralizedAlphaOptions {
   double step = 1e-3;    ///< [s]; the longest, and the first, where the step adapts
   double rho_inf = 0.9;  ///< spectral radius at infinity, 0 (strongest damping) to 1 (none)
   NewtonKind newton = NewtonKind::modified;
-  double newton_tolerance = 1e-8;  ///< of the estimated error relative to the step's own increment (NewtonStop)
-  int newton_iterations = 15;      ///< beyond which the step is halved
-  bool adaptive = false;           ///< the step follows the tolerances
-  Tolerances tolerances;           ///< of an adaptive step
+  /// Of the estimated error relative to the step's own increment (NewtonStop); 0: a thousandth of the error that the
+  /// method itself makes in a step.
+  double newton_tolerance = 0;
+  int newton_iterations = 15;                         ///< beyond which the step is halved
+  bool adaptive = false;                              ///< the step follows the tolerances
+  Tolerances tolerances;                              ///< of an adaptive step
   ErrorEstimate error_estimate = ErrorEstimate::all;  ///< of an adaptive step
   double first_step = 0;                              ///< [s]; 0: the longest
 };

@@ -97,8 +97,24 @@ class SideStepper {
 
   /// The solution at `to`, from (from, start), where the last step of `main` started. Throws SideStepUnderflow.
   const Eigen::VectorXd& at(const Stepper& main, const Eigen::VectorXd& start, double from, double to) {
-    y_ = start;
     stepper_->resume(main);
+    return step_to(start, from, to);
+  }
+  /// The same where the last call of at() was for nearly the same instant.
+  const Eigen::VectorXd& nearby(const Stepper& main, const Eigen::VectorXd& start, double from, double to) {
+    stepper_->resume_nearby(main);
+    return step_to(start, from, to);
+  }
+
+  /// Behind the last call of at().
+  const Stepper& stepper() const { return *stepper_; }
+
+  /// Of its stepper nothing stays from one call of at() to the next.
+  void exchange(Memory& memory) { own_.exchange(memory); }
+
+ private:
+  const Eigen::VectorXd& step_to(const Eigen::VectorXd& start, double from, double to) {
+    y_ = start;
     double t = from, dt = to - from;
     for (int tries = 0; t < to; ++tries) {
       if (tries == most_side_steps) throw SideStepUnderflow{t, dt};
@@ -123,13 +139,6 @@ class SideStepper {
     return y_;
   }
 
-  /// Behind the last call of at().
-  const Stepper& stepper() const { return *stepper_; }
-
-  /// Of its stepper nothing stays from one call of at() to the next.
-  void exchange(Memory& memory) { own_.exchange(memory); }
-
- private:
   EventedOde& ode_;
   NewtonCounters& total_;
   NewtonCounters own_;
@@ -189,7 +198,8 @@ Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const St
   double slope = (interpolated(tau + reach) - interpolated(tau - reach)) / (2 * reach);
   double last_tau = 0, last_value = 0;
   for (int i = 0;; ++i) {
-    const Eigen::VectorXd& y = side.at(main, step.y0, step.t0, step.t0 + tau);
+    const Eigen::VectorXd& y =
+        i == 0 ? side.at(main, step.y0, step.t0, step.t0 + tau) : side.nearby(main, step.y0, step.t0, step.t0 + tau);
     const double value = ode.guards(y, step.t0 + tau)[k].value;
     const bool closed = high - low <= 1e-15 * h || tau == last_tau;
     if (std::abs(value) <= (i < 4 ? guard_tolerance : event_tolerance) || closed || i == most_refinements) {

@@ -38,6 +38,8 @@ class Stepper {
   virtual void keep_for_event(const Stepper& /*other*/, bool /*at_start*/) {}
   /// Gets ready to repeat the last successful step of `other`, a stepper of the same method.
   virtual void resume(const Stepper& /*other*/) { reset(); }
+  /// The same, where this stepper's last step was from the same start, and nearly as long as the next one will be.
+  virtual void resume_nearby(const Stepper& other) { resume(other); }
   /// Writes or reads what it keeps from one step to the next. Not between a failed step and its repetition.
   virtual void exchange(Memory& memory) = 0;
 };

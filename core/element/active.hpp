@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <type_traits>
 
 #include "core/geometry/elementary.hpp"
 
@@ -9,20 +10,23 @@ namespace vlbeam {
 
 /// A number with its derivatives by `N` variables: forward automatic differentiation. Operation by operation it rounds
 /// as Eigen::AutoDiffScalar does, but is no expression template, which would be another type for each expression.
-/// A number without derivatives is a constant.
-template <int N>
+/// A number without derivatives is a constant. `Value` may be a Pack.
+template <int N, class Value = double>
 class Active {
  public:
-  using Derivatives = Eigen::Matrix<double, N, 1>;
+  using Derivatives = Eigen::Matrix<Value, N, 1>;
 
   Active() = default;
-  Active(double value)  // NOLINT(google-explicit-constructor): a number is a constant
+  Active(const Value& value)  // NOLINT(google-explicit-constructor): a number is a constant
       : value_(value), derivatives_(Derivatives::Zero()) {}
+  template <class Number>
+  requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, Value>) Active(Number value)
+      : Active(Value(value)) {}  // NOLINT(google-explicit-constructor)
   /// The variable `which`.
-  Active(double value, int which) : Active(value) { derivatives_[which] = 1; }
+  Active(const Value& value, int which) : Active(value) { derivatives_[which] = Value(1); }
 
-  double value() const { return value_; }
-  double& value() { return value_; }
+  const Value& value() const { return value_; }
+  Value& value() { return value_; }
   const Derivatives& derivatives() const { return derivatives_; }
   Derivatives& derivatives() { return derivatives_; }
 
@@ -41,34 +45,41 @@ class Active {
     return make(a.value_ * b.value_, [&](int i) { return a.by(i) * b.value_ + b.by(i) * a.value_; });
   }
   friend Active operator/(const Active& a, const Active& b) {
-    const double scale = 1 / (b.value_ * b.value_);
+    const Value scale = Value(1) / (b.value_ * b.value_);
     return make(a.value_ / b.value_, [&](int i) { return (a.by(i) * b.value_ - b.by(i) * a.value_) * scale; });
   }
   friend Active operator-(const Active& a) {
     return make(-a.value_, [&](int i) { return -a.by(i); });
   }
 
-  friend Active operator+(const Active& a, double b) { return a.with(a.value_ + b); }
-  friend Active operator+(double a, const Active& b) { return b.with(a + b.value_); }
-  friend Active operator-(const Active& a, double b) { return a.with(a.value_ - b); }
-  friend Active operator-(double a, const Active& b) {
+  friend Active operator+(const Active& a, const Value& b) { return a.with(a.value_ + b); }
+  friend Active operator+(const Value& a, const Active& b) { return b.with(a + b.value_); }
+  friend Active operator-(const Active& a, const Value& b) { return a.with(a.value_ - b); }
+  friend Active operator-(const Value& a, const Active& b) {
     return make(a - b.value_, [&](int i) { return -b.by(i); });
   }
-  friend Active operator*(const Active& a, double b) { return chain(a.value_ * b, a, b); }
-  friend Active operator*(double a, const Active& b) { return chain(b.value_ * a, b, a); }
-  friend Active operator/(const Active& a, double b) { return chain(a.value_ / b, a, 1 / b); }
-  friend Active operator/(double a, const Active& b) { return chain(a / b.value_, b, -a / (b.value_ * b.value_)); }
+  friend Active operator*(const Active& a, const Value& b) { return chain(a.value_ * b, a, b); }
+  friend Active operator*(const Value& a, const Active& b) { return chain(b.value_ * a, b, a); }
+  friend Active operator/(const Active& a, const Value& b) { return chain(a.value_ / b, a, Value(1) / b); }
+  friend Active operator/(const Value& a, const Active& b) {
+    return chain(a / b.value_, b, -a / (b.value_ * b.value_));
+  }
 
   friend bool operator<(const Active& a, const Active& b) { return a.value_ < b.value_; }
   friend bool operator>(const Active& a, const Active& b) { return a.value_ > b.value_; }
   friend bool operator==(const Active& a, const Active& b) { return a.value_ == b.value_; }
 
   friend Active clamped(const Active& a, double low, double high) {
-    return a.value_ < low ? Active(low) : a.value_ > high ? Active(high) : a;
+    if constexpr (std::is_same_v<Value, double>) {
+      return a.value_ < low ? Active(low) : a.value_ > high ? Active(high) : a;
+    } else {
+      return make(clamped(a.value_, low, high), [&](int i) { return a.by(i) * inside(a.value_, low, high); });
+    }
   }
   friend Active sqrt(const Active& a) {
-    const double root = std::sqrt(a.value_);
-    return chain(root, a, 0.5 / root);
+    using std::sqrt;
+    const Value root = sqrt(a.value_);
+    return chain(root, a, Value(0.5) / root);
   }
   friend Active exp(const Active& a) {
     const double power = portable::exp(a.value_);
@@ -83,47 +94,47 @@ class Active {
   }
 
  private:
-  double by(int i) const { return derivatives_.data()[i]; }
+  const Value& by(int i) const { return derivatives_.data()[i]; }
 
   template <class Function>
-  static Active make(double value, const Function& by) {
+  static Active make(const Value& value, const Function& by) {
     Active result;
     result.value_ = value;
     for (int i = 0; i < N; ++i) result.derivatives_.data()[i] = by(i);
     return result;
   }
   /// A function of `a` with the derivative `slope` by it.
-  static Active chain(double value, const Active& a, double slope) {
+  static Active chain(const Value& value, const Active& a, const Value& slope) {
     return make(value, [&](int i) { return a.by(i) * slope; });
   }
-  Active with(double value) const {
+  Active with(const Value& value) const {
     Active result = *this;
     result.value_ = value;
     return result;
   }
 
-  double value_;
+  Value value_;
   Derivatives derivatives_;
 };
 
 }  // namespace vlbeam
 
 /// @cond
-template <int N>
-struct Eigen::NumTraits<vlbeam::Active<N>> : Eigen::NumTraits<double> {
-  using Real = vlbeam::Active<N>;
-  using NonInteger = vlbeam::Active<N>;
-  using Nested = vlbeam::Active<N>;
+template <int N, class Value>
+struct Eigen::NumTraits<vlbeam::Active<N, Value>> : Eigen::NumTraits<Value> {
+  using Real = vlbeam::Active<N, Value>;
+  using NonInteger = vlbeam::Active<N, Value>;
+  using Nested = vlbeam::Active<N, Value>;
   using Literal = double;
   enum { RequireInitialization = 1 };
 };
-template <int N, class Operation>
-struct Eigen::ScalarBinaryOpTraits<vlbeam::Active<N>, double, Operation> {
-  using ReturnType = vlbeam::Active<N>;
+template <int N, class Value, class Operation>
+struct Eigen::ScalarBinaryOpTraits<vlbeam::Active<N, Value>, Value, Operation> {
+  using ReturnType = vlbeam::Active<N, Value>;
 };
-template <int N, class Operation>
-struct Eigen::ScalarBinaryOpTraits<double, vlbeam::Active<N>, Operation> {
-  using ReturnType = vlbeam::Active<N>;
+template <int N, class Value, class Operation>
+struct Eigen::ScalarBinaryOpTraits<Value, vlbeam::Active<N, Value>, Operation> {
+  using ReturnType = vlbeam::Active<N, Value>;
 };
 /// @endcond
 

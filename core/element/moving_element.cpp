@@ -1,36 +1,58 @@
 #include "core/element/moving_element.hpp"
 
+#include "core/element/moving_kernels.hpp"
+
 namespace vlbeam {
 
-template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::a>(const MovingCoordinates<double, 2>&,
-                                                                               const MovingCoordinates<double, 2>&,
-                                                                               const WeightFunction&,
-                                                                               const ShapeTabulation&,
-                                                                               const MovingLaw<2>&);
-template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::b>(const MovingCoordinates<double, 2>&,
-                                                                               const MovingCoordinates<double, 2>&,
-                                                                               const WeightFunction&,
-                                                                               const ShapeTabulation&,
-                                                                               const MovingLaw<2>&);
-template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::both>(const MovingCoordinates<double, 2>&,
-                                                                                  const MovingCoordinates<double, 2>&,
-                                                                                  const WeightFunction&,
-                                                                                  const ShapeTabulation&,
-                                                                                  const MovingLaw<2>&);
-template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::a>(const MovingCoordinates<double, 3>&,
-                                                                               const MovingCoordinates<double, 3>&,
-                                                                               const WeightFunction&,
-                                                                               const ShapeTabulation&,
-                                                                               const MovingLaw<3>&);
-template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::b>(const MovingCoordinates<double, 3>&,
-                                                                               const MovingCoordinates<double, 3>&,
-                                                                               const WeightFunction&,
-                                                                               const ShapeTabulation&,
-                                                                               const MovingLaw<3>&);
-template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::both>(const MovingCoordinates<double, 3>&,
-                                                                                  const MovingCoordinates<double, 3>&,
-                                                                                  const WeightFunction&,
-                                                                                  const ShapeTabulation&,
-                                                                                  const MovingLaw<3>&);
+template <int D, MovingEnds Ends>
+MovingKernels<D, Ends> moving_kernels([[maybe_unused]] InstructionSet set) {
+#ifdef VLBEAM_HAS_AVX2
+  if (set == InstructionSet::avx2) return avx2::moving_kernels<D, Ends>();
+#endif
+  return portable::moving_kernels<D, Ends>();
+}
+
+template <int D, MovingEnds Ends>
+const MovingKernels<D, Ends>& fastest_moving_kernels() {
+  static const MovingKernels<D, Ends> kernels = moving_kernels<D, Ends>(fastest_instruction_set());
+  return kernels;
+}
+
+template <int D, MovingEnds Ends>
+requires(D > 1) MovingEquations<double, D> MovingElement<double, D, Ends>::equations(const Coordinates& q,
+                                                                                     const Coordinates& rate,
+                                                                                     const WeightFunction& weights,
+                                                                                     const ShapeTabulation& table,
+                                                                                     const MovingLaw<D>& law) {
+  if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, AtAnyAcceleration{}, weights, table, law);
+  return fastest_moving_kernels<D, Ends>().equations(q, rate, weights, table, law);
+}
+
+template <int D, MovingEnds Ends>
+requires(D > 1) MovingEquations<double, D> MovingElement<double, D, Ends>::forces(
+    const Coordinates& q, const Coordinates& rate, const Coordinates& a, const WeightFunction& weights,
+    const ShapeTabulation& table, const MovingLaw<D>& law) {
+  if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, a, weights, table, law);
+  return fastest_moving_kernels<D, Ends>().forces(q, rate, a, weights, table, law);
+}
+
+template struct MovingElement<double, 2, MovingEnds::a>;
+template struct MovingElement<double, 2, MovingEnds::b>;
+template struct MovingElement<double, 2, MovingEnds::both>;
+template struct MovingElement<double, 3, MovingEnds::a>;
+template struct MovingElement<double, 3, MovingEnds::b>;
+template struct MovingElement<double, 3, MovingEnds::both>;
+template MovingKernels<2, MovingEnds::a> moving_kernels(InstructionSet);
+template MovingKernels<2, MovingEnds::b> moving_kernels(InstructionSet);
+template MovingKernels<2, MovingEnds::both> moving_kernels(InstructionSet);
+template MovingKernels<3, MovingEnds::a> moving_kernels(InstructionSet);
+template MovingKernels<3, MovingEnds::b> moving_kernels(InstructionSet);
+template MovingKernels<3, MovingEnds::both> moving_kernels(InstructionSet);
+template const MovingKernels<2, MovingEnds::a>& fastest_moving_kernels();
+template const MovingKernels<2, MovingEnds::b>& fastest_moving_kernels();
+template const MovingKernels<2, MovingEnds::both>& fastest_moving_kernels();
+template const MovingKernels<3, MovingEnds::a>& fastest_moving_kernels();
+template const MovingKernels<3, MovingEnds::b>& fastest_moving_kernels();
+template const MovingKernels<3, MovingEnds::both>& fastest_moving_kernels();
 
 }  // namespace vlbeam

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <type_traits>
 
 #include "core/element/moving_points.hpp"
 #include "core/element/section.hpp"
@@ -30,6 +31,24 @@ struct MovingLaw {
   const RestElement<D>* rest = nullptr;             ///< of the element, null for a straight, unstrained one
 };
 
+struct AtAnyAcceleration {};
+
+/// Adds a point's part of the upper triangle of the mass matrix.
+template <MovingEnds Ends, class Real, int D>
+[[gnu::always_inline]] inline void add_mass(const Real& mu, const PointMotion<Real, D>& at,
+                                            MovingEquations<Real, D>& eq) {
+  constexpr bool a_moves = Ends != MovingEnds::b, b_moves = Ends != MovingEnds::a;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Real mi = mu * at.s[i];
+    for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] += mi * at.s[j];
+    if constexpr (a_moves) eq.mass_a[i] += at.y_a * mi;
+    if constexpr (b_moves) eq.mass_b[i] += at.y_b * mi;
+  }
+  if constexpr (a_moves) eq.mass_aa += mu * at.y_a.dot(at.y_a);
+  if constexpr (b_moves) eq.mass_bb += mu * at.y_b.dot(at.y_b);
+  if constexpr (a_moves && b_moves) eq.mass_ab += mu * at.y_a.dot(at.y_b);
+}
+
 /// Mass matrix and generalized forces of one variable-length element.
 ///
 /// `virtual_work` is Eq. 17-19 of Ding & Ouyang (2022): everything at fixed material points.
@@ -41,10 +60,13 @@ struct MovingLaw {
 /// L the Lagrangian per length: between events energy is conserved for any number of points. A rest shape moves with
 /// the ends, too: its strains' derivatives by x_A and x_B do the work sum w l (N deps_0/dx_A + M dkappa_0/dx_A) on x_A,
 /// and so on x_B, N and M the tension and the moment.
-template <class Real, int D, MovingEnds Ends = MovingEnds::both>
-MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
-                                          const WeightFunction& weights, const ShapeTabulation& table,
-                                          const MovingLaw<D>& law) {
+///
+/// With accelerations `a` their inertia counts among the forces, Q - M a, and no mass matrix is made.
+template <class Real, int D, MovingEnds Ends, class Accelerations>
+MovingEquations<Real, D> moving_sums(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
+                                     [[maybe_unused]] const Accelerations& a, const WeightFunction& weights,
+                                     const ShapeTabulation& table, const MovingLaw<D>& law) {
+  constexpr bool accelerated = !std::is_same_v<Accelerations, AtAnyAcceleration>;
   using Vector = Vec<Real, D>;
   using Kinematics = MovingKinematics<Real, D, Ends>;
   MovingEquations<Real, D> eq;
@@ -62,93 +84,111 @@ MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, c
   const Vector gravity = law.gravity.template cast<Real>();
   const bool variational = law.formulation == Formulation::variational;
 
-  using Rest = RestKinematics<Real, D, Ends>;
-  const auto at_rest =
-      law.rest ? std::optional<Rest>(std::in_place, *law.rest, q.x_a, q.x_b, law.transport, weights, law.section)
-               : std::nullopt;
+  using Rest = RestKinematics<std::conditional_t<in_packs<Real>, double, Real>, D, Ends>;  // packs have none
+  std::optional<Rest> at_rest;
+  if constexpr (!in_packs<Real>) {
+    if (law.rest) at_rest.emplace(*law.rest, q.x_a, q.x_b, law.transport, weights, law.section);
+  }
   const auto motion = [&](const auto& u, const auto& shape) { return kinematics.at(u, shape); };
-  for_each_point(kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion,
-                 [&](const auto& point, const auto& at, const auto* rest) {
-                   const BeamSection& section = sections[point.feels];
-                   const double rhoA = section.rhoA;
-                   const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, section.stiffness);
-                   Vector p = elastic.p, m = elastic.m;
-                   Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
-                   Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
-                   if (rest != nullptr) {
-                     const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, section);
-                     p += from_rest.p;
-                     m += from_rest.m;
-                     stored = from_rest.axial + from_rest.bending;
-                     stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) - from_rest.work(rest->along);
-                     if constexpr (Kinematics::a_moves) eq.force_a += point.weight * from_rest.work(rest->by_a);
-                     if constexpr (Kinematics::b_moves) eq.force_b += point.weight * from_rest.work(rest->by_b);
-                   }
-                   const Real& wl = point.weight;
-                   if (section.damped()) {
-                     const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness,
-                                                          section.damping, section.curvature_regularization);
-                     p += viscous.p;
-                     m += viscous.m;
-                     eq.dissipation += wl * viscous.power;
-                   }
+  for_each_point(
+      kinematics, table, reshaped, at_rest ? &*at_rest : nullptr, motion,
+      [&](const auto& point, const auto& at, const auto* rest) {
+        const BeamSection& section = sections[point.feels];
+        const double rhoA = section.rhoA;
+        const ElasticStress<Real, D> elastic(at.r_x, at.r_xx, section.stiffness);
+        Vector p = elastic.p, m = elastic.m;
+        Real stored = elastic.axial + elastic.bending;  // W, and its derivative along the beam
+        Real stored_x = p.dot(at.r_xx) + m.dot(at.r_xxx);
+        if (rest != nullptr) {
+          const RestStress<Real, D> from_rest(at.r_x, at.r_xx, *rest, section);
+          p += from_rest.p;
+          m += from_rest.m;
+          stored = from_rest.axial + from_rest.bending;
+          stored_x += from_rest.p.dot(at.r_xx) + from_rest.m.dot(at.r_xxx) - from_rest.work(rest->along);
+          if constexpr (Kinematics::a_moves) eq.force_a += point.weight * from_rest.work(rest->by_a);
+          if constexpr (Kinematics::b_moves) eq.force_b += point.weight * from_rest.work(rest->by_b);
+        }
+        const Real& wl = point.weight;
+        if (section.damped()) {
+          const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness, section.damping,
+                                               section.curvature_regularization);
+          p += viscous.p;
+          m += viscous.m;
+          eq.dissipation += wl * viscous.power;
+        }
 
-                   const Real mu = wl * rhoA;
-                   // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
-                   Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
-                   if (variational) {
-                     const Real mu_c = mu * point.mesh_velocity;
-                     f0 -= at.v * Real(point.weight_rate * rhoA) + at.v_x * mu_c;
-                     f1 -= at.v * mu_c;
-                     const Real lagrangian =
-                         Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
-                     const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
-                     if constexpr (Kinematics::a_moves)
-                       eq.force_a += lagrangian_x * Real(1 - point.u) - lagrangian * point.share;
-                     if constexpr (Kinematics::b_moves)
-                       eq.force_b += lagrangian_x * Real(point.u) + lagrangian * point.share;
-                   }
-                   for (std::size_t i = 0; i < 4; ++i) {
-                     eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
-                     const Real mi = mu * at.s[i];
-                     for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] += mi * at.s[j];
-                     if constexpr (Kinematics::a_moves) eq.mass_a[i] += at.y_a * mi;
-                     if constexpr (Kinematics::b_moves) eq.mass_b[i] += at.y_b * mi;
-                   }
-                   if constexpr (Kinematics::a_moves) {
-                     eq.force_a += f0.dot(at.y_a) + f1.dot(at.y_a_x) + f2.dot(at.y_a_xx);
-                     eq.mass_aa += mu * at.y_a.dot(at.y_a);
-                   }
-                   if constexpr (Kinematics::b_moves) {
-                     eq.force_b += f0.dot(at.y_b) + f1.dot(at.y_b_x) + f2.dot(at.y_b_xx);
-                     eq.mass_bb += mu * at.y_b.dot(at.y_b);
-                   }
-                   if constexpr (Kinematics::a_moves && Kinematics::b_moves) eq.mass_ab += mu * at.y_a.dot(at.y_b);
-                 });
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < i; ++j) eq.mass[i][j] = eq.mass[j][i];
+        const Real mu = wl * Real(rhoA);
+        // one force conjugate to r, one to r_x, one to r_xx: all generalized forces follow from these three
+        Vector f0 = (gravity - at.remainder) * mu, f1 = p * Real(-wl), f2 = m * Real(-wl);
+        if constexpr (accelerated) {
+          Vector acceleration = a.e.r_a * at.s[0] + a.e.s_a * at.s[1] + a.e.r_b * at.s[2] + a.e.s_b * at.s[3];
+          if constexpr (Kinematics::a_moves) acceleration += at.y_a * a.x_a;
+          if constexpr (Kinematics::b_moves) acceleration += at.y_b * a.x_b;
+          f0 -= acceleration * mu;
+        }
+        if (variational) {
+          const Real mu_c = mu * point.mesh_velocity;
+          f0 -= at.v * Real(point.weight_rate * Real(rhoA)) + at.v_x * mu_c;
+          f1 -= at.v * mu_c;
+          const Real lagrangian = Real(0.5 * rhoA) * at.v.dot(at.v) - stored + Real(rhoA) * gravity.dot(at.r);
+          const Real lagrangian_x = wl * (Real(rhoA) * (at.v.dot(at.v_x) + gravity.dot(at.r_x)) - stored_x);
+          if constexpr (Kinematics::a_moves) eq.force_a += lagrangian_x * Real(1 - point.u) - lagrangian * point.share;
+          if constexpr (Kinematics::b_moves) eq.force_b += lagrangian_x * Real(point.u) + lagrangian * point.share;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+          eq.force[i] += f0 * at.s[i] + f1 * at.s_x[i] + f2 * at.s_xx[i];
+        }
+        if constexpr (Kinematics::a_moves) {
+          eq.force_a += f0.dot(at.y_a) + f1.dot(at.y_a_x) + f2.dot(at.y_a_xx);
+        }
+        if constexpr (Kinematics::b_moves) {
+          eq.force_b += f0.dot(at.y_b) + f1.dot(at.y_b_x) + f2.dot(at.y_b_xx);
+        }
+        if constexpr (!accelerated) add_mass<Ends>(mu, at, eq);
+      });
+  if constexpr (!accelerated) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) eq.mass[i][j] = eq.mass[j][i];
+    }
   }
   return eq;
 }
 
-// Instantiated once; those of a field of one component belong to spin_chain.cpp, which knows its energy.
-extern template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::a>(
-    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const WeightFunction&,
-    const ShapeTabulation&, const MovingLaw<2>&);
-extern template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::b>(
-    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const WeightFunction&,
-    const ShapeTabulation&, const MovingLaw<2>&);
-extern template MovingEquations<double, 2> moving_equations<double, 2, MovingEnds::both>(
-    const MovingCoordinates<double, 2>&, const MovingCoordinates<double, 2>&, const WeightFunction&,
-    const ShapeTabulation&, const MovingLaw<2>&);
-extern template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::a>(
-    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const WeightFunction&,
-    const ShapeTabulation&, const MovingLaw<3>&);
-extern template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::b>(
-    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const WeightFunction&,
-    const ShapeTabulation&, const MovingLaw<3>&);
-extern template MovingEquations<double, 3> moving_equations<double, 3, MovingEnds::both>(
-    const MovingCoordinates<double, 3>&, const MovingCoordinates<double, 3>&, const WeightFunction&,
-    const ShapeTabulation&, const MovingLaw<3>&);
+/// What a variable-length element does, without and with given accelerations: point by point.
+template <class Real, int D, MovingEnds Ends>
+struct MovingElement {
+  using Coordinates = MovingCoordinates<Real, D>;
+
+  static MovingEquations<Real, D> equations(const Coordinates& q, const Coordinates& rate,
+                                            const WeightFunction& weights, const ShapeTabulation& table,
+                                            const MovingLaw<D>& law) {
+    return moving_sums<Real, D, Ends>(q, rate, AtAnyAcceleration{}, weights, table, law);
+  }
+  static MovingEquations<Real, D> forces(const Coordinates& q, const Coordinates& rate, const Coordinates& a,
+                                         const WeightFunction& weights, const ShapeTabulation& table,
+                                         const MovingLaw<D>& law) {
+    return moving_sums<Real, D, Ends>(q, rate, a, weights, table, law);
+  }
+};
+
+/// The same, where there is no rest shape four points at once (`element/moving_kernels.cpp`).
+template <int D, MovingEnds Ends>
+requires(D > 1) struct MovingElement<double, D, Ends> {
+  using Coordinates = MovingCoordinates<double, D>;
+
+  static MovingEquations<double, D> equations(const Coordinates& q, const Coordinates& rate,
+                                              const WeightFunction& weights, const ShapeTabulation& table,
+                                              const MovingLaw<D>& law);
+  static MovingEquations<double, D> forces(const Coordinates& q, const Coordinates& rate, const Coordinates& a,
+                                           const WeightFunction& weights, const ShapeTabulation& table,
+                                           const MovingLaw<D>& law);
+};
+
+template <class Real, int D, MovingEnds Ends = MovingEnds::both>
+MovingEquations<Real, D> moving_equations(const MovingCoordinates<Real, D>& q, const MovingCoordinates<Real, D>& rate,
+                                          const WeightFunction& weights, const ShapeTabulation& table,
+                                          const MovingLaw<D>& law) {
+  return MovingElement<Real, D, Ends>::equations(q, rate, weights, table, law);
+}
 
 }  // namespace vlbeam

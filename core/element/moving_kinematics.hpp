@@ -34,7 +34,7 @@ struct WeightFunction {
   Weights<Real> on(const Real& a, const Real& b) const {
     const Weights<Real> reference{Real(w[0]), Real(w[1]), Real(w[2]), Real(w[3])};
     const double inverse = 1 / (x_b - x_a);
-    return restrict_cubic(reference, Real((a - x_a) * inverse), Real((b - x_a) * inverse));
+    return restrict_cubic(reference, Real((a - Real(x_a)) * Real(inverse)), Real((b - Real(x_a)) * Real(inverse)));
   }
 };
 

@@ -1,31 +1,70 @@
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "core/element/beam_rule.hpp"
 #include "core/element/moving_kinematics.hpp"
+#include "core/element/pack.hpp"
 #include "core/element/rest_element.hpp"
 
 namespace vlbeam {
+
+/// Whether a number is made of packs, one lane a point.
+template <class Real>
+inline constexpr bool in_packs = std::is_same_v<Real, Pack>;
+/// What the parameter of a point is then.
+template <class Real>
+using PointParameter = std::conditional_t<in_packs<Real>, Pack, double>;
+
+/// Four points of a rule that feel the same, or fewer: then the last one again, with weight 0.
+struct PackOfPoints {
+  Pack u, weight;
+  ShapeTable<Pack> shape;
+  Feels feels;
+};
 
 /// Shape functions at the points of a rule for one set of weights; with frozen weights they hold until the next
 /// length-control event, so that the rational element then costs what the polynomial one costs.
 struct ShapeTabulation {
   BeamRule rule;
   std::vector<ShapeTable<double>> shape;
+  std::vector<PackOfPoints> packs;  ///< the same, four at once
 
   ShapeTabulation() = default;
   ShapeTabulation(const BeamRule& rule_, const Weights<double>& w) : rule(rule_) {
     for (const auto& point : rule) {
       shape.push_back(w == unit_weights ? hermite_shape(point.u) : rational_shape(w, point.u));
     }
+    for (std::size_t g = 0; g < rule.size();) {
+      std::size_t end = g + 1;
+      while (end < rule.size() && end < g + Pack::width && rule[end].feels == rule[g].feels) ++end;
+      packs.push_back(pack(g, end));
+      g = end;
+    }
+  }
+
+ private:
+  PackOfPoints pack(std::size_t begin, std::size_t end) const {
+    PackOfPoints points;
+    points.feels = rule[begin].feels;
+    for (int lane = 0; lane < Pack::width; ++lane) {
+      const std::size_t at = begin + static_cast<std::size_t>(lane), g = std::min(at, end - 1);
+      points.u.set(lane, rule[g].u);
+      points.weight.set(lane, at < end ? rule[g].weight : 0);
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t n = 0; n < 4; ++n) points.shape[i][n].set(lane, shape[g][i][n]);
+      }
+    }
+    return points;
   }
 };
 
-/// A quadrature point of a variable-length element.
-template <class Real>
+/// A quadrature point of a variable-length element; with packs four of them.
+template <class Real, class Parameter = double>
 struct ReferencePoint {
-  double u, share;     ///< its parameter, and its weight over the element's length
+  Parameter u, share;  ///< its parameter, and its weight over the element's length
   Real weight;         ///< [m]
   Real weight_rate;    ///< rate of `weight` [m/s]
   Real mesh_velocity;  ///< of the point along the beam [m/s]
@@ -34,32 +73,42 @@ struct ReferencePoint {
 
 /// Calls `visit(point, motion, rest)` at the quadrature points of a variable-length element: a ReferencePoint, what
 /// `evaluate(u, shape functions)` gives there, and the RestStrain by `rest` (null without a rest shape). `reshaped`
-/// says that the shape functions are not those of the table.
+/// says that the shape functions are not those of the table. With packs four points at a time.
 template <class Real, int D, MovingEnds Ends, class Rest, class Evaluate, class Visit>
 [[gnu::always_inline]] inline void for_each_point(const MovingKinematics<Real, D, Ends>& kinematics,
                                                   const ShapeTabulation& table, bool reshaped, const Rest* rest,
                                                   const Evaluate& evaluate, const Visit& visit) {
-  const auto point_at = [&](std::size_t g) {
-    const auto [u, w, feels] = table.rule[g];
-    return ReferencePoint<Real>{
-        u, w, kinematics.length() * w, kinematics.length_rate() * w, kinematics.mesh_velocity(u), feels};
+  using Parameter = PointParameter<Real>;
+  const auto at_each = [&](const auto& see) {
+    const auto point_at = [&](const Parameter& u, const Parameter& w, Feels feels) {
+      return ReferencePoint<Real, Parameter>{
+          u, w, kinematics.length() * w, kinematics.length_rate() * w, kinematics.mesh_velocity(u), feels};
+    };
+    if constexpr (std::is_same_v<Parameter, Pack>) {
+      for (const PackOfPoints& points : table.packs) {
+        see(point_at(points.u, points.weight, points.feels), points.shape);
+      }
+    } else {
+      for (std::size_t g = 0; g < table.rule.size(); ++g) {
+        const auto [u, w, feels] = table.rule[g];
+        see(point_at(u, w, feels), table.shape[g]);
+      }
+    }
   };
   if (rest == nullptr) {
-    for (std::size_t g = 0; g < table.rule.size(); ++g) {
-      const ReferencePoint<Real> point = point_at(g);
-      const auto motion = reshaped ? evaluate(point.u, rational_shape(kinematics.weights(), Real(point.u)))
-                                   : evaluate(point.u, table.shape[g]);
+    at_each([&](const auto& point, const ShapeTable<Parameter>& shape) {
+      const auto motion =
+          reshaped ? evaluate(point.u, rational_shape(kinematics.weights(), Real(point.u))) : evaluate(point.u, shape);
       visit(point, motion, static_cast<const RestStrain<Real>*>(nullptr));
-    }
+    });
     return;
   }
-  if constexpr (D > 1) {  // a single field has no rest shape
-    for (std::size_t g = 0; g < table.rule.size(); ++g) {
-      const ReferencePoint<Real> point = point_at(g);
+  if constexpr (D > 1 && std::is_same_v<Rest, RestKinematics<Real, D, Ends>>) {  // a single field has no rest shape
+    at_each([&](const auto& point, const ShapeTable<Parameter>& /*frozen*/) {
       const ShapeTable<Real> shape = rational_shape(kinematics.weights(), Real(point.u));
       const RestStrain<Real> strain = rest->at(point.u, shape);
-      visit(point, evaluate(point.u, shape), static_cast<const RestStrain<Real>*>(&strain));
-    }
+      visit(point, evaluate(point.u, shape), &strain);
+    });
   }
 }
 

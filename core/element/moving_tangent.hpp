@@ -29,27 +29,11 @@ MovingResidual<Real, D, Ends> moving_residual(const MovingCoordinates<Real, D>& 
                                               const MovingCoordinates<Real, D>& a, const WeightFunction& weights,
                                               const ShapeTabulation& table, const MovingLaw<D>& law,
                                               Real* dissipation = nullptr) {
-  const auto eq = moving_equations<Real, D, Ends>(q, rate, weights, table, law);
-  const std::array<Vec<Real, D>, 4> nodal{a.e.r_a, a.e.s_a, a.e.r_b, a.e.s_b};
+  const auto eq = MovingElement<Real, D, Ends>::forces(q, rate, a, weights, table, law);
   MovingResidual<Real, D, Ends> r;
+  for (std::size_t i = 0; i < 4; ++i) r.nodes[i] = -eq.force[i];
   for (int e = 0; e < moving_ends<Ends>; ++e) {
-    const bool at_a = is_end_a<Ends>(e);
-    const auto& border = at_a ? eq.mass_a : eq.mass_b;
-    const Real& end = at_a ? a.x_a : a.x_b;
-    Real& on_end = r.ends[static_cast<std::size_t>(e)];
-    on_end = (at_a ? eq.mass_aa : eq.mass_bb) * end - (at_a ? eq.force_a : eq.force_b);
-    if constexpr (Ends == MovingEnds::both) on_end += eq.mass_ab * (at_a ? a.x_b : a.x_a);
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (e == 0) {
-        r.nodes[i] = border[i] * end - eq.force[i];
-      } else {
-        r.nodes[i] += border[i] * end;
-      }
-      on_end += border[i].dot(nodal[i]);
-    }
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) r.nodes[i] += nodal[j] * eq.mass[i][j];
+    r.ends[static_cast<std::size_t>(e)] = -(is_end_a<Ends>(e) ? eq.force_a : eq.force_b);
   }
   if (dissipation) *dissipation += eq.dissipation;
   return r;

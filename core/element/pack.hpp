@@ -6,6 +6,13 @@
 
 namespace vlbeam {
 
+// Units for other instruction sets have another class, so that no function of it is shared with them by the linker.
+#ifdef __AVX__
+inline namespace in_one_register {
+#else
+inline namespace in_two_registers {
+#endif
+
 /// Four doubles treated as one scalar, so that an element law computes four elements at once. Lanes never mix: the
 /// digits of an element depend neither on its neighbours in the pack nor on the width of the machine's registers.
 class Pack {
@@ -52,6 +59,11 @@ class Pack {
     return {std::clamp(a[0], low, high), std::clamp(a[1], low, high), std::clamp(a[2], low, high),
             std::clamp(a[3], low, high)};
   }
+  /// 1 where it is between the bounds, or at one, else 0: the derivative of clamped().
+  friend Pack inside(const Pack& a, double low, double high) {
+    const auto lane = [&](int i) { return a[i] < low || a[i] > high ? 0.0 : 1.0; };
+    return {lane(0), lane(1), lane(2), lane(3)};
+  }
   friend Pack sqrt(const Pack& a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 
  private:
@@ -68,6 +80,7 @@ class Pack {
   Lanes parts_[parts];
 };
 
+}  // namespace
 }  // namespace vlbeam
 
 /// @cond

@@ -9,7 +9,13 @@ namespace vlbeam {
 template <class Real, int D>
 using Vec = Eigen::Matrix<Real, D, 1>;
 
+#ifdef __AVX__
+inline namespace in_one_register {
+#else
+inline namespace in_two_registers {
+#endif
 class Pack;
+}  // namespace
 
 // Sums and multiples of small matrices are computed at once: as Eigen's expressions each would be a type of its own,
 // with hundreds of declarations, which is most of what compiling them takes. They round alike. Not those of packs,

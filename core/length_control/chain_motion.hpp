@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 #include <vector>
 
 #include "core/length_control/chain_state.hpp"
@@ -29,11 +30,11 @@ PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, We
 
 /// The intervals between neighbouring nodes of either mesh, from `start` to `end`.
 inline std::vector<double> common_pieces(const Mesh& a, const Mesh& b, double start, double end) {
-  std::vector<double> nodes, pieces;
-  std::set_union(a.x.begin(), a.x.end(), b.x.begin(), b.x.end(), std::back_inserter(nodes));
-  for (const double x : nodes) {
-    if (start <= x && x <= end) pieces.push_back(x);
-  }
+  const auto within = [&](const std::vector<double>& x) {
+    return std::ranges::subrange(std::ranges::lower_bound(x, start), std::ranges::upper_bound(x, end));
+  };
+  std::vector<double> pieces;
+  std::ranges::set_union(within(a.x), within(b.x), std::back_inserter(pieces));
   return pieces;
 }
 

@@ -111,8 +111,12 @@ void CurrentBeam<D>::adopt_elements() {
                                        : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   const auto& masses = model_.masses.points;
-  spans_.left.emplace(mesh_, 0, left_open, model_.start, section, rule, rest, masses);
-  spans_.right.emplace(mesh_, mesh_.last(), right_open, model_.end, section, rule, rest, masses);
+  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support) {
+    Span<D> next(mesh_, outer, open, support, section, rule, rest, masses, span ? &*span : nullptr);
+    span = std::move(next);
+  };
+  renew(spans_.left, 0, left_open, model_.start);
+  renew(spans_.right, mesh_.last(), right_open, model_.end);
   spans_.between.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;

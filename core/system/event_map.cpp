@@ -33,13 +33,15 @@ bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Ei
     const auto at = std::ranges::find(places, node, &JointPlace::node);
     return at == places.end() ? -1 : static_cast<int>(at - places.begin());
   };
+  auto at_or_behind = x_before.begin();
   for (int node = 0; node < is.nodes; ++node) {
     const double x = beam.mesh().x[static_cast<std::size_t>(node)];
+    while (at_or_behind != x_before.end() && *at_or_behind < x) ++at_or_behind;
     int from = -1;  // the same node before
     if (const int joint = joint_of(beam.places(), node); joint >= 0) {
       from = before_->places[static_cast<std::size_t>(joint)].node;
-    } else if (const auto at = std::ranges::lower_bound(x_before, x); at != x_before.end() && *at == x) {
-      from = static_cast<int>(at - x_before.begin());
+    } else if (at_or_behind != x_before.end() && *at_or_behind == x) {
+      from = static_cast<int>(at_or_behind - x_before.begin());
       if (joint_of(before_->places, from) >= 0) from = -1;
     }
     if (from >= 0) {

@@ -65,28 +65,32 @@ void VelocityProjection<D>::project(const ChainState<D>& before, int first, int 
 }
 
 template <int D>
+void VelocityProjection<D>::rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const {
+  rigid.setZero(beam_.coordinates());
+  const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
+  auto rotate = [&](Eigen::Index vector) {
+    rigid[vector + a] = -y[vector + b];
+    rigid[vector + b] = y[vector + a];
+  };
+  for (Eigen::Index node = 0; node < beam_.layout().mark(); node += node_size<D>) {
+    if (mode < D) {
+      rigid[node + mode] = 1;
+    } else {
+      rotate(node);
+      rotate(node + D);
+    }
+  }
+  for (const JointPlace& place : beam_.places()) {
+    if (mode >= D && place.behind >= 0) rotate(place.behind);
+  }
+}
+
+template <int D>
 Eigen::MatrixXd VelocityProjection<D>::rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const {
-  constexpr int rotations = D == 2 ? 1 : 3;
-  Eigen::MatrixXd momenta(beam_.coordinates(), D + rotations);
-  Eigen::VectorXd rigid(beam_.coordinates());
-  for (int mode = 0; mode < D + rotations; ++mode) {
-    rigid.setZero();
-    const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
-    auto rotate = [&](Eigen::Index vector) {
-      rigid[vector + a] = -y[vector + b];
-      rigid[vector + b] = y[vector + a];
-    };
-    for (Eigen::Index node = 0; node < beam_.layout().mark(); node += node_size<D>) {
-      if (mode < D) {
-        rigid[node + mode] = 1;
-      } else {
-        rotate(node);
-        rotate(node + D);
-      }
-    }
-    for (const JointPlace& place : beam_.places()) {
-      if (mode >= D && place.behind >= 0) rotate(place.behind);
-    }
+  Eigen::MatrixXd momenta(beam_.coordinates(), rigid_modes);
+  Eigen::VectorXd rigid;
+  for (int mode = 0; mode < rigid_modes; ++mode) {
+    rigid_rates(mode, y, rigid);
     mass_.multiply(elements, y.data(), rigid.data(), momenta.col(mode).data());
   }
   return momenta;
@@ -94,8 +98,12 @@ Eigen::MatrixXd VelocityProjection<D>::rigid_momenta(const JointElements& elemen
 
 template <int D>
 Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  Eigen::VectorXd sum =
-      rigid_momenta(beam_.elements_at(y, t), y).transpose() * y.segment(beam_.coordinates(), beam_.coordinates());
+  Eigen::VectorXd of_rate(beam_.coordinates()), rigid, sum(rigid_modes);
+  mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), of_rate.data());
+  for (int mode = 0; mode < rigid_modes; ++mode) {
+    rigid_rates(mode, y, rigid);
+    sum[mode] = rigid.dot(of_rate);
+  }
   if constexpr (D == 3) sum.tail<3>() += spin_momentum(y);
   return sum;
 }

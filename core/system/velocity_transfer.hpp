@@ -29,7 +29,10 @@ class VelocityProjection {
  private:
   /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
   Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
-  /// M phi of the rigid motions phi at the positions `y`: translations, then rotations about the origin.
+  static constexpr int rigid_modes = D == 2 ? 3 : 6;
+  /// Rates of the rigid motion `mode` at the positions `y`: translations, then rotations about the origin.
+  void rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const;
+  /// M phi of the rigid motions phi.
   Eigen::MatrixXd rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const;
   /// Angular momentum of sections that spin [kg m^2/s].
   Vec<double, 3> spin_momentum(const Eigen::VectorXd& y) const {

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/beam/span_kernels.hpp"
+#include "core/element/moving_kernels.hpp"
+#include "tests/core/support/element_state.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+void expect_same_bits(const double* a, const double* b, std::size_t count) {
+  EXPECT_EQ(std::memcmp(a, b, count * sizeof(double)), 0);
+}
+
+template <MovingEnds Ends, int D>
+void expect_same_bits(Random& random, const BeamSection& section, AxialStrain axial, WeightTransport transport) {
+  const auto q = coordinates<double, D>(random_element<D>(random));
+  const auto rate = coordinates<double, D>(random_rates<D>(random)),
+             a = coordinates<double, D>(random_rates<D>(random));
+  const WeightFunction weights{random.weights(3), q.x_a - 0.1, q.x_b + 0.05};
+  const ShapeTabulation table(beam_rule(5, axial), weights.w);
+  MovingLaw<D> law;
+  law.section = section;
+  law.transport = transport;
+  law.gravity = random.vector<D>(9.81);
+  const TangentWeights by{0.7, 30, 900};
+  const auto of = [&](InstructionSet set) {
+    const auto kernels = moving_kernels<D, Ends>(set);
+    std::vector<double> all;
+    const auto keep = [&](const Vec<double, D>& v) { all.insert(all.end(), v.begin(), v.end()); };
+    for (const auto& eq :
+         {kernels.equations(q, rate, weights, table, law), kernels.forces(q, rate, a, weights, table, law)}) {
+      for (const auto& force : eq.force) keep(force);
+      all.insert(all.end(), {eq.force_a, eq.force_b, eq.dissipation});
+    }
+    const auto eq = kernels.equations(q, rate, weights, table, law);
+    for (const auto& row : eq.mass) all.insert(all.end(), row.begin(), row.end());
+    for (std::size_t i = 0; i < 4; ++i) keep(eq.mass_a[i]), keep(eq.mass_b[i]);
+    all.insert(all.end(), {eq.mass_aa, eq.mass_ab, eq.mass_bb});
+    if (!section.damped()) {
+      const auto keep_all = [&](const auto& tangent) {
+        all.insert(all.end(), tangent.data(), tangent.data() + tangent.size());
+      };
+      if constexpr (Ends == MovingEnds::both) {
+        keep_all(kernels.driven_tangent(q, rate, a, by, weights, table, law));
+      } else {
+        keep_all(kernels.tangent(q, rate, a, by, weights, table, law));
+      }
+    }
+    return all;
+  };
+  const auto portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
+  expect_same_bits(portable.data(), avx2.data(), portable.size());
+}
+
+/// Elements of a random chain, a pack and a part of one.
+template <int D>
+void expect_same_spans(Random& random, const BeamSection& section, AxialStrain axial) {
+  constexpr int elements = 7, size = node_size<D> * (elements + 1);
+  std::vector<PackOfElements> packs;
+  for (int first = 0; first < elements; first += Pack::width) {
+    auto tables = std::make_shared<PackTables>();
+    for (int lane = 0; lane < Pack::width; ++lane) {
+      const auto rule = beam_rule(5, axial);
+      const auto basis = fixed_basis(random.uniform(0.5, 1.5), random.weights(3), rule);
+      for (auto& row : tables->inertia[static_cast<std::size_t>(lane)].mass) {
+        for (double& entry : row) entry = random.uniform(0, 1);
+      }
+      tables->basis.points.resize(basis.points.size());
+      tables->basis.stretch.resize(basis.stretch.size());
+      tables->rest.resize(basis.size());
+      for (std::size_t g = 0; g < basis.size(); ++g) {
+        auto& to = g < basis.points.size() ? tables->basis.points[g] : tables->basis.stretch[g - basis.points.size()];
+        to.weight.set(lane, basis[g].weight);
+        for (std::size_t c = 0; c < 3; ++c) {
+          to.s_x[c].set(lane, basis[g].s_x[c]);
+          to.s_xx[c].set(lane, basis[g].s_xx[c]);
+        }
+        tables->rest[g].axial.set(lane, random.uniform(-0.1, 0.1));
+        tables->rest[g].curvature.set(lane, random.uniform(-1, 1));
+      }
+    }
+    packs.push_back({first, std::min(Pack::width, elements - first), tables});
+  }
+  Eigen::VectorXd q(size), rate(size);
+  for (double& entry : q) entry = random.uniform(-1, 1);
+  for (double& entry : rate) entry = random.uniform(-1, 1);
+  const TangentWeights by{0.7, 30, 900};
+  const auto of = [&](InstructionSet set) {
+    const auto kernels = span_kernels<D>(set);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(size);
+    std::vector<double> all{kernels.forces(packs, section, q.data(), rate.data(), force.data())};
+    kernels.rest_forces(packs, section, q.data(), force.data());
+    all.insert(all.end(), force.begin(), force.end());
+    const std::vector<NodeTangent<D>> zero(elements + 1, NodeTangent<D>::Zero());
+    auto diagonal = zero, upper = zero, lower = zero;
+    kernels.tangents(packs, section, q.data(), rate.data(), by, diagonal.data(), upper.data(), lower.data());
+    for (const auto* blocks : {&diagonal, &upper, &lower}) {
+      for (const auto& block : *blocks) all.insert(all.end(), block.data(), block.data() + block.size());
+    }
+    return all;
+  };
+  const auto portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
+  expect_same_bits(portable.data(), avx2.data(), portable.size());
+}
+
+TEST(InstructionSets, GiveTheSameBits) {
+  if (!available(InstructionSet::avx2)) GTEST_SKIP() << "this machine or this build has the portable set alone";
+  Random random(1);
+  for (const StrainLaw law : {StrainLaw::green, StrainLaw::engineering}) {
+    for (const AxialStrain axial : {AxialStrain::full, AxialStrain::lobatto}) {
+      for (const double EI : {0.0, 3.0}) {
+        for (const double damping : {0.0, 0.02}) {
+          const BeamSection section{
+              .rhoA = 1.7, .stiffness = {120, EI, law}, .damping = damping, .curvature_regularization = 0.3};
+          for (const WeightTransport transport : {WeightTransport::frozen, WeightTransport::transported}) {
+            expect_same_bits<MovingEnds::a, 2>(random, section, axial, transport);
+            expect_same_bits<MovingEnds::b, 2>(random, section, axial, transport);
+            expect_same_bits<MovingEnds::both, 2>(random, section, axial, transport);
+            expect_same_bits<MovingEnds::a, 3>(random, section, axial, transport);
+            expect_same_bits<MovingEnds::b, 3>(random, section, axial, transport);
+            expect_same_bits<MovingEnds::both, 3>(random, section, axial, transport);
+          }
+          expect_same_spans<2>(random, section, axial);
+          expect_same_spans<3>(random, section, axial);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test

@@ -1,0 +1,67 @@
+#include "core/beam/span.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/core/support/random.hpp"
+
+namespace vlbeam::test {
+namespace {
+
+constexpr int D = 2;
+
+struct Beam {
+  Mesh mesh;
+  BeamSection section{.rhoA = 1.5, .stiffness = {100, 2}};
+  BeamRule rule = beam_rule(5);
+  std::vector<PointMass> masses{{0.3, 1.1}};
+
+  Span<D> span(int outer, int open, Span<D>* before = nullptr) const {
+    return Span<D>(mesh, outer, open, Support<D>::pin(), section, rule, nullptr, masses, before);
+  }
+};
+
+/// Nodes at quarters, weights that are not equal at the start.
+Beam beam(int elements) {
+  Beam beam;
+  for (int i = 0; i <= elements; ++i) beam.mesh.x.push_back(0.25 * i);
+  beam.mesh.weights.resize(static_cast<std::size_t>(elements));
+  for (std::size_t k = 0; k < 5; ++k) beam.mesh.weights[k].w = {1, 1.1 + 0.01 * static_cast<double>(k), 0.9, 1};
+  return beam;
+}
+
+/// Whether both do the same to the last bit.
+void expect_alike(const Span<D>& a, const Span<D>& b, int nodes) {
+  Random random(1);
+  Eigen::VectorXd q(node_size<D> * nodes);
+  for (double& entry : q) entry = random.uniform(-1, 1);
+  const auto answers = [&](const Span<D>& span) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(q.size());
+    span.add_forces(q.data(), q.data(), {0, -9.81}, force.data());
+    span.add_inertia(q.data(), force.data());
+    span.reduce(force.data());
+    span.substitute(force.data());
+    return force;
+  };
+  EXPECT_EQ(answers(a), answers(b));
+  EXPECT_EQ(a.first_moment(q.data()), b.first_moment(q.data()));
+  EXPECT_TRUE((a.open_mass().rr == b.open_mass().rr).all() && (a.open_mass().ss == b.open_mass().ss).all());
+}
+
+TEST(Span, GoesOnFromOneOnAnotherMesh) {
+  const Beam old = beam(19);
+  Beam cut = old;  // a node more in the tenth element
+  cut.mesh.x.insert(cut.mesh.x.begin() + 10, 0.5 * (cut.mesh.x[9] + cut.mesh.x[10]));
+  cut.mesh.weights.insert(cut.mesh.weights.begin() + 9, cut.mesh.weights[9]);
+  for (const int open : {0, 1, 3, 7, 8, 9, 10, 11, 13, 20}) {
+    for (const int was : {0, 2, 7, 9, 11, 19}) {
+      Span<D> left = old.span(0, was), right = old.span(19, was);
+      expect_alike(cut.span(0, open, &left), cut.span(0, open), 21);
+      expect_alike(cut.span(20, open, &right), cut.span(20, open), 21);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vlbeam::test
