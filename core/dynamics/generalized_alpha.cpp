@@ -10,12 +10,12 @@
 namespace vlbeam {
 namespace {
 
+constexpr double old_contraction = 0.2;    // with a tangent that was kept: the next step makes its own
 constexpr double fast_contraction = 1e-3;  // with a tangent of the same step: the next step may keep it
-constexpr double newton_share = 1e-3;      // of a step's own error, that Newton's iteration may leave
-constexpr double first_newton = 1e-8, least_newton = 1e-10,
-                 most_newton = 1e-4;  // that it leaves at least and at most, of an increment
-constexpr double same_step = 0.05;    // relative difference of by_a: the tangent of nearly the same step
-constexpr double stagnation = 0.5;    // contraction with tangents of the same step: rounding, or far from a solution
+constexpr double newton_share = 1e-4;      // of a step's own error, that Newton's iteration may leave
+constexpr double first_newton = 1e-8, least_newton = 1e-10, most_newton = 1e-4;  // of an increment
+constexpr double same_step = 0.05;  // relative difference of by_a: the tangent of nearly the same step
+constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
@@ -296,7 +296,8 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. Where the last step
-  /// with a kept tangent was slow, this one starts with its own. `nearby`: its tangent is that of nearly this step.
+  /// with a kept tangent was slow, this one starts with its own, unless that was slow, too. `nearby`: its tangent is
+  /// that of nearly this step.
   bool solve(double t, double h, NewtonKind kind, bool nearby, double& dissipation) {
     const bool renew = was_slow_ && !nearby;
     if (renew || std::abs(by_a(h) - tangent_by_a_) > (nearby ? same_step * by_a(h) : 0)) tangent_by_a_ = 0;
@@ -326,7 +327,7 @@ class GeneralizedAlpha final : public Stepper {
       count(stop_.error());
       slowest = std::max(slowest, stop_.contraction());
       if (verdict == NewtonStop::Verdict::done) {
-        was_slow_ = slowest > (starts_fresh ? fast_contraction : slow_contraction);
+        was_slow_ = starts_fresh ? slowest > fast_contraction && slowest < slow_contraction : slowest > old_contraction;
         return true;
       }
       if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(q_)) {

@@ -92,6 +92,7 @@ Scene shaft(double duration, double step, NewtonKind newton) {
   scene.integrator.type = IntegratorType::generalized_alpha;
   scene.integrator.step = step;
   scene.integrator.newton = newton;
+  scene.integrator.newton_tolerance = 1e-8;
   return scene;
 }
 
