@@ -98,6 +98,7 @@ TangentOf<Real, Ends, D, Unknown> tangent_sums(const MovingCoordinates<Real, D>&
             }
           }
         }
+        // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): damping adds to them
         Vector p = elastic_p, m = elastic_m;
         const Row by_f0 = by_acceleration * Real(-mu) - by.v * mu_rate - by.v_x * mu_c;
         const Row by_f1 = by.v * Real(-mu_c);

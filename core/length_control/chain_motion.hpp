@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <vector>
 
 #include "core/length_control/chain_state.hpp"
@@ -30,11 +29,10 @@ PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, We
 
 /// The intervals between neighbouring nodes of either mesh, from `start` to `end`.
 inline std::vector<double> common_pieces(const Mesh& a, const Mesh& b, double start, double end) {
-  const auto within = [&](const std::vector<double>& x) {
-    return std::ranges::subrange(std::ranges::lower_bound(x, start), std::ranges::upper_bound(x, end));
-  };
+  const auto from = [start](const std::vector<double>& x) { return std::lower_bound(x.begin(), x.end(), start); };
+  const auto to = [end](const std::vector<double>& x) { return std::upper_bound(x.begin(), x.end(), end); };
   std::vector<double> pieces;
-  std::ranges::set_union(within(a.x), within(b.x), std::back_inserter(pieces));
+  std::set_union(from(a.x), to(a.x), from(b.x), to(b.x), std::back_inserter(pieces));
   return pieces;
 }
 
