@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/system/beam_system.hpp"
 #include "scene/result.hpp"
 
@@ -33,9 +35,15 @@ inline StrainSample strain_sample(const StrainExtremes& extremes) {
           extremes.curvature};
 }
 
-/// The whole shape of a beam at time t.
+/// Nodes from the first to the last one, as far as there are any.
+struct NodeRange {
+  int first = 0, last = std::numeric_limits<int>::max();
+};
+
+/// The shape of a beam at time t.
 template <int D>
-Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport);
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport,
+                               const NodeRange& of = {});
 
 /// Where a run stops to look: at the samples, and at the configurations, both in increasing order.
 struct Stops {

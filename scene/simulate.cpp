@@ -19,30 +19,31 @@
 namespace vlbeam {
 
 template <int D>
-Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport) {
+Configuration configuration_of(const ChainState<D>& chain, double t, WeightTransport transport, const NodeRange& of) {
+  const int first = std::max(of.first, 0), last = std::min(of.last, chain.mesh.last());
   Configuration shape;
   shape.t = t;
-  shape.x = chain.mesh.x;
-  for (int k = 0; k <= chain.mesh.last(); ++k) {
+  shape.x.assign(chain.mesh.x.begin() + first, chain.mesh.x.begin() + last + 1);
+  for (int k = first; k <= last; ++k) {
     shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
     shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));
   }
-  for (int k = 0; chain.curved_at_rest() && k <= chain.mesh.last(); ++k) {
+  for (int k = first; chain.curved_at_rest() && k <= last; ++k) {
     shape.rest.r.push_back(point_of<D>(position<D>(chain.rest.data(), k)));
     shape.rest.r_x.push_back(point_of<D>(slope<D>(chain.rest.data(), k)));
   }
   for (const auto& joint : chain.joints) {
-    if (!joint.kink) continue;
+    if (!joint.kink || joint.node < first || joint.node > last) continue;
     shape.kinks.push_back(
-        {static_cast<std::size_t>(joint.node), point_of<D>(joint.kink->slope), point_of<D>(joint.kink->rate)});
+        {static_cast<std::size_t>(joint.node - first), point_of<D>(joint.kink->slope), point_of<D>(joint.kink->rate)});
   }
-  for (int k = 0; k < chain.mesh.elements(); ++k) {
+  for (int k = first; k < last; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto& weights = chain.mesh.weights[i];
     const bool restricted = transport == WeightTransport::transported && weights.w != unit_weights;
-    shape.weights.push_back(restricted ? weights.on(shape.x[i], shape.x[i + 1]) : weights.w);
+    shape.weights.push_back(restricted ? weights.on(chain.mesh.x[i], chain.mesh.x[i + 1]) : weights.w);
   }
-  for (int k = 0; k <= chain.mesh.last(); ++k) {
+  for (int k = first; k <= last; ++k) {
     const double x_rate = chain.mark_rate(k);
     shape.rates.x.push_back(x_rate);
     shape.rates.v.push_back(point_of<D>(position<D>(chain.rate.data(), k) - x_rate * slope<D>(chain.q.data(), k)));
@@ -51,10 +52,13 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
   return shape;
 }
 
-template Configuration configuration_of(const ChainState<2>&, double, WeightTransport);
-template Configuration configuration_of(const ChainState<3>&, double, WeightTransport);
+template Configuration configuration_of(const ChainState<2>&, double, WeightTransport, const NodeRange&);
+template Configuration configuration_of(const ChainState<3>&, double, WeightTransport, const NodeRange&);
 
 namespace {
+
+constexpr int most_whole_shapes = 2000;  // elements of a beam whose whole shape is kept at events
+constexpr int nodes_beside_event = 8;    // on either side, of a longer one
 
 /// Runs one scene of a known dimension, and fills in its result.
 template <int D>
@@ -210,6 +214,16 @@ class Run {
             forces.guiding[static_cast<std::size_t>(index)]};
   }
 
+  /// The whole shape, or of a long beam what an event may have changed of it: a run may have thousands of events.
+  Configuration shape_beside(const ChainState<D>& chain, const EventRecord<D>& record) const {
+    NodeRange nodes;
+    if (chain.mesh.elements() > most_whole_shapes) {
+      const int k = chain.mesh.element_at(record.joint_position);
+      nodes = {k - nodes_beside_event, k + 1 + nodes_beside_event};
+    }
+    return configuration_of(chain, record.t, weight_transport(scene_), nodes);
+  }
+
   void event(const EventRecord<D>& record) {
     Event event;
     event.t = record.t;
@@ -223,8 +237,8 @@ class Run {
     event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
     event.restored = record.restored;
     event.relaxation = record.relaxation;
-    event.before = configuration_of(record.before, record.t, weight_transport(scene_));
-    event.after = configuration_of(record.after, record.t, weight_transport(scene_));
+    event.before = shape_beside(record.before, record);
+    event.after = shape_beside(record.after, record);
     if (record.type == EventType::separation) result_.status = RunStatus::separated;
     jumps_ += record.discrete_jump;
     result_.timing.length_control += record.seconds;

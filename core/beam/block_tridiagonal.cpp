@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/geometry/dense.hpp"
+#include "core/pieces.hpp"
 
 namespace vlbeam {
 namespace {
@@ -43,9 +44,13 @@ auto node_part(const double* x, int k) {
 template <int B>
 void BorderedBlockTridiagonal<B>::reset(int nodes) {
   const auto n = static_cast<std::size_t>(nodes);
-  diagonal.assign(n, Block::Zero());
-  upper.assign(n, Block::Zero());
-  lower.assign(n, Block::Zero());
+  for (std::vector<Block>* blocks : {&diagonal, &upper, &lower}) blocks->resize(n);
+  in_pieces(nodes, B, [this](std::ptrdiff_t first, std::ptrdiff_t count) {
+    for (std::vector<Block>* blocks : {&diagonal, &upper, &lower}) {
+      std::fill_n(blocks->begin() + first, count, Block::Zero());
+    }
+  });
+  middle_ = nodes * B < long_range ? nodes - 1 : nodes / 2;
   inverse_.resize(solves_ ? 0 : n);
   pivots_.resize(solves_ ? n : 0);
   border.clear();
@@ -74,34 +79,61 @@ void BorderedBlockTridiagonal<B>::fix(int unknown, double size) {
 }
 
 template <int B>
-bool BorderedBlockTridiagonal<B>::factor() {
-  const std::size_t n = diagonal.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    Block pivot = diagonal[k];
-    if (k > 0) {
-      // the elimination factor takes the place of the block it eliminates
-      if (solves_) {
-        const Pivot& before = pivots_[k - 1];
-        const Block scaled = before.scale.asDiagonal() * lower[k].transpose();
-        lower[k] = (before.scale.asDiagonal() * before.scaled.transpose().partialPivLu().solve(scaled)).transpose();
-      } else {
-        lower[k] = lower[k] * inverse_[k - 1];
-      }
-      pivot.noalias() -= lower[k] * upper[k - 1];
-    }
-    if (solves_) {
-      Pivot& own = pivots_[k];
-      set_scales(pivot, own.scale);
-      own.scaled = own.scale.asDiagonal() * pivot * own.scale.asDiagonal();
-      own.lu.compute(own.scaled);
-      if (!pivot.allFinite() || own.lu.matrixLU().diagonal().cwiseAbs().minCoeff() == 0) return false;
-    } else {
-      inverse_[k] = inverse_of(pivot);
-      if (!inverse_[k].allFinite()) return false;
-    }
+bool BorderedBlockTridiagonal<B>::factor_pivot(int k, const Block& pivot) {
+  const auto i = static_cast<std::size_t>(k);
+  if (!solves_) {
+    inverse_[i] = inverse_of(pivot);
+    return inverse_[i].allFinite();
   }
+  Pivot& own = pivots_[i];
+  set_scales(pivot, own.scale);
+  own.scaled = own.scale.asDiagonal() * pivot * own.scale.asDiagonal();
+  own.lu.compute(own.scaled);
+  return pivot.allFinite() && own.lu.matrixLU().diagonal().cwiseAbs().minCoeff() > 0;
+}
+
+template <int B>
+void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
+  const auto k = static_cast<std::size_t>(node), before = static_cast<std::size_t>(from);
+  Block& factor = from < node ? lower[k] : upper[k];  // takes the place of the block it eliminates
+  if (solves_) {
+    const Pivot& own = pivots_[before];
+    const Block scaled = own.scale.asDiagonal() * factor.transpose();
+    factor = (own.scale.asDiagonal() * own.scaled.transpose().partialPivLu().solve(scaled)).transpose();
+  } else {
+    factor = factor * inverse_[before];
+  }
+  pivot.noalias() -= factor * (from < node ? upper[before] : lower[before]);
+}
+
+template <int B>
+bool BorderedBlockTridiagonal<B>::factor_towards_middle(int first, int step) {
+  for (int k = first; k != middle_; k += step) {
+    Block pivot = diagonal[static_cast<std::size_t>(k)];
+    if (k != first) eliminate(k, k - step, pivot);
+    if (!factor_pivot(k, pivot)) return false;
+  }
+  return true;
+}
+
+template <int B>
+bool BorderedBlockTridiagonal<B>::factor() {
+  const int last = nodes() - 1;
+  std::array<bool, 2> sound{true, true};
+  if (middle_ == last) {
+    sound[0] = factor_towards_middle(0, 1);
+  } else {
+    at_once(2, [&](std::ptrdiff_t side) {
+      sound[static_cast<std::size_t>(side)] = side == 0 ? factor_towards_middle(0, 1) : factor_towards_middle(last, -1);
+    });
+  }
+  if (!sound[0] || !sound[1]) return false;
+  Block pivot = diagonal[static_cast<std::size_t>(middle_)];
+  if (middle_ > 0) eliminate(middle_, middle_ - 1, pivot);
+  if (middle_ < last) eliminate(middle_, middle_ + 1, pivot);
+  if (!factor_pivot(middle_, pivot)) return false;
   if (border.empty()) return true;
-  const std::size_t stride = B * n;
+  const std::size_t stride = B * diagonal.size();
   columns_.assign(stride * border.size(), 0.0);
   rest_ = corner.topLeftCorner(borders(), borders());
   for (int j = 0; j < borders(); ++j) {
@@ -129,10 +161,12 @@ void BorderedBlockTridiagonal<B>::solve(double* x) const {
   solved_.noalias() = corner_lu_.solve(scaled_);
   extra = corner_scale_.cwiseProduct(solved_);
   Eigen::Map<Eigen::VectorXd> nodal(x, static_cast<Eigen::Index>(stride));
-  for (int j = 0; j < borders(); ++j) {
-    nodal -= extra[j] * Eigen::Map<const Eigen::VectorXd>(columns_.data() + stride * static_cast<std::size_t>(j),
-                                                          static_cast<Eigen::Index>(stride));
-  }
+  in_pieces(nodal.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t count) {
+    for (int j = 0; j < borders(); ++j) {
+      const double* const column = columns_.data() + stride * static_cast<std::size_t>(j);
+      nodal.segment(first, count) -= extra[j] * Eigen::Map<const Eigen::VectorXd>(column + first, count);
+    }
+  });
 }
 
 template <int B>
@@ -213,16 +247,40 @@ void BorderedBlockTridiagonal<B>::apply_pivot(std::size_t k, Columns&& x) const 
 
 template <int B>
 void BorderedBlockTridiagonal<B>::substitute(double* x, std::size_t first) const {
-  const int n = nodes();
-  for (int k = static_cast<int>(first) + 1; k < n; ++k) {
-    node_part<B>(x, k).noalias() -= lower[static_cast<std::size_t>(k)] * node_part<B>(x, k - 1);
+  const int last = nodes() - 1, middle = middle_;
+  const Block *const below = lower.data(), *const above = upper.data();
+  const auto subtract = [x](const Block* by, int k, int from) {
+    node_part<B>(x, k).noalias() -= by[k] * node_part<B>(x, from);
+  };
+  const auto from_start = [=] {
+    for (int k = static_cast<int>(first) + 1; k < middle; ++k) subtract(below, k, k - 1);
+  };
+  const auto from_end = [=] {
+    for (int k = last - 1; k > middle; --k) subtract(above, k, k + 1);
+  };
+  const auto to_start = [=, this] {
+    for (int k = middle - 1; k >= 0; --k) {
+      subtract(above, k, k + 1);
+      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
+    }
+  };
+  const auto to_end = [=, this] {
+    for (int k = middle + 1; k <= last; ++k) {
+      subtract(below, k, k - 1);
+      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
+    }
+  };
+  const bool whole = middle == last;
+  if (whole) {
+    from_start();
+  } else {
+    at_once(2, [&](std::ptrdiff_t side) { side == 0 ? from_start() : from_end(); });
   }
-  apply_pivot(static_cast<std::size_t>(n - 1), node_part<B>(x, n - 1));
-  for (int k = n - 1; k-- > 0;) {
-    const auto i = static_cast<std::size_t>(k);
-    node_part<B>(x, k).noalias() -= upper[i] * node_part<B>(x, k + 1);
-    apply_pivot(i, node_part<B>(x, k));
-  }
+  if (middle > static_cast<int>(first)) subtract(below, middle, middle - 1);
+  if (middle < last) subtract(above, middle, middle + 1);
+  apply_pivot(static_cast<std::size_t>(middle), node_part<B>(x, middle));
+  if (whole) return to_start();
+  at_once(2, [&](std::ptrdiff_t side) { side == 0 ? to_start() : to_end(); });
 }
 
 template class BorderedBlockTridiagonal<2>;

@@ -47,8 +47,8 @@ class BorderedBlockTridiagonal {
   /// directions.
   void solve_pivots() { solves_ = true; }
 
-  /// Block LU from the first node to the last, then the small system that the border leaves. Returns false where a
-  /// pivot is singular or not finite.
+  /// Block LU from the first node to the last, or, with many nodes, from both ends to the middle, at once where there
+  /// are threads; then the small system that the border leaves. Returns false where a pivot is singular or not finite.
   bool factor();
 
   /// Solves in place; `x` holds B numbers a node, then the border's unknowns.
@@ -70,6 +70,13 @@ class BorderedBlockTridiagonal {
   int reached(const Border& b) const { return std::min(reach, nodes() - b.first); }
   double row_times(const Border& b, const double* x) const;
 
+  /// Returns false where it is singular or not finite.
+  bool factor_pivot(int k, const Block& pivot);
+  /// Eliminates its neighbour `from`, which is factored, from a node's row, whose pivot this becomes.
+  void eliminate(int node, int from, Block& pivot);
+  /// Factors the nodes from an end up to the middle, without that one.
+  bool factor_towards_middle(int first, int step);
+
   /// Makes of `x` the solution of pivot k.
   template <class Columns>
   void apply_pivot(std::size_t k, Columns&& x) const;
@@ -84,6 +91,7 @@ class BorderedBlockTridiagonal {
   };
 
   bool solves_ = false;
+  int middle_ = -1;                                 ///< node where the factorizations from both ends meet
   std::vector<Block> inverse_;                      ///< of the pivots
   std::vector<Pivot> pivots_;                       ///< where they are solved
   std::vector<double> columns_;                     ///< the border's columns, solved

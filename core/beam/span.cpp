@@ -7,9 +7,12 @@
 
 #include "core/beam/chord_tangent.hpp"
 #include "core/element/fixed_rest.hpp"
+#include "core/pieces.hpp"
 
 namespace vlbeam {
 namespace {
+
+constexpr std::ptrdiff_t numbers_in_pack = 4 * Pack::width;  // where pieces of a span are to end
 
 /// Basis of neighbouring elements as one pack; lanes beyond the last element repeat it with zero weight.
 FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
@@ -55,6 +58,24 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
     }
   }
   return rest;
+}
+
+template <int D>
+void add_pack_inertia(Packs packs, const double* a, double* out) {
+  for (const auto& pack : packs) {
+    for (int i = 0; i < pack.count; ++i) {
+      const int k = pack.first + i;
+      const auto& m = pack.tables->inertia[static_cast<std::size_t>(i)].mass;
+      const auto e = element_nodes<D>(a, k);
+      auto inertia = [&](std::size_t row) -> Vec<double, D> {
+        return m[row][0] * e.r_a + m[row][1] * e.s_a + m[row][2] * e.r_b + m[row][3] * e.s_b;
+      };
+      position<D>(out, k) += inertia(0);
+      slope<D>(out, k) += inertia(1);
+      position<D>(out, k + 1) += inertia(2);
+      slope<D>(out, k + 1) += inertia(3);
+    }
+  }
 }
 
 }  // namespace
@@ -218,38 +239,37 @@ void Span<D>::factor(int known) {
 template <int D>
 double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
-  const double dissipation = kernels.forces(packs_, section_, q, rate, force);
-  if (curved_at_rest_) kernels.rest_forces(packs_, section_, q, force);
-  for (std::size_t i = 0; i < load_.size(); ++i) {
-    const int at = node(static_cast<int>(i));
-    position<D>(force, at) += load_[i][0] * gravity;
-    slope<D>(force, at) += load_[i][1] * gravity;
+  const double dissipation =
+      sum_in_meeting_pieces<double>(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+        return kernels.forces(some_packs(first, n), section_, q, rate, force);
+      });
+  if (curved_at_rest_) {
+    in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+      kernels.rest_forces(some_packs(first, n), section_, q, force);
+    });
   }
+  in_pieces(std::ssize(load_), node_size<D>, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    for (std::ptrdiff_t i = first; i < first + n; ++i) {
+      const int at = node(static_cast<int>(i));
+      const auto& load = load_[static_cast<std::size_t>(i)];
+      position<D>(force, at) += load[0] * gravity;
+      slope<D>(force, at) += load[1] * gravity;
+    }
+  });
   return dissipation;
 }
 
 template <int D>
 void Span<D>::add_inertia(const double* a, double* out) const {
-  for (const auto& pack : packs_) {
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      const auto& m = pack.tables->inertia[static_cast<std::size_t>(i)].mass;
-      const auto e = element_nodes<D>(a, k);
-      auto inertia = [&](std::size_t row) -> Vector {
-        return m[row][0] * e.r_a + m[row][1] * e.s_a + m[row][2] * e.r_b + m[row][3] * e.s_b;
-      };
-      position<D>(out, k) += inertia(0);
-      slope<D>(out, k) += inertia(1);
-      position<D>(out, k + 1) += inertia(2);
-      slope<D>(out, k + 1) += inertia(3);
-    }
-  }
+  in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [=, this](std::ptrdiff_t first, std::ptrdiff_t n) {
+    add_pack_inertia<D>(some_packs(first, n), a, out);
+  });
 }
 
 template <int D>
-void Span<D>::rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+void Span<D>::rest_tangents(Packs packs, const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                             NodeTangent<D>* lower) const {
-  for (const auto& pack : packs_) {
+  for (const auto& pack : packs) {
     for (int i = 0; i < pack.count; ++i) {
       const int k = pack.first + i;
       const auto tangent = rest_tangent<D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
@@ -265,8 +285,12 @@ void Span<D>::rest_tangents(const double* q, double by_q, NodeTangent<D>* diagon
 template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
-  span_kernels<D>().tangents(packs_, section_, q, rate, by, diagonal, upper, lower);
-  if (curved_at_rest_) rest_tangents(q, by.q, diagonal, upper, lower);
+  const SpanKernels<D>& kernels = span_kernels<D>();
+  in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    const Packs packs = some_packs(first, n);
+    kernels.tangents(packs, section_, q, rate, by, diagonal, upper, lower);
+    if (curved_at_rest_) rest_tangents(packs, q, by.q, diagonal, upper, lower);
+  });
 }
 
 template <int D>

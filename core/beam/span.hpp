@@ -65,7 +65,7 @@ class Span {
     NodeBlock<D> inverse;
     CouplingBlock<Components> next;
   };
-  void rest_tangents(const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
+  void rest_tangents(Packs packs, const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
                      NodeTangent<D>* lower) const;
   /// What an element's tables were made for.
   struct Element {
@@ -86,6 +86,9 @@ class Span {
     return step_ > 0 ? element(p * Pack::width) : element(p * Pack::width + count - 1);
   }
   const FixedInertia& inertia(int i) const;
+  Packs some_packs(std::ptrdiff_t first, std::ptrdiff_t n) const {
+    return Packs(packs_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(n));
+  }
   /// Takes from `before` what goes on to hold; returns for how many elements.
   int take_over(Span& before, const Mesh& mesh);
   void build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses);

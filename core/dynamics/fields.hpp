@@ -3,9 +3,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "core/pieces.hpp"
 
 namespace vlbeam {
 
@@ -26,6 +29,11 @@ inline constexpr std::size_t field_count = 8;
 struct FieldRun {
   Field field;
   Eigen::Index first, width = 1, stride = 1, count = 1;
+
+  /// Some of the groups.
+  FieldRun part(Eigen::Index from, Eigen::Index number) const {
+    return {field, first + from * stride, width, stride, number};
+  }
 };
 
 /// A number for each kind.
@@ -54,23 +62,38 @@ double largest_magnitude(const double* at, Eigen::Index stride, Eigen::Index cou
   return *std::max_element(largest.begin(), largest.end());
 }
 
+/// The same of a run in x.
+inline double largest_magnitude(const FieldRun& run, const Eigen::VectorXd& x) {
+  const double* const at = x.data() + run.first;
+  if (run.width == 2)
+    return largest_magnitude<2>(at, run.stride, run.count);  // positions and slopes, most of all there is
+  if (run.width == 3) return largest_magnitude<3>(at, run.stride, run.count);
+  double largest = 0;
+  for (Eigen::Index i = 0; i < run.width; ++i) {
+    largest = std::max(largest, largest_magnitude<1>(at + i, run.stride, run.count));
+  }
+  return largest;
+}
+
 /// Largest magnitude of each kind, of finite entries.
 inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::VectorXd& x) {
   FieldNorms norms{};
   for (const FieldRun& run : runs) {
-    double& largest = norms[static_cast<std::size_t>(run.field)];
-    const double* at = x.data() + run.first;
-    if (run.width == 2) {  // positions and slopes, most of all there is
-      largest = std::max(largest, largest_magnitude<2>(at, run.stride, run.count));
-    } else if (run.width == 3) {
-      largest = std::max(largest, largest_magnitude<3>(at, run.stride, run.count));
-    } else {
-      for (Eigen::Index i = 0; i < run.width; ++i) {
-        largest = std::max(largest, largest_magnitude<1>(at + i, run.stride, run.count));
-      }
-    }
+    std::atomic<double> largest = norms[static_cast<std::size_t>(run.field)];
+    in_pieces(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
+      raise(largest, largest_magnitude(run.part(first, count), x));
+    });
+    norms[static_cast<std::size_t>(run.field)] = largest;
   }
   return norms;
+}
+
+inline bool all_finite(const Eigen::VectorXd& x) {
+  std::atomic<bool> finite = true;
+  in_pieces(x.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
+    if (!x.segment(first, count).allFinite()) finite = false;
+  });
+  return finite;
 }
 
 /// Position and slope of `nodes` nodes of a beam in `dimension` dimensions, node by node.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/alpha_step.hpp"
 #include "core/dynamics/newton_stop.hpp"
 #include "core/geometry/elementary.hpp"
 
@@ -28,10 +29,7 @@ class GeneralizedAlpha final : public Stepper {
       : system_(system),
         options_(options),
         counters_(counters),
-        alpha_m_((2 * options.rho_inf - 1) / (options.rho_inf + 1)),
-        alpha_f_(options.rho_inf / (options.rho_inf + 1)),
-        gamma_(0.5 + alpha_f_ - alpha_m_),
-        beta_(0.25 * (gamma_ + 0.5) * (gamma_ + 0.5)),
+        rule_(options.rho_inf),
         tolerance_(options.newton_tolerance > 0 ? options.newton_tolerance : first_newton) {
     history_.reserve(static_cast<std::size_t>(options.newton_iterations));
     if (counters) counters->longest.reserve(history_.capacity());
@@ -40,7 +38,7 @@ class GeneralizedAlpha final : public Stepper {
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const Eigen::Index n = system_.coordinates();
     r_.resize(n);
-    system_.expand(y, base_q_, base_v_);
+    system_.expand(y, step_.base_q, step_.base_v);
     const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
     if (!started_) start(t, h, n);
     start_ = end_;
@@ -69,7 +67,7 @@ class GeneralizedAlpha final : public Stepper {
       stalled_ = true;
       return false;
     }
-    next_a_ = (-1 / beta_) * (0.5 - beta_) * start_.a + (1 / (h * h * beta_)) * d_;
+    next_a_ = rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d;
     stalled_ = false;
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
@@ -200,16 +198,16 @@ class GeneralizedAlpha final : public Stepper {
 
   void start(double t, double h, Eigen::Index n) {
     end_.true_acceleration.resize(n);
-    system_.acceleration(base_q_, base_v_, t, end_.true_acceleration);
+    system_.acceleration(step_.base_q, step_.base_v, t, end_.true_acceleration);
     end_.a = end_.true_acceleration;
     end_.h = 0;
     tangent_by_a_ = 0;
-    q_ = base_q_;
-    v_ = base_v_;
+    step_.q = step_.base_q;
+    step_.v = step_.base_v;
     if (crosses_event_) go_on(t, h);
     crosses_event_ = false;
-    const double dissipation = system_.residual(base_q_, base_v_, end_.true_acceleration, t, r_);
-    end_.power = system_.supplied_power(q_, v_, end_.true_acceleration, t);
+    const double dissipation = system_.residual(step_.base_q, step_.base_v, end_.true_acceleration, t, r_);
+    end_.power = system_.supplied_power(step_.q, step_.v, end_.true_acceleration, t);
     end_.power.dissipated = dissipation;
     stop_.set_fields(system_.fields());
     allowed_.setConstant(n, options_.tolerances.atol);
@@ -219,7 +217,7 @@ class GeneralizedAlpha final : public Stepper {
       });
     }
     for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(n);
-    from_q_ = base_q_;
+    from_q_ = step_.base_q;
     motion_until_event_ = motion_;
     started_ = true;
   }
@@ -234,65 +232,55 @@ class GeneralizedAlpha final : public Stepper {
     if (!system_.carry(before_event_.true_acceleration, t, other_a_)) return;
     system_.carry(before_event_.a, t, next_a_);
     next_a_ -= other_a_;
-    system_.residual(base_q_, base_v_, other_a_, t, r_);
-    tangent_.set(base_q_, base_v_, other_a_, t, {1, by_v(h), by_a(h)});
+    system_.residual(step_.base_q, step_.base_v, other_a_, t, r_);
+    tangent_.set(step_.base_q, step_.base_v, other_a_, t, {1, rule_.by_v(h), rule_.by_a(h)});
     if (!linearize()) return;
     if (counters_) ++counters_->tangents;
-    tangent_by_a_ = by_a(h);
+    tangent_by_a_ = rule_.by_a(h);
     system_.solve(r_);
     if (!r_.allFinite()) return;
-    end_.true_acceleration = other_a_ - by_a(h) * r_;
+    end_.true_acceleration = other_a_ - rule_.by_a(h) * r_;
     end_.a = end_.true_acceleration + next_a_;
     end_.h = before_event_.h;
-    q_ -= r_;  // with these accelerations forces balance there, those of supports among them
-    v_ -= by_v(h) * r_;
+    step_.q -= r_;  // with these accelerations forces balance there, those of supports among them
+    step_.v -= rule_.by_v(h) * r_;
   }
-
-  double by_a(double h) const { return (1 - alpha_m_) / (h * h * beta_ * (1 - alpha_f_)); }
-  double by_v(double h) const { return gamma_ / (h * beta_); }
 
   /// The velocity goes on, and the acceleration, too, where that is smooth: else it would throw stiff modes, whose
   /// period is shorter than the step, far off, and Newton would start from a torn mesh.
   void predict(double t, double h) {
-    const auto next_a = (-1 / beta_) * (0.5 - beta_) * start_.a;
-    predicted_v_ = base_v_ + h * ((1 - gamma_) * start_.a + gamma_ * next_a);
-    predicted_a_ =
-        ((1 - alpha_m_) * next_a + alpha_m_ * start_.a - alpha_f_ * start_.true_acceleration) / (1 - alpha_f_);
+    step_.predict(rule_, start_.a, start_.true_acceleration, h);
     if (nearby_) {
       const double ratio = h / solved_h_;
-      d_ *= ratio * ratio;
+      step_.d *= ratio * ratio;
     } else if (is_smooth_) {
-      d_ = (0.5 * h * h) * start_.a;
+      step_.d = (0.5 * h * h) * start_.a;
     } else {
-      d_.setZero(base_q_.size());
+      step_.d.setZero(step_.base_q.size());
     }
     nearby_ = false;
-    complete(h);
-    if (system_.driven_offset(q_, t + h, r_)) {  // what is driven has no equation that Newton would solve
-      d_ -= r_;
-      complete(h);
+    step_.complete(rule_, h);
+    if (system_.driven_offset(step_.q, t + h, r_)) {  // what is driven has no equation that Newton would solve
+      step_.correct(rule_, r_, h);
     }
   }
 
   /// Whether the end of this step was nearer to the acceleration going on than to the velocity alone. Slopes tell:
   /// stiff modes turn them more than they move nodes.
   bool acceleration_predicts(double h) const {
-    double off_acceleration = 0, off_velocity = 0;
-    for_each_coordinate(stop_.fields(), [&](Field field, Eigen::Index i) {
-      if (field != Field::slope) return;
-      const double off = d_[i] - 0.5 * h * h * start_.a[i];
-      off_acceleration += off * off;
-      off_velocity += d_[i] * d_[i];
-    });
-    return off_acceleration < off_velocity;
-  }
-
-  /// The end of the step, from what its positions are off the velocity going on. The increment is kept by itself: next
-  /// to the coordinates it would lose its digits in short steps, and with them the accelerations theirs.
-  void complete(double h) {
-    q_ = base_q_ + (h * base_v_ + d_);
-    v_ = predicted_v_ + by_v(h) * d_;
-    acceleration_ = predicted_a_ + by_a(h) * d_;
+    Eigen::Array2d off{0, 0};  // squares, of the one and of the other
+    for (const FieldRun& run : stop_.fields()) {
+      if (run.field != Field::slope) continue;
+      off += sum_in_pieces<Eigen::Array2d>(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
+        Eigen::Array2d sum{0, 0};
+        for_each_coordinate({run.part(first, count)}, [&](Field /*field*/, Eigen::Index i) {
+          const double by_acceleration = step_.d[i] - 0.5 * h * h * start_.a[i], by_velocity = step_.d[i];
+          sum += Eigen::Array2d(by_acceleration * by_acceleration, by_velocity * by_velocity);
+        });
+        return sum;
+      });
+    }
+    return off[0] < off[1];
   }
 
   /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. Where the last step
@@ -300,7 +288,7 @@ class GeneralizedAlpha final : public Stepper {
   /// that of nearly this step.
   bool solve(double t, double h, NewtonKind kind, bool nearby, double& dissipation) {
     const bool renew = was_slow_ && !nearby;
-    if (renew || std::abs(by_a(h) - tangent_by_a_) > (nearby ? same_step * by_a(h) : 0)) tangent_by_a_ = 0;
+    if (renew || std::abs(rule_.by_a(h) - tangent_by_a_) > (nearby ? same_step * rule_.by_a(h) : 0)) tangent_by_a_ = 0;
     const bool starts_fresh = tangent_by_a_ == 0;
     double slowest = 0;  // contraction
     if (h != noise_step_) stop_.forget_noise();
@@ -310,36 +298,35 @@ class GeneralizedAlpha final : public Stepper {
     history_.clear();
     stop_.begin_step();
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
-      dissipation = system_.residual(q_, v_, acceleration_, t, r_);
+      dissipation = system_.residual(step_.q, step_.v, step_.a, t, r_);
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
-        tangent_.set(q_, v_, acceleration_, t, {1, by_v(h), by_a(h)});
+        tangent_.set(step_.q, step_.v, step_.a, t, {1, rule_.by_v(h), rule_.by_a(h)});
         if (!linearize()) return false;
         if (counters_) ++counters_->tangents;
-        tangent_by_a_ = by_a(h);
+        tangent_by_a_ = rule_.by_a(h);
         fresh = true;
         with_this_tangent = 0;
       }
       system_.solve(r_);
-      if (!r_.allFinite()) return false;
-      d_ -= r_;
-      complete(h);
-      const NewtonStop::Verdict verdict = stop_.judge(r_, d_, tolerance_, slow_contraction);
+      if (!all_finite(r_)) return false;
+      step_.correct(rule_, r_, h);
+      const NewtonStop::Verdict verdict = stop_.judge(r_, step_.d, tolerance_, slow_contraction);
       count(stop_.error());
       slowest = std::max(slowest, stop_.contraction());
       if (verdict == NewtonStop::Verdict::done) {
         was_slow_ = starts_fresh ? slowest > fast_contraction && slowest < slow_contraction : slowest > old_contraction;
         return true;
       }
-      if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(q_)) {
+      if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(step_.q)) {
         measure_noise(t);
         if (stop_.settle()) return true;
       }
       if (++with_this_tangent > 1 || kind == NewtonKind::full) {
-        if (fresh && stop_.negligible(q_) && !stop_.falls()) return true;
+        if (fresh && stop_.negligible(step_.q) && !stop_.falls()) return true;
         // far from a solution full Newton may find another one than that of a shorter step
         const double limit = kind == NewtonKind::full ? stagnation : 1;
         const bool late = kind == NewtonKind::modified || iteration > 1;  // the first may overshoot
-        if (fresh && late && stop_.contraction() > limit && stop_.grows(limit, q_)) return false;
+        if (fresh && late && stop_.contraction() > limit && stop_.grows(limit, step_.q)) return false;
         if (stop_.contraction() > slow_contraction) tangent_by_a_ = 0;
       }
     }
@@ -350,15 +337,15 @@ class GeneralizedAlpha final : public Stepper {
 
   /// What rounding of all that the residual depends on does to the solution.
   void measure_noise(double t) {
-    system_.residual(q_, v_, acceleration_, t, r_);
-    NewtonStop::perturb(q_, other_q_);
-    NewtonStop::perturb(v_, other_v_);
-    NewtonStop::perturb(acceleration_, other_a_);
+    system_.residual(step_.q, step_.v, step_.a, t, r_);
+    NewtonStop::perturb(step_.q, other_q_);
+    NewtonStop::perturb(step_.v, other_v_);
+    NewtonStop::perturb(step_.a, other_a_);
     other_r_.resize(r_.size());
     system_.residual(other_q_, other_v_, other_a_, t, other_r_);
     r_ -= other_r_;
     system_.solve(r_);
-    stop_.set_noise(r_, q_);
+    stop_.set_noise(r_, step_.q);
   }
 
   void count(double error) {
@@ -370,14 +357,14 @@ class GeneralizedAlpha final : public Stepper {
 
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
   double error_ratio(double t, double h) {
-    const Eigen::Index count = q_.size() - system_.multipliers();
-    error_ = error_constant(h) * (next_a_ - start_.a);
+    const Eigen::Index count = step_.q.size() - system_.multipliers();
+    error_ = rule_.error_constant(h) * (next_a_ - start_.a);
     if (options_.error_estimate == ErrorEstimate::filtered) filter_error(t + h, h, count);
     const double scale = share_of_motion();
     double largest = 0;
     for (Eigen::Index i = 0; i < count; ++i) {
       const double allowed =
-          scale * allowed_[i] + options_.tolerances.rtol * std::max(std::abs(base_q_[i]), std::abs(q_[i]));
+          scale * allowed_[i] + options_.tolerances.rtol * std::max(std::abs(step_.base_q[i]), std::abs(step_.q[i]));
       largest = std::max(largest, std::abs(error_[i]) / allowed);
     }
     return largest;
@@ -386,8 +373,8 @@ class GeneralizedAlpha final : public Stepper {
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
   void choose_tolerance(double h) {
-    error_ = error_constant(h) * (next_a_ - start_.a);
-    const FieldNorms errors = field_norms(stop_.fields(), error_), increments = field_norms(stop_.fields(), d_);
+    error_ = rule_.error_constant(h) * (next_a_ - start_.a);
+    const FieldNorms errors = field_norms(stop_.fields(), error_), increments = field_norms(stop_.fields(), step_.d);
     double least = std::numeric_limits<double>::infinity();
     for (const Field field : {Field::position, Field::slope, Field::mark, Field::mass, Field::angle}) {
       const auto f = static_cast<std::size_t>(field);
@@ -396,14 +383,12 @@ class GeneralizedAlpha final : public Stepper {
     tolerance_ = std::clamp(newton_share * least, least_newton, most_newton);
   }
 
-  double error_constant(double h) const { return h * h * std::abs(beta_ + 0.5 * (alpha_m_ - alpha_f_) - 1.0 / 6); }
-
   /// r is linear in the accelerations, and next to 0 at the end of the step: with more acceleration it is that of this.
   void filter_error(double t, double h, Eigen::Index count) {
-    other_r_.resize(q_.size());
-    other_a_ = acceleration_;
-    other_a_.head(count) += by_a(h) * error_.head(count);
-    system_.residual(q_, v_, other_a_, t, other_r_);
+    other_r_.resize(step_.q.size());
+    other_a_ = step_.a;
+    other_a_.head(count) += rule_.by_a(h) * error_.head(count);
+    system_.residual(step_.q, step_.v, other_a_, t, other_r_);
     system_.solve(other_r_);
     error_ = other_r_;
   }
@@ -413,7 +398,7 @@ class GeneralizedAlpha final : public Stepper {
   double share_of_motion() {
     const double whole = options_.tolerances.motion;
     if (whole == 0) return 1;
-    other_q_ = q_ - from_q_;
+    other_q_ = step_.q - from_q_;
     const FieldNorms moved = field_norms(stop_.fields(), other_q_);
     for (const Field field : {Field::position, Field::mark, Field::mass}) {
       motion_ = std::max(motion_, motion_until_event_ + moved[static_cast<std::size_t>(field)]);
@@ -423,30 +408,31 @@ class GeneralizedAlpha final : public Stepper {
 
   /// A step of next to no length, up to an event or a sample: the last accelerations go on.
   void drift(Eigen::VectorXd& y, double& t, double h) {
-    q_ = base_q_ + h * base_v_;
-    v_ = base_v_ + h * start_.true_acceleration;
-    system_.contract(q_, v_, y);
+    step_.q = step_.base_q + h * step_.base_v;
+    step_.v = step_.base_v + h * start_.true_acceleration;
+    system_.contract(step_.q, step_.v, y);
     system_.tallies().add(h * start_.power, y);
     t += h;
   }
 
   void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
-    system_.contract(q_, v_, y);
-    end_.power = system_.supplied_power(q_, v_, acceleration_, t + h);
+    system_.contract(step_.q, step_.v, y);
+    end_.power = system_.supplied_power(step_.q, step_.v, step_.a, t + h);
     end_.power.dissipated = dissipation;
     Tally given = 0.5 * h * (start_.power + end_.power);
-    other_a_ = 0.5 * (start_.true_acceleration + acceleration_);
-    if (const auto lost = system_.power_lost_between(base_q_, q_, other_a_, h, t)) given.dissipated = h * *lost;
+    if (const auto lost = system_.power_lost_between(step_.base_q, step_.q, start_.true_acceleration, step_.a, h, t)) {
+      given.dissipated = h * *lost;
+    }
     system_.tallies().add(given, y);
-    end_.true_acceleration = acceleration_;
+    end_.true_acceleration = step_.a;
     end_.a = next_a_;
     end_.h = h;
     if (counters_) {
-      const ConstraintResidual residual = system_.constraint_residual(q_, v_, t + h);
+      const ConstraintResidual residual = system_.constraint_residual(step_.q, step_.v, t + h);
       auto& largest = counters_->constraints;
       largest.position = std::max(largest.position, residual.position);
       largest.velocity = std::max(largest.velocity, residual.velocity);
-      const auto multipliers = acceleration_.tail(system_.multipliers());
+      const auto multipliers = step_.a.tail(system_.multipliers());
       counters_->multipliers.assign(multipliers.begin(), multipliers.end());
     }
     t += h;
@@ -455,22 +441,20 @@ class GeneralizedAlpha final : public Stepper {
   SecondOrderSystem& system_;
   GeneralizedAlphaOptions options_;
   NewtonCounters* counters_;
-  double alpha_m_, alpha_f_, gamma_, beta_;
+  AlphaRule rule_;
   bool started_ = false;
   bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
   bool was_slow_ = false;    ///< the tangent kept will be too old in the next step
   bool is_smooth_ = false;   ///< the motion, so that its acceleration is worth carrying on
-  bool nearby_ = false;      ///< d_ and the tangent are of nearly the same step, `solved_h_` long
+  bool nearby_ = false;      ///< step_.d and the tangent are of nearly the same step, `solved_h_` long
   double solved_h_ = 0;      ///< [s]; 0 for none
   double tolerance_;         ///< of Newton's iteration, of the increment
   int calm_ = 0;             ///< steps that may not be longer than the one before
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;
-  StepEnd start_, end_;                        ///< at the start and at the end of the last step
-  Eigen::VectorXd base_q_, base_v_;            ///< at the start of the step
-  Eigen::VectorXd predicted_v_, predicted_a_;  ///< at its end
-  Eigen::VectorXd d_;                          ///< what its positions are off the velocity going on
-  Eigen::VectorXd q_, v_, acceleration_, next_a_, r_;
+  StepEnd start_, end_;  ///< at the start and at the end of the last step
+  AlphaStep step_;
+  Eigen::VectorXd next_a_, r_;
   Eigen::VectorXd other_q_, other_v_, other_a_, other_r_;  ///< perturbed by rounding
   NewtonStop stop_;
   Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates

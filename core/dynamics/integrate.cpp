@@ -13,6 +13,7 @@
 #include "core/dynamics/in_tolerances.hpp"
 #include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
+#include "core/pieces.hpp"
 
 namespace vlbeam {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 constexpr double guard_tolerance = 1e-12;  // a guard this near zero is at its root
 constexpr double whole_step = 1e-9;        // no step for what rounding leaves of the run
 constexpr double event_tolerance = 1e-10;  // a guard must exceed this at the end of a step to be looked into
+constexpr double clearly_before = -1e-3;   // of a guard at the first root of another one: its own comes later
 constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int most_side_steps = 60;        // tries to get inside a step: else the step itself is too long
 constexpr int longest_cascade = 8;         // events at one instant
@@ -174,7 +176,12 @@ class Interpolant {
 
   const Eigen::VectorXd& operator()(double tau) {
     const double h = step_.t1 - step_.t0, u = tau / h, v = 1 - u;
-    y_ = v * v * (1 + 2 * u) * step_.y0 + u * u * (3 - 2 * u) * step_.y1 + (h * u * v) * (v * f0_ - u * f1_);
+    y_.resize(f0_.size());
+    in_pieces(y_.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
+      const auto of = [=](const Eigen::VectorXd& all) { return all.segment(first, count); };
+      y_.segment(first, count) = v * v * (1 + 2 * u) * of(step_.y0) + u * u * (3 - 2 * u) * of(step_.y1) +
+                                 (h * u * v) * (v * of(f0_) - u * of(f1_));
+    });
     return y_;
   }
 
@@ -183,26 +190,36 @@ class Interpolant {
   Eigen::VectorXd f0_, f1_, y_;
 };
 
-/// Root of guard `k` by steps of the main stepper's own method. The interpolant gives the first guess and slope, so
-/// that two or three steps do; the secant is kept in a bracket, and bisects where it leaves it.
-Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, std::size_t k) {
-  Interpolant interpolant(ode, step);
-  const double h = step.t1 - step.t0;
+bool is_due(const Guard& guard) { return guard.value > std::max(event_tolerance, guard.rounding); }
+
+/// Root of guard `k` of the interpolant, from the start of the step.
+double interpolated_root(EventedOde& ode, Interpolant& interpolant, const Step& step, std::size_t k) {
   auto interpolated = [&](double tau) { return ode.guards(interpolant(tau), step.t0 + tau)[k].value; };
   std::uintmax_t evaluations = 40;
-  const auto bracket = boost::math::tools::toms748_solve(interpolated, 0.0, h, ode.guards(step.y0, step.t0)[k].value,
-                                                         ode.guards(step.y1, step.t1)[k].value,
-                                                         boost::math::tools::eps_tolerance<double>(40), evaluations);
-  double tau = (bracket.first + bracket.second) / 2, low = 0, high = h;
+  const auto bracket = boost::math::tools::toms748_solve(
+      interpolated, 0.0, step.t1 - step.t0, ode.guards(step.y0, step.t0)[k].value,
+      ode.guards(step.y1, step.t1)[k].value, boost::math::tools::eps_tolerance<double>(40), evaluations);
+  return (bracket.first + bracket.second) / 2;
+}
+
+/// Root of guard `k` by steps of the main stepper's own method. The interpolant gives the first guess `tau` and the
+/// slope, so that two or three steps do; the secant is kept in a bracket, and bisects where it leaves it.
+Located locate(EventedOde& ode, SideStepper& side, const Stepper& main, const Step& step, Interpolant& interpolant,
+               double tau, std::size_t k) {
+  auto interpolated = [&](double at) { return ode.guards(interpolant(at), step.t0 + at)[k].value; };
+  const double h = step.t1 - step.t0;
+  double low = 0, high = h;
   const double reach = 1e-4 * h;
   double slope = (interpolated(tau + reach) - interpolated(tau - reach)) / (2 * reach);
   double last_tau = 0, last_value = 0;
   for (int i = 0;; ++i) {
     const Eigen::VectorXd& y =
         i == 0 ? side.at(main, step.y0, step.t0, step.t0 + tau) : side.nearby(main, step.y0, step.t0, step.t0 + tau);
-    const double value = ode.guards(y, step.t0 + tau)[k].value;
+    const Guard guard = ode.guards(y, step.t0 + tau)[k];
+    const double value = guard.value;
     const bool closed = high - low <= 1e-15 * h || tau == last_tau;
-    if (std::abs(value) <= (i < 4 ? guard_tolerance : event_tolerance) || closed || i == most_refinements) {
+    if (std::abs(value) <= std::max(i < 4 ? guard_tolerance : event_tolerance, guard.rounding) || closed ||
+        i == most_refinements) {
       return {static_cast<int>(k), step.t0 + tau, y};
     }
     (value > 0 ? high : low) = tau;
@@ -231,23 +248,37 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
   const bool exactly = options.locate_events;
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
   for (std::size_t k = 0; k < at_end.size(); ++k) {  // what was due before the step makes no step too long
-    if (at_end[k].value > event_tolerance && at_start[k].value >= -guard_tolerance) {
+    if (is_due(at_end[k]) && at_start[k].value >= -guard_tolerance) {
       return {static_cast<int>(k), step.t0, step.y0, Located::Where::start};
     }
   }
   if (std::ranges::any_of(at_end, [&](const Guard& guard) { return guard.value > options.largest_overshoot; })) {
     throw SideStepUnderflow{step.t0, 0};
   }
+  struct Candidate {
+    double tau;
+    std::size_t guard;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t k = 0; k < at_end.size(); ++k) {
+    if (is_due(at_end[k])) candidates.push_back({step.t1 - step.t0, k});
+  }
+  if (candidates.empty()) return {};
+  if (!exactly) return {static_cast<int>(candidates.front().guard), step.t1, step.y1, Located::Where::end};
+
+  Interpolant interpolant(ode, step);
+  for (Candidate& each : candidates) each.tau = interpolated_root(ode, interpolant, step, each.guard);
+  std::ranges::stable_sort(candidates, {}, &Candidate::tau);
   Located first;
   std::size_t last = 0;  // guard that was located
-  for (std::size_t k = 0; k < at_end.size(); ++k) {
-    if (at_end[k].value <= event_tolerance) continue;
+  for (const auto& [tau, k] : candidates) {
+    // Beyond the first event the equations may not even have a solution.
+    if (first.index >= 0 && ode.guards(first.y, first.t)[k].value < clearly_before) continue;
     last = k;
-    const Located found = exactly ? locate(ode, side, main, step, k)
-                                  : Located{static_cast<int>(k), step.t1, step.y1, Located::Where::end};
-    if (first.index < 0 || found.t < first.t) first = found;
+    const Located found = locate(ode, side, main, step, interpolant, tau, k);
+    if (first.index < 0 || found.t < first.t || (found.t == first.t && found.index < first.index)) first = found;
   }
-  if (exactly && first.index >= 0 && first.index != static_cast<int>(last)) {  // `side` is to end there
+  if (first.index != static_cast<int>(last)) {  // `side` is to end there
     side.at(main, step.y0, step.t0, first.t);
   }
   return first;

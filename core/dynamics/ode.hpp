@@ -29,6 +29,7 @@ struct Guard {
   int kind;  ///< what the event is: the system's own numbers
   int part;  ///< of which part of the system
   double value;
+  double rounding = 0;  ///< what it is known to
 };
 /// As many and in the same order until the next event.
 using Guards = std::vector<Guard>;

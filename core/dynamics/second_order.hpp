@@ -64,11 +64,12 @@ class SecondOrderSystem {
     return {};
   }
   /// Power lost to damping half-way between two states, by the velocity of the way from the one to the other in a time
-  /// h, and the acceleration `a` there [W]; nothing where the powers at both ends serve. Stiff damping ends within a
-  /// step what a state starts with, and leaves velocities that alternate from step to step: their powers say nothing of
-  /// what is lost in between.
+  /// h, and the mean of their accelerations [W]; nothing where the powers at both ends serve. Stiff damping ends within
+  /// a step what a state starts with, and leaves velocities that alternate from step to step: their powers say nothing
+  /// of what is lost in between.
   virtual std::optional<double> power_lost_between(const Eigen::VectorXd& /*q0*/, const Eigen::VectorXd& /*q1*/,
-                                                   const Eigen::VectorXd& /*a*/, double /*h*/, double /*t*/) {
+                                                   const Eigen::VectorXd& /*a0*/, const Eigen::VectorXd& /*a1*/,
+                                                   double /*h*/, double /*t*/) {
     return std::nullopt;
   }
   /// Assembles and factors the tangent of the residual, in place of what was factored before. Returns false where it is

@@ -1,6 +1,7 @@
 #include "core/system/equations.hpp"
 
 #include "core/element/moving_tangent.hpp"
+#include "core/pieces.hpp"
 #include "core/system/joint_friction.hpp"
 
 namespace vlbeam {
@@ -10,11 +11,11 @@ double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v
                               Eigen::VectorXd& r) const {
   const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
   const Vec<double, D> on_beam = beam_.beam_gravity(t);
-  r.setZero();
+  in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n).setZero(); });
   double lost = 0;
   at_spans([&](const Span<D>& span) { lost += span.add_forces(q.data(), v.data(), on_beam, r.data()); });
   for (const auto& part : beam_.acting()) lost += part->add_force(now, r.data()).dissipated;
-  r = -r;
+  in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n) = -r.segment(first, n); });
   const PointMasses<D>& masses = beam_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
   at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data()); });

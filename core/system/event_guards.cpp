@@ -41,6 +41,11 @@ enum TravelGuard { nodes_tangle, weight_is_lost };
 
 constexpr int number(Kind kind) { return static_cast<int>(kind); }
 
+/// Of material coordinates [m].
+double rounding(const Mesh& mesh) {
+  return 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(mesh.x.front()), std::abs(mesh.x.back()));
+}
+
 EventType type_of(const Remeshing& what) {
   return what.cut && what.merge ? EventType::segment_merge : what.cut ? EventType::segmentation : EventType::merging;
 }
@@ -94,7 +99,9 @@ void EventGuards<D>::add_joint_guards(std::size_t which, const Eigen::VectorXd& 
   const double unit = control.standard_length;
   const bool several = beam_.places().size() > 1;
   const int node = beam_.places()[which].node;
-  const auto add = [&](Kind kind, double value) { guards.push_back({number(kind), static_cast<int>(which), value}); };
+  const auto add = [&](Kind kind, double value) {
+    guards.push_back({number(kind), static_cast<int>(which), value, rounding(beam_.mesh()) / unit});
+  };
   const bool to_end = node + 1 == mesh.last(), to_start = node == 1;
   const bool joint_ahead = beam_.at_joint(node + 1), joint_behind = beam_.at_joint(node - 1);
   const double x = beam_.mark_at(which, y, t);
@@ -164,7 +171,9 @@ void EventGuards<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y
   const double x_next =
       joint_next ? beam_.mark_at(at_start ? which + 1 : which - 1, y, t) : beam_.mark_of(next, y.data());
   const double unit = control.standard_length, length = at_start ? x_next - x : x - x_next;
-  const auto add = [&](Kind kind, double value) { guards.push_back({number(kind), static_cast<int>(which), value}); };
+  const auto add = [&](Kind kind, double value) {
+    guards.push_back({number(kind), static_cast<int>(which), value, rounding(beam_.mesh()) / unit});
+  };
   if (control.enabled) add(at_start ? Kind::backward : Kind::forward, (length - control.trigger_length()) / unit);
   if (beam_.model().transport == WeightTransport::transported) {
     const WeightFunction& weights = beam_.mesh().weights[at_start ? 0 : beam_.mesh().weights.size() - 1];

@@ -180,12 +180,14 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
 
 template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
-                                                          const Eigen::VectorXd& a, double h, double t) {
+                                                          const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
+                                                          double h, double t) {
   if (!beam_.model().section.damped() || !beam_.travel(t + h / 2)) return std::nullopt;
   y_ = 0.5 * (q0 + q1);
   dydt_ = (q1 - q0) / h;
+  a_ = 0.5 * (a0 + a1);
   free_.resize(q0.size());
-  const double lost = equations_.residual(y_, dydt_, a, t + h / 2, free_);
+  const double lost = equations_.residual(y_, dydt_, a_, t + h / 2, free_);
   beam_.travel(t + h);
   return lost;
 }

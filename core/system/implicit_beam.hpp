@@ -52,7 +52,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   Tallies tallies() const override { return beam_.model().tallies(); }
   Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
   std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
-                                           const Eigen::VectorXd& a, double h, double t) override;
+                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1, double h,
+                                           double t) override;
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                  const TangentWeights& by) override;
   void solve(Eigen::VectorXd& r) const override;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <map>
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/pieces.hpp"
 #include "scene/names.hpp"
 #include "scene/simulate.hpp"
 #include "scene/stiffness.hpp"
@@ -77,9 +79,9 @@ void limit_memory(double megabytes) {
   if (::setrlimit(RLIMIT_AS, &limit) != 0) throw std::runtime_error("cannot limit the memory of this case");
 }
 
-int jobs_or_processors(int jobs) {
-  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+int jobs_or_processors(int jobs) { return jobs > 0 ? jobs : processors(); }
 
 /// Keeps shapes at times that are even, besides those of the scene; they change no digit of the motion.
 void add_frames(Scene& scene, int frames) {
@@ -92,6 +94,12 @@ void add_frames(Scene& scene, int frames) {
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
+  constexpr int most_threads = 4;  // the solution of a banded system, a quarter of the work, takes two
+  if (arguments.threads > 0) {
+    use_threads(arguments.threads);
+  } else if (std::getenv("OMP_NUM_THREADS") == nullptr) {
+    use_threads(std::min(processors(), most_threads));
+  }
   const std::string report = arguments.report.value_or(""), csv = arguments.csv.value_or("");
   if (arguments.report && report.empty()) check_writable("--report", report);
   if (arguments.csv && csv.empty()) check_writable("--csv", csv);
@@ -212,6 +220,7 @@ int study_command(const StudyArguments& arguments) {
 }
 
 int kept_run_command(const std::string& folder) {
+  use_threads(1);
   install_interrupt_handler();
   end_with_parent();
   write_text("-", answer_of_kept_run(folder, read_text("-"), StudyContext::until_interrupted()));
@@ -343,6 +352,7 @@ int sweep_command(const SweepArguments& arguments) {
                          "this sweep has cases 0 to " + std::to_string(plan.cases.size() - 1));
     }
     if (arguments.memory > 0) limit_memory(arguments.memory);
+    use_threads(1);  // others run beside this one
     const auto i = static_cast<std::size_t>(*arguments.only);
     const bool well = folder.has(i) || folder.run(i);
     if (interrupted()) return interrupted_exit_code();

@@ -78,6 +78,10 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->needs(checkpoint);
   run->add_option("--restart", run_arguments.restart, "Go on from this checkpoint of the scene, with the same digits");
+  run->add_option("--threads", run_arguments.threads,
+                  "At work on a beam of more than about 4000 elements; digits do not depend on it (default: one a "
+                  "processor, four at most)")
+      ->check(CLI::Range(1, 1024));
   run->add_flag("--force", run_arguments.force, "A run that fails may replace an earlier result");
   run->add_flag("--quiet,-q", run_arguments.quiet, "No summary on standard error");
 

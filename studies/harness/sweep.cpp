@@ -5,6 +5,7 @@
 #include <numeric>
 #include <thread>
 
+#include "core/pieces.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/progress.hpp"
 
@@ -21,7 +22,9 @@ void run_tasks(const std::string& title, const std::vector<double>& costs, int j
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> finished{0};
   std::atomic<double> done{0};
+  const std::size_t threads = std::min(static_cast<std::size_t>(std::max(jobs, 1)), order.size());
   const auto work = [&] {
+    if (threads > 1) use_threads(1);  // a run's own would be in the way of other runs
     for (std::size_t i = next++; i < order.size() && !interrupted(); i = next++) {
       task(order[i]);
       const double so_far = done += costs[order[i]];
@@ -31,7 +34,6 @@ void run_tasks(const std::string& title, const std::vector<double>& costs, int j
   };
 
   progress.update(0, "0/" + std::to_string(order.size()) + " runs");
-  const std::size_t threads = std::min(static_cast<std::size_t>(std::max(jobs, 1)), order.size());
   std::vector<std::jthread> others;
   for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
   work();

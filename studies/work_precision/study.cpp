@@ -5,6 +5,7 @@
 #include "studies/harness/files.hpp"
 #include "studies/work_precision/integrators.hpp"
 #include "studies/work_precision/meshes.hpp"
+#include "studies/work_precision/sizes.hpp"
 
 namespace vlbeam {
 namespace work_precision {
@@ -17,6 +18,7 @@ StudyReport run(const StudyContext& context) {
   StudyReport report;
   compare_integrators(report, context, reference.at("problems"));
   compare_meshes(report, context, state_from_json(reference.at("converged")));
+  compare_sizes(report, context);
   return report;
 }
 

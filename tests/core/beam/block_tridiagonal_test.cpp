@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
+#include "core/pieces.hpp"
+
 namespace vlbeam {
 namespace {
 
@@ -126,6 +128,86 @@ TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvalues) {
       EXPECT_EQ(m.negative_pivots(1e-13), (all.eigenvalues().array() < 0).count()) << shift << ", " << borders;
     }
   }
+}
+
+/// So many nodes that it is factored from both ends.
+TYPED_TEST(BlockTridiagonal, SolvesALongOneFromBothEnds) {
+  constexpr int W = TypeParam::value, nodes = static_cast<int>(long_range) / W + 5;
+  for (const bool solves : {false, true}) {
+    auto m = this->random_matrix(nodes, 3, 3.0 * W, false);
+    if (solves) {
+      const auto blocks = m;
+      m.solve_pivots();
+      m.reset(nodes);
+      m = [&] {
+        auto filled = m;
+        filled.diagonal = blocks.diagonal, filled.upper = blocks.upper, filled.lower = blocks.lower;
+        filled.border = blocks.border, filled.corner = blocks.corner;
+        return filled;
+      }();
+    }
+    m.border[2].first = nodes - 4;  // behind the middle
+    m.border[0].far = nodes - 2;
+    for (double& x : m.border[0].far_column) x = this->number();
+    for (double& x : m.border[0].far_row) x = this->number();
+    const auto a = m;
+    using Vector = Eigen::Matrix<double, W, 1>;
+    const auto times = [&](const Eigen::VectorXd& x) {
+      Eigen::VectorXd result = Eigen::VectorXd::Zero(x.size());
+      const auto part = [](auto& of, int k) { return of.template segment<TypeParam::value>(TypeParam::value * k); };
+      for (int k = 0; k < nodes; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        part(result, k) = a.diagonal[i] * part(x, k);
+        if (k + 1 < nodes) part(result, k) += a.upper[i] * part(x, k + 1);
+        if (k > 0) part(result, k) += a.lower[i] * part(x, k - 1);
+      }
+      for (int j = 0; j < 3; ++j) {
+        const auto& border = a.border[static_cast<std::size_t>(j)];
+        const Eigen::Index at = Eigen::Index{W} * nodes + j;
+        for (int i = 0; i < 3; ++i) {
+          const Vector &column = border.column[static_cast<std::size_t>(i)],
+                       &row = border.row[static_cast<std::size_t>(i)];
+          part(result, border.first + i) += column * x[at];
+          result[at] += row.dot(part(x, border.first + i));
+        }
+        result[at] += a.corner.row(j).head(3) * x.tail(3);
+        if (border.far < 0) continue;
+        part(result, border.far) += border.far_column * x[at];
+        result[at] += border.far_row.dot(part(x, border.far));
+      }
+      return result;
+    };
+    Eigen::VectorXd b(Eigen::Index{W} * nodes + 3);
+    for (double& x : b) x = this->number();
+    std::vector<Eigen::VectorXd> answers;
+    for (const int threads : {1, 2, 7}) {
+      use_threads(threads);
+      m = a;
+      ASSERT_TRUE(m.factor());
+      answers.push_back(b);
+      m.solve(answers.back().data());
+      EXPECT_EQ(answers.back(), answers.front()) << threads << " threads";
+    }
+    use_threads(1);
+    EXPECT_LE((times(answers.front()) - b).cwiseAbs().maxCoeff(),
+              1e-12 * 3 * W * answers.front().cwiseAbs().maxCoeff());
+  }
+}
+
+/// Blocks that are dominant have as many negative eigenvalues as there are negative numbers on the diagonal.
+TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvaluesOfALongOne) {
+  constexpr int W = TypeParam::value, nodes = static_cast<int>(long_range) / W + 5;
+  auto m = this->random_matrix(nodes, 0, 0, true);
+  int negative = 0;
+  for (auto& block : m.diagonal) {
+    for (int i = 0; i < W; ++i) {
+      const bool below = this->number() < 0;
+      negative += below ? 1 : 0;
+      block(i, i) += (below ? -4 : 4) * W;
+    }
+  }
+  ASSERT_TRUE(m.factor());
+  EXPECT_EQ(m.negative_pivots(1e-13), negative);
 }
 
 TYPED_TEST(BlockTridiagonal, AFixedUnknownOfTheBorderKeepsToItself) {

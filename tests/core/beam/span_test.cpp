@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "core/pieces.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {
@@ -61,6 +62,46 @@ TEST(Span, GoesOnFromOneOnAnotherMesh) {
       expect_alike(cut.span(20, open, &right), cut.span(20, open), 21);
     }
   }
+}
+
+/// What is computed in pieces is what short spans add up to.
+TEST(Span, ALongOneIsTheSumOfShortOnes) {
+  constexpr int count = 5, elements = count * 1003;
+  const Beam all = beam(elements);
+  const Span<D> whole = all.span(0, elements);
+  Random random(1);
+  Eigen::VectorXd q(node_size<D> * (elements + 1));
+  for (double& entry : q) entry = random.uniform(-1, 1);
+  const TangentWeights by{1, 0.3, 0.7};
+  struct Sums {
+    Eigen::VectorXd force, inertia;
+    std::vector<NodeTangent<D>> diagonal, upper, lower;
+  };
+  const auto zero = [&] {
+    const std::vector<NodeTangent<D>> none(elements + 1, NodeTangent<D>::Zero());
+    return Sums{Eigen::VectorXd::Zero(q.size()), Eigen::VectorXd::Zero(q.size()), none, none, none};
+  };
+  const auto add = [&](const Span<D>& span, Sums& to) {
+    span.add_forces(q.data(), q.data(), {0, -9.81}, to.force.data());
+    span.add_inertia(q.data(), to.inertia.data());
+    span.add_tangent(q.data(), q.data(), by, to.diagonal.data(), to.upper.data(), to.lower.data());
+  };
+  Sums parts = zero();
+  for (int i = 0; i < count; ++i) add(all.span(i * elements / count, (i + 1) * elements / count), parts);
+  for (const int threads : {1, 2, 7}) {
+    use_threads(threads);
+    Sums long_one = zero();
+    add(whole, long_one);
+    EXPECT_LE((long_one.force - parts.force).cwiseAbs().maxCoeff(), 1e-14 * parts.force.cwiseAbs().maxCoeff());
+    EXPECT_LE((long_one.inertia - parts.inertia).cwiseAbs().maxCoeff(), 1e-14 * parts.inertia.cwiseAbs().maxCoeff());
+    for (std::size_t k = 0; k <= elements; ++k) {
+      const double size = parts.diagonal[k].cwiseAbs().maxCoeff();
+      ASSERT_LE((long_one.diagonal[k] - parts.diagonal[k]).cwiseAbs().maxCoeff(), 1e-14 * size) << k;
+      ASSERT_LE((long_one.upper[k] - parts.upper[k]).cwiseAbs().maxCoeff(), 1e-14 * size) << k;
+      ASSERT_LE((long_one.lower[k] - parts.lower[k]).cwiseAbs().maxCoeff(), 1e-14 * size) << k;
+    }
+  }
+  use_threads(1);
 }
 
 }  // namespace

@@ -111,6 +111,29 @@ TEST_P(Integrate, TheFirstOfTwoEventsInAStepComesFirst) {
   EXPECT_NEAR(ode.events[1].t, 0.7, 1e-10);
 }
 
+/// Beyond the first event a step may have nowhere to go: an event that comes later costs nothing.
+TEST_P(Integrate, LooksNoFartherThanTheFirstEvent) {
+  std::vector<int> evaluations;
+  for (const bool two : {false, true}) {
+    int count = 0;
+    FunctionOde ode(1, [&](const State& /*y*/, double) -> State {
+      ++count;
+      return scalar(1);
+    });
+    ode.guard = [](const State& y, double) { return y[0] - 0.4; };
+    if (two) ode.second_guard = [](const State& y, double) { return y[0] - 0.7; };
+    ode.on_event = [&](int, State& /*y*/) { ode.guard = ode.second_guard = nullptr; };
+    y_ = scalar(0);
+    t_ = 0;
+    options_.first_step = 1;
+    run(ode, 1);
+    ASSERT_EQ(ode.events.size(), 1U);
+    EXPECT_NEAR(ode.events[0].t, 0.4, 1e-10);
+    evaluations.push_back(count);
+  }
+  EXPECT_EQ(evaluations[1], evaluations[0]);
+}
+
 TEST_P(Integrate, AnEventMayChangeTheEquationsAndTheSize) {
   FunctionOde ode(1, [](const State& y, double) -> State { return State::Ones(y.size()); });
   ode.guard = [](const State& y, double) { return y.size() == 1 ? y[0] - 0.5 : -1.0; };

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "core/pieces.hpp"
+
+namespace vlbeam {
+
+/// Coefficients of the generalized-alpha method (Arnold & Bruels 2007).
+struct AlphaRule {
+  /// By the spectral radius at infinity.
+  explicit AlphaRule(double rho_inf)
+      : alpha_m((2 * rho_inf - 1) / (rho_inf + 1)),
+        alpha_f(rho_inf / (rho_inf + 1)),
+        gamma(0.5 + alpha_f - alpha_m),
+        beta(0.25 * (gamma + 0.5) * (gamma + 0.5)) {}
+
+  double alpha_m, alpha_f, gamma, beta;
+
+  /// What accelerations and velocities at the end of a step of length h change by, for a change of the positions.
+  double by_a(double h) const { return (1 - alpha_m) / (h * h * beta * (1 - alpha_f)); }
+  double by_v(double h) const { return gamma / (h * beta); }
+  /// The method's own acceleration at the end of a step, from that at its start, is this times that one, and the
+  /// increment over h^2 beta.
+  double carried() const { return (-1 / beta) * (0.5 - beta); }
+  /// The error of a step's positions over the change of the method's own acceleration.
+  double error_constant(double h) const { return h * h * std::abs(beta + 0.5 * (alpha_m - alpha_f) - 1.0 / 6); }
+};
+
+/// Start and end of a step, arrays of coordinates.
+struct AlphaStep {
+  Eigen::VectorXd base_q, base_v;            ///< at its start
+  Eigen::VectorXd predicted_v, predicted_a;  ///< at its end, where the positions are those of the velocity going on
+  Eigen::VectorXd d;                         ///< what the positions at the end are off these
+  Eigen::VectorXd q, v, a;                   ///< at its end
+
+  /// `a0` is the method's own acceleration at the start, `true_a0` that of the equations of motion.
+  void predict(const AlphaRule& rule, const Eigen::VectorXd& a0, const Eigen::VectorXd& true_a0, double h) {
+    for (Eigen::VectorXd* vector : {&predicted_v, &predicted_a, &q, &v, &a}) vector->resize(base_q.size());
+    in_pieces(base_q.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
+      const auto start_a = a0.segment(first, count), true_a = true_a0.segment(first, count);
+      const auto next_a = rule.carried() * start_a;
+      predicted_v.segment(first, count) =
+          base_v.segment(first, count) + h * ((1 - rule.gamma) * start_a + rule.gamma * next_a);
+      predicted_a.segment(first, count) =
+          ((1 - rule.alpha_m) * next_a + rule.alpha_m * start_a - rule.alpha_f * true_a) / (1 - rule.alpha_f);
+    });
+  }
+
+  /// Takes a correction off the increment. The increment is kept by itself: next to the coordinates it would lose its
+  /// digits in short steps, and with them the accelerations theirs.
+  void correct(const AlphaRule& rule, const Eigen::VectorXd& correction, double h) {
+    in_pieces(d.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
+      d.segment(first, count) -= correction.segment(first, count);
+      complete(rule, h, first, count);
+    });
+  }
+
+  /// The end of the step, from the increment.
+  void complete(const AlphaRule& rule, double h) {
+    in_pieces(d.size(), 1, [&](Eigen::Index first, Eigen::Index count) { complete(rule, h, first, count); });
+  }
+
+ private:
+  void complete(const AlphaRule& rule, double h, Eigen::Index first, Eigen::Index count) {
+    const auto increment = d.segment(first, count);
+    q.segment(first, count) = base_q.segment(first, count) + (h * base_v.segment(first, count) + increment);
+    v.segment(first, count) = predicted_v.segment(first, count) + rule.by_v(h) * increment;
+    a.segment(first, count) = predicted_a.segment(first, count) + rule.by_a(h) * increment;
+  }
+};
+
+}  // namespace vlbeam
