@@ -5,12 +5,12 @@
 
 Prints times, the least of the repeats, in milliseconds: processor time of whole processes, wall time of motions and
 events; with --vs the ratio to the other program, whose runs alternate with these, so that a busy machine slows both.
-Threads are those of OMP_NUM_THREADS, one if it is not set. --slow adds runs of 1000 to 1000000 elements (10 GB, minutes).
+All on one thread. --slow adds runs of 1000 to 1000000 elements (10 GB, minutes).
 """
 
 import argparse
+import functools
 import json
-import os
 import pathlib
 import resource
 import subprocess
@@ -58,13 +58,20 @@ SLOW = {
 }
 
 
+@functools.cache
+def one_thread(program):
+    """The option, of a program that has it."""
+    text = subprocess.run([program, "run", "--help"], capture_output=True, text=True).stdout
+    return ["--threads", "1"] if "--threads" in text else []
+
+
 def run(program, scene, folder):
     """Processor time of the process, wall time of its motion and of one event [s], None without any;
     nothing where the program does not know the scene."""
     source, report = folder / "scene.json", folder / "report.json"
     source.write_text(json.dumps(scene), encoding="utf-8")
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([program, "run", source, "--report", report, "--force"], stdout=subprocess.DEVNULL,
+    done = subprocess.run([program, "run", source, "--report", report, "--force", *one_thread(program)], stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE, text=True, close_fds=False)  # no copy of this process is made, and timed
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode == 2:
@@ -88,7 +95,6 @@ def main():
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--slow", action="store_true")
     arguments = parser.parse_args()
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
     programs = [arguments.program] + ([arguments.vs] if arguments.vs else [])
 
     runs = RUNS | (SLOW if arguments.slow else {})

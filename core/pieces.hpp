@@ -9,14 +9,23 @@
 
 namespace vlbeam {
 
-/// Long ranges are worked on in pieces, several at once where the program has several threads (OpenMP). The range alone
+/// Long ranges are worked on in pieces, several at once where the program has several threads (oneTBB). The range alone
 /// decides which pieces there are, so that digits do not depend on threads.
 inline constexpr std::ptrdiff_t long_range = 16384;     // numbers; a shorter range is not worth the call of a thread
 inline constexpr std::ptrdiff_t piece_of_range = 2048;  // numbers
 
-/// Lets the calling thread have so many at work at once from now on; without this call one a processor, or what the
-/// environment variable OMP_NUM_THREADS says. No effect without OpenMP.
-void use_threads(int count);
+/// While it lives the program has no more threads at work than that; else one a processor. No effect without oneTBB.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
 
 /// Calls task(context, i) for i from 0 to `count` - 1, at once where there are threads. Nothing may be thrown.
 void at_once(std::ptrdiff_t count, void (*task)(const void* context, std::ptrdiff_t i), const void* context);

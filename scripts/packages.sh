@@ -9,7 +9,7 @@
 #   scripts/packages.sh ci       that, and what .ci/run needs
 set -euo pipefail
 
-packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libgtest-dev libgmock-dev
+packages=(g++ cmake make git libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libtbb-dev libgtest-dev libgmock-dev
           libbenchmark-dev gnuplot-nox python3 python3-markdown python3-jinja2 blahtexml)
 if [[ ${1:-build} == python || ${1:-build} == ci ]]; then
   packages+=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -95,11 +94,7 @@ void add_frames(Scene& scene, int frames) {
 
 int run_command(const RunArguments& arguments) {
   constexpr int most_threads = 4;  // the solution of a banded system, a quarter of the work, takes two
-  if (arguments.threads > 0) {
-    use_threads(arguments.threads);
-  } else if (std::getenv("OMP_NUM_THREADS") == nullptr) {
-    use_threads(std::min(processors(), most_threads));
-  }
+  const ThreadLimit threads(arguments.threads > 0 ? arguments.threads : std::min(processors(), most_threads));
   const std::string report = arguments.report.value_or(""), csv = arguments.csv.value_or("");
   if (arguments.report && report.empty()) check_writable("--report", report);
   if (arguments.csv && csv.empty()) check_writable("--csv", csv);
@@ -220,7 +215,7 @@ int study_command(const StudyArguments& arguments) {
 }
 
 int kept_run_command(const std::string& folder) {
-  use_threads(1);
+  const ThreadLimit alone(1);  // others run beside this one
   install_interrupt_handler();
   end_with_parent();
   write_text("-", answer_of_kept_run(folder, read_text("-"), StudyContext::until_interrupted()));
@@ -352,7 +347,7 @@ int sweep_command(const SweepArguments& arguments) {
                          "this sweep has cases 0 to " + std::to_string(plan.cases.size() - 1));
     }
     if (arguments.memory > 0) limit_memory(arguments.memory);
-    use_threads(1);  // others run beside this one
+    const ThreadLimit alone(1);  // others run beside this one
     const auto i = static_cast<std::size_t>(*arguments.only);
     const bool well = folder.has(i) || folder.run(i);
     if (interrupted()) return interrupted_exit_code();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "core/pieces.hpp"
@@ -23,8 +24,9 @@ void run_tasks(const std::string& title, const std::vector<double>& costs, int j
   std::atomic<std::size_t> finished{0};
   std::atomic<double> done{0};
   const std::size_t threads = std::min(static_cast<std::size_t>(std::max(jobs, 1)), order.size());
+  std::optional<ThreadLimit> alone;  // a run's own threads would be in the way of other runs
+  if (threads > 1) alone.emplace(1);
   const auto work = [&] {
-    if (threads > 1) use_threads(1);  // a run's own would be in the way of other runs
     for (std::size_t i = next++; i < order.size() && !interrupted(); i = next++) {
       task(order[i]);
       const double so_far = done += costs[order[i]];

@@ -42,9 +42,8 @@ void compare_sizes(StudyReport& report, const StudyContext& context) {
   for (const int elements : counts) {
     const Scene scene = shot(config, context.config.at("scene"), elements);
     for (const int threads : config.at("threads").get<std::vector<int>>()) {
-      use_threads(threads);
+      const ThreadLimit limit(threads);
       const RunResult result = simulate(scene, StudyContext::until_interrupted());
-      use_threads(1);
       const auto evaluations = static_cast<double>(result.solver.rhs_evaluations),
                  events = static_cast<double>(result.events.size());
       times.rows.push_back({elements, threads, result.timing.motion,

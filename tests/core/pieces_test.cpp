@@ -12,10 +12,9 @@ namespace {
 template <class Function>
 void with_threads(const Function& f) {
   for (const int threads : {1, 2, 7}) {
-    use_threads(threads);
+    const ThreadLimit limit(threads);
     f();
   }
-  use_threads(1);
 }
 
 constexpr std::ptrdiff_t counts[] = {0, 1, 100, long_range / 4 - 1, long_range / 4, long_range + 1, 3 * long_range + 7};

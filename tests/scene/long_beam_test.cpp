@@ -38,13 +38,12 @@ TEST_P(LongBeam, HasTheSameDigitsWithAnyNumberOfThreads) {
   const Scene scene = shot(4500, GetParam());
   std::vector<std::vector<double>> seen;
   for (const int threads : {1, 2, 7}) {
-    use_threads(threads);
+    const ThreadLimit limit(threads);
     const RunResult result = simulate(scene);
     ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
     EXPECT_GE(result.events.size(), 4U);
     seen.push_back(digits(result));
   }
-  use_threads(1);
   EXPECT_EQ(seen[1], seen[0]);
   EXPECT_EQ(seen[2], seen[0]);
 }

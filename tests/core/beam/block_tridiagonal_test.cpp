@@ -181,14 +181,13 @@ TYPED_TEST(BlockTridiagonal, SolvesALongOneFromBothEnds) {
     for (double& x : b) x = this->number();
     std::vector<Eigen::VectorXd> answers;
     for (const int threads : {1, 2, 7}) {
-      use_threads(threads);
+      const ThreadLimit limit(threads);
       m = a;
       ASSERT_TRUE(m.factor());
       answers.push_back(b);
       m.solve(answers.back().data());
       EXPECT_EQ(answers.back(), answers.front()) << threads << " threads";
     }
-    use_threads(1);
     EXPECT_LE((times(answers.front()) - b).cwiseAbs().maxCoeff(),
               1e-12 * 3 * W * answers.front().cwiseAbs().maxCoeff());
   }

@@ -89,7 +89,7 @@ TEST(Span, ALongOneIsTheSumOfShortOnes) {
   Sums parts = zero();
   for (int i = 0; i < count; ++i) add(all.span(i * elements / count, (i + 1) * elements / count), parts);
   for (const int threads : {1, 2, 7}) {
-    use_threads(threads);
+    const ThreadLimit limit(threads);
     Sums long_one = zero();
     add(whole, long_one);
     EXPECT_LE((long_one.force - parts.force).cwiseAbs().maxCoeff(), 1e-14 * parts.force.cwiseAbs().maxCoeff());
@@ -101,7 +101,6 @@ TEST(Span, ALongOneIsTheSumOfShortOnes) {
       ASSERT_LE((long_one.lower[k] - parts.lower[k]).cwiseAbs().maxCoeff(), 1e-14 * size) << k;
     }
   }
-  use_threads(1);
 }
 
 }  // namespace
