@@ -40,8 +40,8 @@ struct FieldRun {
 using FieldNorms = std::array<double, field_count>;
 
 /// Calls f(run, index) for each coordinate of the runs.
-template <class Function>
-void for_each_coordinate(const std::vector<FieldRun>& runs, const Function& f) {
+template <class Runs, class Function>
+void for_each_coordinate(const Runs& runs, const Function& f) {
   for (const FieldRun& run : runs) {
     for (Eigen::Index k = 0, at = run.first; k < run.count; ++k, at += run.stride) {
       for (Eigen::Index i = at; i < at + run.width; ++i) f(run.field, i);

@@ -1,6 +1,7 @@
 #include "core/dynamics/generalized_alpha.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -273,7 +274,7 @@ class GeneralizedAlpha final : public Stepper {
       if (run.field != Field::slope) continue;
       off += sum_in_pieces<Eigen::Array2d>(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
         Eigen::Array2d sum{0, 0};
-        for_each_coordinate({run.part(first, count)}, [&](Field /*field*/, Eigen::Index i) {
+        for_each_coordinate(std::array{run.part(first, count)}, [&](Field /*field*/, Eigen::Index i) {
           const double by_acceleration = step_.d[i] - 0.5 * h * h * start_.a[i], by_velocity = step_.d[i];
           sum += Eigen::Array2d(by_acceleration * by_acceleration, by_velocity * by_velocity);
         });

@@ -248,7 +248,7 @@ Located first_event(EventedOde& ode, SideStepper& side, const Stepper& main, con
   const bool exactly = options.locate_events;
   const Guards at_start = ode.guards(step.y0, step.t0), at_end = ode.guards(step.y1, step.t1);
   for (std::size_t k = 0; k < at_end.size(); ++k) {  // what was due before the step makes no step too long
-    if (is_due(at_end[k]) && at_start[k].value >= -guard_tolerance) {
+    if (is_due(at_end[k]) && at_start[k].value >= -std::max(guard_tolerance, at_start[k].rounding)) {
       return {static_cast<int>(k), step.t0, step.y0, Located::Where::start};
     }
   }

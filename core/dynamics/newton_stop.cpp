@@ -86,6 +86,7 @@ bool NewtonStop::negligible(const Eigen::VectorXd& q) const {
 }
 
 bool NewtonStop::falls() const {
+  if (corrections_ < 2) return true;  // what was before belongs to another step
   for (std::size_t f = 0; f < field_count; ++f) {
     if (correction_[f] > newton_rounding * increment_[f] && correction_[f] <= stagnant * before_[f]) return true;
   }

@@ -57,7 +57,7 @@ class NewtonStop {
   /// the solution rounding is large, too, and says nothing.
   bool negligible(const Eigen::VectorXd& q) const;
 
-  /// Whether the last corrections of some field are still falling.
+  /// Whether the last corrections of some field are still falling; one alone may be.
   bool falls() const;
 
   /// Whether a correction that may not be rounding is more than `limit` times the one before, in its field.

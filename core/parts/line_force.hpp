@@ -17,6 +17,21 @@ ShapeTable<Real> shape_at(const Weights<Real>& weights, bool unit, double u) {
   return unit ? hermite_shape(Real(u)) : rational_shape(weights, Real(u));
 }
 
+/// A point of an element whose ends stay at their material points: of its motion what a force on a line needs.
+template <int D>
+PointMotion<double, D> resting_point(const MovingKinematics<double, D>& element, const ShapeTable<double>& f) {
+  PointMotion<double, D> point;
+  const double length = element.length(), inverse = 1 / length;
+  for (std::size_t i = 0; i < 4; ++i) {
+    point.s[i] = i % 2 == 0 ? f[i][0] : length * f[i][0];
+    point.s_x[i] = i % 2 == 0 ? inverse * f[i][1] : f[i][1];
+  }
+  point.r = combine_nodes<double, D>(point.s, element.coordinates().e);
+  point.r_x = combine_nodes<double, D>(point.s_x, element.coordinates().e);
+  point.v = combine_nodes<double, D>(point.s, element.rates().e);
+  return point;
+}
+
 /// Adds N^T f of a force per unstretched length to an array like q, summed at Gauss points of all elements. The law
 /// has acts(place), where the force can be other than zero, and force(point). Calls visit(k, motion, force [N/m],
 /// weight [m]) at each point where it acts.
@@ -25,9 +40,10 @@ void add_line_force(const ChainView<D>& beam, int points, const Law& law, double
   const auto& rule = gauss_legendre(points);
   for (int k = 0; k < beam.mesh.elements(); ++k) {
     const MovingKinematics<double, D> element = beam.kinematics(k);
-    const bool unit = beam.weights(k).w == unit_weights;
+    const bool unit = beam.weights(k).w == unit_weights, moves = beam.at_joint(k) || beam.marks != nullptr;
     for (const auto& [u, share] : rule) {
-      const PointMotion<double, D> at = element.at(u, shape_at(element.weights(), unit, u));
+      const ShapeTable<double> shape = shape_at(element.weights(), unit, u);
+      const PointMotion<double, D> at = moves ? element.at(u, shape) : resting_point<D>(element, shape);
       if (!law.acts(at.r)) continue;
       const Vec<double, D> f = law.force(LinePoint<double, D>{at.r, at.r_x, at.v});
       const double weight = share * element.length();
@@ -47,7 +63,7 @@ PointMatrix<D> fixed_line_tangent(const ChainView<D>& beam, int k, int points, c
   const bool unit = beam.weights(k).w == unit_weights;
   PointMatrix<D> matrix = PointMatrix<D>::Zero();
   for (const auto& [u, share] : gauss_legendre(points)) {
-    const PointMotion<double, D> at = element.at(u, shape_at(element.weights(), unit, u));
+    const PointMotion<double, D> at = resting_point<D>(element, shape_at(element.weights(), unit, u));
     if (!law.acts(at.r)) continue;
     LinePoint<Real, D> point;
     for (int c = 0; c < D; ++c) {

@@ -227,8 +227,9 @@ Guards EventGuards<D>::rider_guards(const Eigen::VectorXd& y, double t) const {
       at_end ? beam_.rider()->end - y[beam_.layout().mark()] : y[beam_.layout().mark()] - beam_.rider()->end;
   const bool releases = at_end ? beam_.model().end_releases : beam_.model().start_releases;
   const double least = releases ? beam_.model().joints.front().separation_distance : 0;
-  return {{number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit},
-          {number(Kind::away), 0, (distance - cut_limit_) / unit}};
+  const double known = rounding(beam_.mesh()) / unit;
+  return {{number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit, known},
+          {number(Kind::away), 0, (distance - cut_limit_) / unit, known}};
 }
 
 template <int D>

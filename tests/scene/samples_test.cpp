@@ -308,5 +308,22 @@ TEST(EnergyLedger, ABeamAtRestIsNoCauseForWarnings) {
   EXPECT_TRUE(simulate(scene).warnings.empty());
 }
 
+/// All the energy that there is in its first steps may be the method's own error.
+TEST(Samples, AMotionFromRestIsNotCalledUnstableByItsFirstSteps) {
+  Scene scene;
+  scene.gravity = {};
+  scene.beam.elements = 8;
+  scene.beam.element = ElementKind::ancf;
+  scene.start.type = SupportType::pin;
+  scene.start.motion = {.direction = {-1, 0, 0}, .displacement = {.value = 0.1, .ramp = 0.8}};
+  scene.duration = 0.1;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  for (const double interval : {0.02, 1e-3, 5e-4, 2.5e-4}) {
+    scene.output.interval = interval;
+    const RunResult run = simulate(scene);
+    EXPECT_EQ(run.status, RunStatus::completed) << interval << ": " << run.failure;
+  }
+}
+
 }  // namespace
 }  // namespace vlbeam

@@ -106,5 +106,28 @@ INSTANTIATE_TEST_SUITE_P(
         Choice{"arkode", IntegratorType::arkode}),
     [](const auto& of) { return of.param.name; });
 
+/// Full Newton ends at once where rounding is all that is left: what the last correction of another step was, of a
+/// sample or an event, must not tell.
+TEST(Output, ChangesNoDigitOfAMotionThatNewtonFollowsToRounding) {
+  Scene scene;  // a bead on a stiff incline
+  scene.beam.curve.end = {0.8660254037844387, -0.5, 0};
+  scene.beam.elements = 8;
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e6, .EI = 1e4, .rhoA = 1e-3};
+  scene.start.type = scene.end.type = SupportType::clamp;
+  scene.sliding_mass = SlidingMassSpec{};
+  scene.sliding_mass->mass = 1e-3;
+  scene.duration = 0.5;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.newton = NewtonKind::full;
+  scene.output.interval = 0.01;
+  const RunResult few = simulate(scene);
+  scene.output.interval = 0.03;
+  const RunResult many = simulate(scene);
+  ASSERT_EQ(few.status, RunStatus::completed) << few.failure;
+  ASSERT_GE(few.events.size(), 1U);
+  ASSERT_EQ(few.events.size(), many.events.size());
+  for (std::size_t i = 0; i < few.events.size(); ++i) EXPECT_EQ(few.events[i].t, many.events[i].t) << i;
+}
+
 }  // namespace
 }  // namespace vlbeam::test
