@@ -4,29 +4,58 @@
 #include <complex>
 
 /// Elementary functions with the same digits on every x86-64 machine. The C library picks its `double` versions by the
-/// processor (fused multiply-add or not), and they differ in the last place; of `long double` it has one version. So
-/// each function is computed in `long double` and rounded once. Square roots are exact everywhere and stay std::sqrt.
-/// A test of the build finds calls that go past this header.
+/// processor (fused multiply-add or not), and they differ in the last place. Of `long double` it has one version each,
+/// but most of these end in instructions of the x87, whose last bits differ between makers: only sines, cosines,
+/// tangents, arc sines, cube roots and hypotenuses are sums and products of their own. All others are computed in
+/// quadruple precision, in software, and rounded once (0.6 to 1.8 us). Square roots are exact everywhere and stay
+/// std::sqrt. A test of the build finds calls that go past this header.
 namespace vlbeam::portable {
+
+namespace wide {
+
+#if defined(__x86_64__) && defined(__GLIBC__)
+__extension__ using Real = __float128;
+extern "C" {
+Real acosf128(Real) noexcept;
+Real atan2f128(Real, Real) noexcept;
+Real coshf128(Real) noexcept;
+Real tanhf128(Real) noexcept;
+Real asinhf128(Real) noexcept;
+Real expf128(Real) noexcept;
+Real logf128(Real) noexcept;
+Real log10f128(Real) noexcept;
+Real powf128(Real, Real) noexcept;
+}
+inline Real acos(Real x) { return acosf128(x); }
+inline Real atan2(Real y, Real x) { return atan2f128(y, x); }
+inline Real cosh(Real x) { return coshf128(x); }
+inline Real tanh(Real x) { return tanhf128(x); }
+inline Real asinh(Real x) { return asinhf128(x); }
+inline Real exp(Real x) { return expf128(x); }
+inline Real log(Real x) { return logf128(x); }
+inline Real log10(Real x) { return log10f128(x); }
+inline Real pow(Real x, Real power) { return powf128(x, power); }
+#else
+using Real = long double;
+using std::acos, std::atan2, std::cosh, std::tanh, std::asinh, std::exp, std::log, std::log10, std::pow;
+#endif
+
+}  // namespace wide
 
 inline double sin(double x) { return static_cast<double>(std::sin(static_cast<long double>(x))); }
 inline double cos(double x) { return static_cast<double>(std::cos(static_cast<long double>(x))); }
 inline double tan(double x) { return static_cast<double>(std::tan(static_cast<long double>(x))); }
 inline double asin(double x) { return static_cast<double>(std::asin(static_cast<long double>(x))); }
-inline double acos(double x) { return static_cast<double>(std::acos(static_cast<long double>(x))); }
-inline double atan2(double y, double x) {
-  return static_cast<double>(std::atan2(static_cast<long double>(y), static_cast<long double>(x)));
-}
-inline double cosh(double x) { return static_cast<double>(std::cosh(static_cast<long double>(x))); }
-inline double tanh(double x) { return static_cast<double>(std::tanh(static_cast<long double>(x))); }
-inline double asinh(double x) { return static_cast<double>(std::asinh(static_cast<long double>(x))); }
-inline double exp(double x) { return static_cast<double>(std::exp(static_cast<long double>(x))); }
-inline double log(double x) { return static_cast<double>(std::log(static_cast<long double>(x))); }
-inline double log10(double x) { return static_cast<double>(std::log10(static_cast<long double>(x))); }
+inline double acos(double x) { return static_cast<double>(wide::acos(wide::Real(x))); }
+inline double atan2(double y, double x) { return static_cast<double>(wide::atan2(wide::Real(y), wide::Real(x))); }
+inline double cosh(double x) { return static_cast<double>(wide::cosh(wide::Real(x))); }
+inline double tanh(double x) { return static_cast<double>(wide::tanh(wide::Real(x))); }
+inline double asinh(double x) { return static_cast<double>(wide::asinh(wide::Real(x))); }
+inline double exp(double x) { return static_cast<double>(wide::exp(wide::Real(x))); }
+inline double log(double x) { return static_cast<double>(wide::log(wide::Real(x))); }
+inline double log10(double x) { return static_cast<double>(wide::log10(wide::Real(x))); }
 inline double cbrt(double x) { return static_cast<double>(std::cbrt(static_cast<long double>(x))); }
-inline double pow(double x, double power) {
-  return static_cast<double>(std::pow(static_cast<long double>(x), static_cast<long double>(power)));
-}
+inline double pow(double x, double power) { return static_cast<double>(wide::pow(wide::Real(x), wide::Real(power))); }
 inline double hypot(double x, double y) {
   return static_cast<double>(std::hypot(static_cast<long double>(x), static_cast<long double>(y)));
 }
