@@ -21,7 +21,6 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
-constexpr int steps_until_longer = 4;  // of a length that Newton's iteration could solve, before twice that is tried
 constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
 constexpr double least_motion = 1e-5;  // of Tolerances::motion
 
@@ -67,8 +66,6 @@ class GeneralizedAlpha final : public Stepper {
       dt = h / 2;
       tangent_by_a_ = solved_h_ = 0;
       stalled_ = true;
-      solvable_ = dt;
-      until_longer_ = steps_until_longer;
       return false;
     }
     next_a_ = rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d;
@@ -76,11 +73,7 @@ class GeneralizedAlpha final : public Stepper {
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
     if (options_.newton_tolerance == 0) choose_tolerance(h);
-    if (until_longer_ > 0 && --until_longer_ == 0) {
-      solvable_ *= 2;
-      if (solvable_ < options_.step) until_longer_ = steps_until_longer;
-    }
-    double next = until_longer_ > 0 ? solvable_ : options_.step;
+    double next = options_.step;
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
       double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
@@ -93,7 +86,7 @@ class GeneralizedAlpha final : public Stepper {
         --calm_;
         factor = std::min(factor, 1.0);
       }
-      next = std::min(next, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
+      next = std::min(options_.step, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
     }
     accept(y, t, h, dissipation);
     dt = next;
@@ -122,8 +115,6 @@ class GeneralizedAlpha final : public Stepper {
     if (crosses_event_) before_event_.exchange(memory);
     memory(motion_);
     memory(calm_);
-    memory(solvable_);
-    memory(until_longer_);
     memory(was_slow_);
     memory(is_smooth_);
     memory(tolerance_);
@@ -163,8 +154,6 @@ class GeneralizedAlpha final : public Stepper {
       was_slow_ = false;
     }
     end_ = main.start_;
-    solvable_ = main.solvable_;
-    until_longer_ = main.until_longer_;
     tolerance_ = main.tolerance_;
     is_smooth_ = main.is_smooth_;
     started_ = true;
@@ -456,8 +445,6 @@ class GeneralizedAlpha final : public Stepper {
   AlphaRule rule_;
   bool started_ = false;
   bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
-  double solvable_ = 0;      ///< [s], a length that Newton could solve, which steps keep
-  int until_longer_ = 0;     ///< for so many more of them
   bool was_slow_ = false;    ///< the tangent kept will be too old in the next step
   bool is_smooth_ = false;   ///< the motion, so that its acceleration is worth carrying on
   bool nearby_ = false;      ///< step_.d and the tangent are of nearly the same step, `solved_h_` long
