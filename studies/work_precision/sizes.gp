@@ -3,6 +3,7 @@ set terminal svg size 1000,460 font "sans-serif,14" enhanced background rgb "whi
 set encoding utf8
 set output output
 set datafile separator comma
+set datafile missing NaN
 set border 3 linewidth 0.8 linecolor rgb "#444444"
 set tics nomirror scale 0.6 textcolor rgb "#222222"
 set grid linewidth 0.5 linecolor rgb "#dddddd" linetype 1
