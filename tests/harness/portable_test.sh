@@ -15,7 +15,7 @@ if [[ -n $called ]]; then
 fi
 # Boost's automatic differentiation has a gamma function for factorials beyond 170, which no order of ours reaches.
 x87_called=$(objdump --disassemble --no-show-raw-insn "$1" |
-  awk -v names="<($x87)@plt>" '/^[0-9a-f]+ </ { caller = $2 } $0 ~ names && caller !~ /gamma_imp/ { print caller, $NF }')
+  awk -v names="<($x87)@plt>" '/^[0-9a-f]+ </ { caller = $2 } /(call|jmp) / && $0 ~ names && caller !~ /gamma_imp/ { print caller, $NF }')
 if [[ -n $x87_called ]]; then
   echo "calls of the x87, whose digits depend on the processor's maker: $x87_called"
   exit 1
