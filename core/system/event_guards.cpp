@@ -42,7 +42,7 @@ enum TravelGuard { nodes_tangle, weight_is_lost };
 constexpr int number(Kind kind) { return static_cast<int>(kind); }
 
 /// Of material coordinates [m].
-double rounding(const Mesh& mesh) {
+double rounding_of(const Mesh& mesh) {
   return 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(mesh.x.front()), std::abs(mesh.x.back()));
 }
 
@@ -100,7 +100,7 @@ void EventGuards<D>::add_joint_guards(std::size_t which, const Eigen::VectorXd& 
   const bool several = beam_.places().size() > 1;
   const int node = beam_.places()[which].node;
   const auto add = [&](Kind kind, double value) {
-    guards.push_back({number(kind), static_cast<int>(which), value, rounding(beam_.mesh()) / unit});
+    guards.push_back({number(kind), static_cast<int>(which), value, rounding_of(beam_.mesh()) / unit});
   };
   const bool to_end = node + 1 == mesh.last(), to_start = node == 1;
   const bool joint_ahead = beam_.at_joint(node + 1), joint_behind = beam_.at_joint(node - 1);
@@ -172,7 +172,7 @@ void EventGuards<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y
       joint_next ? beam_.mark_at(at_start ? which + 1 : which - 1, y, t) : beam_.mark_of(next, y.data());
   const double unit = control.standard_length, length = at_start ? x_next - x : x - x_next;
   const auto add = [&](Kind kind, double value) {
-    guards.push_back({number(kind), static_cast<int>(which), value, rounding(beam_.mesh()) / unit});
+    guards.push_back({number(kind), static_cast<int>(which), value, rounding_of(beam_.mesh()) / unit});
   };
   if (control.enabled) add(at_start ? Kind::backward : Kind::forward, (length - control.trigger_length()) / unit);
   if (beam_.model().transport == WeightTransport::transported) {
@@ -227,7 +227,7 @@ Guards EventGuards<D>::rider_guards(const Eigen::VectorXd& y, double t) const {
       at_end ? beam_.rider()->end - y[beam_.layout().mark()] : y[beam_.layout().mark()] - beam_.rider()->end;
   const bool releases = at_end ? beam_.model().end_releases : beam_.model().start_releases;
   const double least = releases ? beam_.model().joints.front().separation_distance : 0;
-  const double known = rounding(beam_.mesh()) / unit;
+  const double known = rounding_of(beam_.mesh()) / unit;
   return {{number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit, known},
           {number(Kind::away), 0, (distance - cut_limit_) / unit, known}};
 }
