@@ -5,7 +5,7 @@
 
 Prints times, the least of the repeats, in milliseconds: processor time of whole processes, wall time of motions and
 events; with --vs the ratio to the other program, whose runs alternate with these, so that a busy machine slows both.
-All on one thread. --slow adds runs of 1000 to 1000000 elements (10 GB, minutes).
+All on one thread. --slow adds runs of 1000 to 1000000 elements (5 GB, minutes).
 """
 
 import argparse
