@@ -6,14 +6,14 @@
 #include <limits>
 
 #include "core/dynamics/alpha_step.hpp"
+#include "core/dynamics/kept_tangent.hpp"
 #include "core/dynamics/newton_stop.hpp"
+#include "core/dynamics/shorter_steps.hpp"
 #include "core/geometry/elementary.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double old_contraction = 0.2;    // with a tangent that was kept: the next step makes its own
-constexpr double fast_contraction = 1e-3;  // with a tangent of the same step: the next step may keep it
 constexpr double newton_share = 1e-4;      // of a step's own error, that Newton's iteration may leave
 constexpr double first_newton = 1e-8, least_newton = 1e-10, most_newton = 1e-4;  // of an increment
 constexpr double same_step = 0.05;  // relative difference of by_a: the tangent of nearly the same step
@@ -66,6 +66,7 @@ class GeneralizedAlpha final : public Stepper {
       dt = h / 2;
       tangent_by_a_ = solved_h_ = 0;
       stalled_ = true;
+      shorter_.failed(dt);
       return false;
     }
     next_a_ = rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d;
@@ -73,7 +74,8 @@ class GeneralizedAlpha final : public Stepper {
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
     if (options_.newton_tolerance == 0) choose_tolerance(h);
-    double next = options_.step;
+    shorter_.taken(options_.step);
+    double next = shorter_.longest(options_.step);
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
       double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
@@ -86,7 +88,7 @@ class GeneralizedAlpha final : public Stepper {
         --calm_;
         factor = std::min(factor, 1.0);
       }
-      next = std::min(options_.step, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
+      next = std::min(next, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
     }
     accept(y, t, h, dissipation);
     dt = next;
@@ -115,7 +117,8 @@ class GeneralizedAlpha final : public Stepper {
     if (crosses_event_) before_event_.exchange(memory);
     memory(motion_);
     memory(calm_);
-    memory(was_slow_);
+    shorter_.exchange(memory);
+    kept_.exchange(memory);
     memory(is_smooth_);
     memory(tolerance_);
     if (!started_) return;
@@ -151,9 +154,10 @@ class GeneralizedAlpha final : public Stepper {
       motion_ = main.motion_;
       motion_until_event_ = main.motion_until_event_;
       calm_ = main.calm_;
-      was_slow_ = false;
+      kept_ = {};
     }
     end_ = main.start_;
+    shorter_ = main.shorter_;
     tolerance_ = main.tolerance_;
     is_smooth_ = main.is_smooth_;
     started_ = true;
@@ -284,11 +288,10 @@ class GeneralizedAlpha final : public Stepper {
     return off[0] < off[1];
   }
 
-  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. Where the last step
-  /// with a kept tangent was slow, this one starts with its own, unless that was slow, too. `nearby`: its tangent is
+  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. `nearby`: its tangent is
   /// that of nearly this step.
   bool solve(double t, double h, NewtonKind kind, bool nearby, double& dissipation) {
-    const bool renew = was_slow_ && !nearby;
+    const bool renew = kept_.is_old() && !nearby;
     if (renew || std::abs(rule_.by_a(h) - tangent_by_a_) > (nearby ? same_step * rule_.by_a(h) : 0)) tangent_by_a_ = 0;
     const bool starts_fresh = tangent_by_a_ == 0;
     double slowest = 0;  // contraction
@@ -315,7 +318,11 @@ class GeneralizedAlpha final : public Stepper {
       count(stop_.error());
       slowest = std::max(slowest, stop_.contraction());
       if (verdict == NewtonStop::Verdict::done) {
-        was_slow_ = starts_fresh ? slowest > fast_contraction && slowest < slow_contraction : slowest > old_contraction;
+        if (starts_fresh) {
+          kept_.made(slowest);
+        } else if (!nearby) {
+          kept_.kept(slowest, fresh);
+        }
         return true;
       }
       if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(step_.q)) {
@@ -445,7 +452,8 @@ class GeneralizedAlpha final : public Stepper {
   AlphaRule rule_;
   bool started_ = false;
   bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
-  bool was_slow_ = false;    ///< the tangent kept will be too old in the next step
+  ShorterSteps shorter_;     ///< since Newton's iteration failed
+  KeptTangent kept_;
   bool is_smooth_ = false;   ///< the motion, so that its acceleration is worth carrying on
   bool nearby_ = false;      ///< step_.d and the tangent are of nearly the same step, `solved_h_` long
   double solved_h_ = 0;      ///< [s]; 0 for none

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/dynamics/memory.hpp"
+#include "core/dynamics/newton_stop.hpp"
+
+namespace vlbeam {
+
+/// Whether a step of Newton's iteration starts with the tangent of the step before, or makes its own, which costs about
+/// as much as three or four iterations. Where a tangent that was kept proves useless in the very next step, tries
+/// become rare: stiff beams of fine meshes turn by more in a step than any tangent bears.
+class KeptTangent {
+ public:
+  /// The next step makes its own.
+  bool is_old() const { return old_; }
+
+  /// A step started with its own, and its slowest contraction [-] was that.
+  void made(double slowest) {
+    times_kept_ = 0;
+    if (waits_ > 0) --waits_;
+    old_ = waits_ > 0 || (slowest > fast_contraction && slowest < slow_contraction);
+  }
+  /// A step started with the one before's, and went on with it, or had to make its own on the way.
+  void kept(double slowest, bool renewed) {
+    old_ = slowest > old_contraction;
+    if (!renewed && !old_) {
+      ++times_kept_;
+      wait_ = 0;
+      return;
+    }
+    wait_ = times_kept_ == 0 ? std::clamp(2 * wait_, 1, longest_wait) : 0;
+    waits_ = wait_;
+    old_ = old_ || waits_ > 0;
+    times_kept_ = 0;
+  }
+
+  void exchange(Memory& memory) {
+    memory(old_);
+    for (int* number : {&times_kept_, &wait_, &waits_}) memory(*number);
+  }
+
+ private:
+  static constexpr double old_contraction = 0.2;    // the next step makes its own
+  static constexpr double fast_contraction = 1e-3;  // with the step's own: the next step may keep it
+  static constexpr int longest_wait = 32;           // steps
+
+  bool old_ = false;
+  int times_kept_ = 0;  ///< [steps], since it was made
+  int wait_ = 0;        ///< steps that make their own before the next try
+  int waits_ = 0;       ///< so many of them are left
+};
+
+}  // namespace vlbeam
