@@ -34,7 +34,7 @@ def shot(elements):
     scene = falling_beam(elements, steps(1e-3), 0.02)
     length = 0.025 * elements
     scene["beam"]["curve"] = {"type": "line", "start": [0, 0], "end": [length, 0]}
-    scene["sliding_mass"] = {"position": 0.2 * length, "velocity": 25}
+    scene["sliding_mass"] |= {"position": 0.2 * length, "velocity": 25}
     return scene
 
 

@@ -37,15 +37,13 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
-    const Eigen::Index n = system_.coordinates();
-    r_.resize(n);
-    system_.expand(y, step_.base_q, step_.base_v);
-    const double h = dt <= options_.step * (1 + 1e-8) ? dt : options_.step;
-    if (!started_) start(t, h, n);
+    const double h = length(dt);
+    begin(y, t, h);
     start_ = end_;
     const bool prescribed = system_.multipliers() > 0 || system_.driven();
     if (h < shortest_share * options_.step && !stalled_ && prescribed) {
       drift(y, t, h);
+      nearby_ = false;
       dt = options_.step;
       return true;
     }
@@ -74,7 +72,7 @@ class GeneralizedAlpha final : public Stepper {
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
     if (options_.newton_tolerance == 0) choose_tolerance(h);
-    shorter_.taken(options_.step);
+    if (!nearby) shorter_.taken(options_.step);
     double next = shorter_.longest(options_.step);
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
@@ -95,8 +93,18 @@ class GeneralizedAlpha final : public Stepper {
     return true;
   }
 
+  bool extrapolate(const Eigen::VectorXd& y, double t, double dt, double tau, Eigen::VectorXd& there) override {
+    begin(y, t, length(dt));
+    there = y;
+    const Eigen::VectorXd& a = end_.true_acceleration;
+    other_q_ = step_.base_q + tau * (step_.base_v + (tau / 2) * a);
+    other_v_ = step_.base_v + tau * a;
+    system_.contract(other_q_, other_v_, there);
+    return true;
+  }
+
   void reset() override {
-    started_ = false;
+    started_ = nearby_ = false;
     tangent_by_a_ = 0;
   }
 
@@ -200,6 +208,16 @@ class GeneralizedAlpha final : public Stepper {
       for (double* number : {&t, &by.v, &by.a}) memory(*number);
     }
   };
+
+  double length(double dt) const { return dt <= options_.step * (1 + 1e-8) ? dt : options_.step; }
+
+  /// A step from (t, y), of length h.
+  void begin(const Eigen::VectorXd& y, double t, double h) {
+    const Eigen::Index n = system_.coordinates();
+    r_.resize(n);
+    system_.expand(y, step_.base_q, step_.base_v);
+    if (!started_) start(t, h, n);
+  }
 
   void start(double t, double h, Eigen::Index n) {
     end_.true_acceleration.resize(n);

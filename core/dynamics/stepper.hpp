@@ -40,6 +40,12 @@ class Stepper {
   virtual void resume(const Stepper& /*other*/) { reset(); }
   /// The same, where this stepper's last step was from the same start, and nearly as long as the next one will be.
   virtual void resume_nearby(const Stepper& other) { resume(other); }
+  /// Writes where the solution goes from (t, y) in a time `tau` of a next step of `dt`, as far as accelerations tell.
+  /// Returns false where the method does not know them.
+  virtual bool extrapolate(const Eigen::VectorXd& /*y*/, double /*t*/, double /*dt*/, double /*tau*/,
+                           Eigen::VectorXd& /*there*/) {
+    return false;
+  }
   /// Writes or reads what it keeps from one step to the next. Not between a failed step and its repetition.
   virtual void exchange(Memory& memory) = 0;
 };

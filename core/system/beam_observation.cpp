@@ -4,9 +4,12 @@
 
 namespace vlbeam {
 
-template <int D>
-void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
-                      Observation<D>& seen) {
+namespace {
+
+/// Calls add(observer, element, nodes of its rest shape or null) for these elements, and adds point masses on them.
+template <int D, class Add>
+void at_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
+                 Observation<D>& seen, const Add& add) {
   const BeamSection section = beam.model().axis_section();
   const Observer<D> observer(section, beam.gravity(t), beam_rule(points, beam.model().axial_strain),
                              beam.model().rotary.present() ? &beam.model().rotary : nullptr);
@@ -16,9 +19,9 @@ void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, in
                                               chain.mesh.weights[static_cast<std::size_t>(k)]);
     if (chain.curved_at_rest()) {
       const NodalCubic<double, D> rest = chain.rest_nodes(k);
-      observer.add(element, &rest, seen);
+      add(observer, element, &rest);
     } else {
-      observer.add(element, nullptr, seen);
+      add(observer, element, nullptr);
     }
   }
   for (const PointMass& point : beam.model().masses.points) {
@@ -27,6 +30,26 @@ void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, in
     const auto at = motion_at(chain, k, point.x, beam.model().transport);
     seen.add_mass(point.mass, at.r, at.v, beam.gravity(t));
   }
+}
+
+}  // namespace
+
+template <int D>
+void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
+                      Observation<D>& seen) {
+  at_elements(beam, chain, first, last, t, points, seen,
+              [&](const Observer<D>& observer, const MovingKinematics<double, D>& element,
+                  const NodalCubic<double, D>* rest) { observer.add(element, rest, seen); });
+}
+
+template <int D>
+Energy energies_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
+                            int points) {
+  Observation<D> seen;
+  at_elements(beam, chain, first, last, t, points, seen,
+              [&](const Observer<D>& observer, const MovingKinematics<double, D>& element,
+                  const NodalCubic<double, D>* rest) { observer.add_energies(element, rest, seen); });
+  return seen.energy;
 }
 
 template <int D>
@@ -68,8 +91,10 @@ Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y
 }
 
 template void observe_elements(const CurrentBeam<2>&, const ChainState<2>&, int, int, double, int, Observation<2>&);
+template Energy energies_of_elements(const CurrentBeam<2>&, const ChainState<2>&, int, int, double, int);
 template Observation<2> observe_beam(const CurrentBeam<2>&, const Eigen::VectorXd&, double, int, bool);
 template void observe_elements(const CurrentBeam<3>&, const ChainState<3>&, int, int, double, int, Observation<3>&);
+template Energy energies_of_elements(const CurrentBeam<3>&, const ChainState<3>&, int, int, double, int);
 template Observation<3> observe_beam(const CurrentBeam<3>&, const Eigen::VectorXd&, double, int, bool);
 
 }  // namespace vlbeam

@@ -11,6 +11,11 @@ template <int D>
 void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
                       Observation<D>& seen);
 
+/// Energies alone of the same.
+template <int D>
+Energy energies_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
+                            int points);
+
 /// Energies, momenta and length of the whole at the state y, but for the work of gravity that grows.
 template <int D>
 Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y, double t, int points, bool strains);

@@ -89,10 +89,8 @@ template <int D>
 Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, const ChainState<D>& after,
                    const EventReach& reach, double t, int points) {
   const int more = after.mesh.elements() - before.mesh.elements();
-  Observation<D> was, is;
-  observe_elements(beam, before, reach.lowest, reach.highest, t, points, was);
-  observe_elements(beam, after, reach.lowest, reach.highest + more, t, points, is);
-  Energy jump = is.energy - was.energy;
+  Energy jump = energies_of_elements(beam, after, reach.lowest, reach.highest + more, t, points) -
+                energies_of_elements(beam, before, reach.lowest, reach.highest, t, points);
 
   const BeamModel<D>& model = beam.model();
   const KineticChange<D> change(model, before, after, points);

@@ -8,7 +8,8 @@ Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity,
     : section_(section), sections_(section), gravity_(gravity), polynomial_(rule, unit_weights), rotary_(rotary) {}
 
 template <int D>
-void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
+template <bool energies_alone>
+void Observer<D>::sum(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
                       Observation<D>& seen) const {
   struct Seen {
     PointMotion<double, D> at;
@@ -28,7 +29,7 @@ void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCub
     const BeamSection& section = sections_[point.feels];
     const double wl = point.weight, mass = wl * section.rhoA;
     const auto& at = look.at;
-    if (seen.extremes) add_strains(look, point.feels);
+    if (!energies_alone && seen.extremes) add_strains(look, point.feels);
     if (rest != nullptr) {
       const RestStress<double, D> stress(at.r_x, at.r_xx, look.strain, section);
       seen.energy.axial += wl * stress.axial;
@@ -44,6 +45,7 @@ void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCub
       seen.energy.kinetic += 0.5 * wl * rotary_->rhoJ * rotary_->across(at.v_x).squaredNorm();
     }
     seen.energy.gravity -= mass * gravity_.dot(at.r);
+    if constexpr (energies_alone) return;
     seen.mass += mass;
     seen.momentum += mass * at.v;
     seen.angular_momentum += mass * moment_about_origin<D>(at.r, at.v);
@@ -60,7 +62,7 @@ void Observer<D>::add(const MovingKinematics<double, D>& element, const NodalCub
   } else {
     for_each_point(element, ShapeTabulation(polynomial_.rule, element.weights()), false, none, see, visit);
   }
-  if (!seen.extremes) return;
+  if (energies_alone || !seen.extremes) return;
   for (const double u : {0.0, 1.0}) add_strains(see(u, rational_shape(element.weights(), u)), Feels::everything);
 }
 

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "core/dynamics/side_stepper.hpp"
+
+namespace vlbeam {
+
+struct LocatedEvent {
+  enum class Where { start, inside, end };  ///< of the step
+
+  int index = -1;
+  double t = 0;
+  Eigen::VectorXd y;  ///< unless it is at the end of the step
+  Where where = Where::inside;
+};
+
+/// One step of the main stepper, in which events are looked for.
+struct WholeStep {
+  double t0;
+  const Eigen::VectorXd& y0;
+  double t1;
+  const Eigen::VectorXd& y1;
+};
+
+/// Finds what happens in a step.
+class EventSearch {
+ public:
+  EventSearch(EventedOde& ode, const Stepper& main, SideStepper& side, const IntegrationOptions& options)
+      : ode_(ode), main_(main), side_(side), options_(options) {}
+
+  /// The first event in the step, or index -1. Unless events are to be located its time is the end of the step. Throws
+  /// SideStepUnderflow where the step is too long to be looked into.
+  LocatedEvent first(const WholeStep& step);
+
+  /// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, an
+  /// interpolant has to do: a sample must not change the way of the run.
+  Eigen::VectorXd at(const WholeStep& step, double t);
+
+ private:
+  EventedOde& ode_;
+  const Stepper& main_;
+  SideStepper& side_;
+  const IntegrationOptions& options_;
+};
+
+/// Lets a step end at the event in it, where that can be foreseen: a whole step, which shows that there is one, and the
+/// steps of another stepper that locate it need not be taken.
+class EventAim {
+ public:
+  EventAim(EventedOde& ode, Stepper& main, const IntegrationOptions& options)
+      : ode_(ode), main_(main), takes_aim_(options.locate_events) {}
+
+  /// How long the next step from (t, y) is to be, of at most `dt`: up to the first event that is expected in it, or dt.
+  double take(const Eigen::VectorXd& y, double t, double dt);
+  /// Whether the last call of take() has found an event to aim at.
+  bool aims() const { return guard_ >= 0; }
+
+  /// Repeats the step from (t0, y0), which ended at (t, y), until it ends at the event that was aimed at, or that it has
+  /// just passed. False where there is none, where another one is due there, or where it turns out that it is not
+  /// within `longest` of the start. Throws SideStepUnderflow where the step cannot be repeated.
+  bool hits(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t);
+
+  /// The event that was hit.
+  int guard() const { return guard_; }
+  /// Guards are others from now on.
+  void forget() { known_.clear(); }
+
+ private:
+  bool all_stay_behind(const Guards& now, double t, double dt) const;
+  void aim_at_what_has_passed(const Guards& then, double t);
+
+  EventedOde& ode_;
+  Stepper& main_;
+  bool takes_aim_;
+  bool repeats_ = false;  ///< the method can, and knows accelerations
+  Guards known_;  ///< at the start of the last step
+  double known_t_ = 0;
+  int guard_ = -1;
+  double slope_ = 0;  ///< [1/s], of that guard where it turns
+  Eigen::VectorXd ahead_;
+};
+
+}  // namespace vlbeam
