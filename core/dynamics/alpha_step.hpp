@@ -3,7 +3,10 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "core/dynamics/memory.hpp"
+#include "core/dynamics/tallies.hpp"
 #include "core/pieces.hpp"
+#include "core/tangent_weights.hpp"
 
 namespace vlbeam {
 
@@ -68,6 +71,42 @@ struct AlphaStep {
     q.segment(first, count) = base_q.segment(first, count) + (h * base_v.segment(first, count) + increment);
     v.segment(first, count) = predicted_v.segment(first, count) + rule.by_v(h) * increment;
     a.segment(first, count) = predicted_a.segment(first, count) + rule.by_a(h) * increment;
+  }
+};
+
+/// What a step leaves to the next one.
+struct StepEnd {
+  Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
+  Eigen::VectorXd a;                  ///< the method's own acceleration
+  double h = 0;                       ///< [s], length of the step that `a` belongs to
+  Tally power;                        ///< [W]
+
+  void exchange(Memory& memory) {
+    memory(true_acceleration);
+    memory(a);
+    memory(h);
+    power.exchange(memory);
+  }
+};
+
+/// What the factored tangent was made at: it may be steps old.
+struct TangentPoint {
+  Eigen::VectorXd q, v, a;
+  double t = 0;
+  TangentWeights by{1, 0, 0};
+
+  /// Allocates nothing once the sizes are known.
+  void set(const Eigen::VectorXd& q_, const Eigen::VectorXd& v_, const Eigen::VectorXd& a_, double t_,
+           const TangentWeights& by_) {
+    q = q_;
+    v = v_;
+    a = a_;
+    t = t_;
+    by = by_;
+  }
+  void exchange(Memory& memory) {
+    for (Eigen::VectorXd* vector : {&q, &v, &a}) memory(*vector);
+    for (double* number : {&t, &by.v, &by.a}) memory(*number);
   }
 };
 

@@ -64,8 +64,8 @@ double interpolated_root(EventedOde& ode, Interpolant& interpolant, const WholeS
 
 /// Root of guard `k` by steps of the main stepper's own method. The interpolant gives the first guess `tau` and the
 /// slope, so that two or three steps do; the secant is kept in a bracket, and bisects where it leaves it.
-LocatedEvent locate(EventedOde& ode, SideStepper& side, const Stepper& main, const WholeStep& step, Interpolant& interpolant,
-               double tau, std::size_t k) {
+LocatedEvent locate(EventedOde& ode, SideStepper& side, const Stepper& main, const WholeStep& step,
+                    Interpolant& interpolant, double tau, std::size_t k) {
   auto interpolated = [&](double at) { return ode.guards(interpolant(at), step.t0 + at)[k].value; };
   const double h = step.t1 - step.t0;
   double low = 0, high = h;
@@ -171,9 +171,9 @@ double EventAim::take(const Eigen::VectorXd& y, double t, double dt) {
     if (!is_due(then[k])) continue;
     if (now[k].value >= -std::max(guard_tolerance, now[k].rounding)) return guard_ = -1, dt;  // due at the start
     std::uintmax_t evaluations = 12;
-    const auto [low, high] = boost::math::tools::toms748_solve(
-        [&](double tau) { return foreseen(k, tau); }, 0.0, dt, now[k].value, then[k].value,
-        boost::math::tools::eps_tolerance<double>(16), evaluations);
+    const auto [low, high] =
+        boost::math::tools::toms748_solve([&](double tau) { return foreseen(k, tau); }, 0.0, dt, now[k].value,
+                                          then[k].value, boost::math::tools::eps_tolerance<double>(16), evaluations);
     const double tau = (low + high) / 2;
     if (tau > first - same_instant * dt) continue;
     first = tau;
@@ -186,6 +186,15 @@ double EventAim::take(const Eigen::VectorXd& y, double t, double dt) {
   if (first > shortest_aim * dt && slope_ > 0) return first;
   guard_ = -1;
   return dt;
+}
+
+void EventAim::exchange(Memory& memory) {
+  memory(repeats_);
+  memory(known_t_);
+  std::size_t count = known_.size();
+  memory(count);
+  known_.resize(count);
+  for (Guard& guard : known_) memory(guard.value);
 }
 
 void EventAim::aim_at_what_has_passed(const Guards& then, double t) {

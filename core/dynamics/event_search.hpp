@@ -54,8 +54,8 @@ class EventAim {
   /// Whether the last call of take() has found an event to aim at.
   bool aims() const { return guard_ >= 0; }
 
-  /// Repeats the step from (t0, y0), which ended at (t, y), until it ends at the event that was aimed at, or that it has
-  /// just passed. False where there is none, where another one is due there, or where it turns out that it is not
+  /// Repeats the step from (t0, y0), which ended at (t, y), until it ends at the event that was aimed at, or that it
+  /// has just passed. False where there is none, where another one is due there, or where it turns out that it is not
   /// within `longest` of the start. Throws SideStepUnderflow where the step cannot be repeated.
   bool hits(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t);
 
@@ -63,6 +63,8 @@ class EventAim {
   int guard() const { return guard_; }
   /// Guards are others from now on.
   void forget() { known_.clear(); }
+
+  void exchange(Memory& memory);
 
  private:
   bool all_stay_behind(const Guards& now, double t, double dt) const;
@@ -72,7 +74,7 @@ class EventAim {
   Stepper& main_;
   bool takes_aim_;
   bool repeats_ = false;  ///< the method can, and knows accelerations
-  Guards known_;  ///< at the start of the last step
+  Guards known_;          ///< at the start of the last step
   double known_t_ = 0;
   int guard_ = -1;
   double slope_ = 0;  ///< [1/s], of that guard where it turns

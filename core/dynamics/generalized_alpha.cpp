@@ -14,7 +14,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr double newton_share = 1e-4;      // of a step's own error, that Newton's iteration may leave
+constexpr double newton_share = 1e-4;  // of a step's own error, that Newton's iteration may leave
 constexpr double first_newton = 1e-8, least_newton = 1e-10, most_newton = 1e-4;  // of an increment
 constexpr double same_step = 0.05;  // relative difference of by_a: the tangent of nearly the same step
 constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
@@ -174,41 +174,6 @@ class GeneralizedAlpha final : public Stepper {
   }
 
  private:
-  struct StepEnd {
-    Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
-    Eigen::VectorXd a;                  ///< the method's own acceleration
-    double h = 0;                       ///< [s], length of the step that `a` belongs to
-    Tally power;                        ///< [W]
-
-    void exchange(Memory& memory) {
-      memory(true_acceleration);
-      memory(a);
-      memory(h);
-      power.exchange(memory);
-    }
-  };
-
-  /// What the factored tangent was made at: it may be steps old.
-  struct TangentPoint {
-    Eigen::VectorXd q, v, a;
-    double t = 0;
-    TangentWeights by{1, 0, 0};
-
-    /// Allocates nothing once the sizes are known.
-    void set(const Eigen::VectorXd& q_, const Eigen::VectorXd& v_, const Eigen::VectorXd& a_, double t_,
-             const TangentWeights& by_) {
-      q = q_;
-      v = v_;
-      a = a_;
-      t = t_;
-      by = by_;
-    }
-    void exchange(Memory& memory) {
-      for (Eigen::VectorXd* vector : {&q, &v, &a}) memory(*vector);
-      for (double* number : {&t, &by.v, &by.a}) memory(*number);
-    }
-  };
-
   double length(double dt) const { return dt <= options_.step * (1 + 1e-8) ? dt : options_.step; }
 
   /// A step from (t, y), of length h.
@@ -306,8 +271,8 @@ class GeneralizedAlpha final : public Stepper {
     return off[0] < off[1];
   }
 
-  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. `nearby`: its tangent is
-  /// that of nearly this step.
+  /// Newton's iteration for the end of the step, from the predictor. Returns false where it stalls. `nearby`: its
+  /// tangent is that of nearly this step.
   bool solve(double t, double h, NewtonKind kind, bool nearby, double& dissipation) {
     const bool renew = kept_.is_old() && !nearby;
     if (renew || std::abs(rule_.by_a(h) - tangent_by_a_) > (nearby ? same_step * rule_.by_a(h) : 0)) tangent_by_a_ = 0;
@@ -469,8 +434,8 @@ class GeneralizedAlpha final : public Stepper {
   NewtonCounters* counters_;
   AlphaRule rule_;
   bool started_ = false;
-  bool stalled_ = false;     ///< Newton's iteration has asked for the shorter step
-  ShorterSteps shorter_;     ///< since Newton's iteration failed
+  bool stalled_ = false;  ///< Newton's iteration has asked for the shorter step
+  ShorterSteps shorter_;  ///< since Newton's iteration failed
   KeptTangent kept_;
   bool is_smooth_ = false;   ///< the motion, so that its acceleration is worth carrying on
   bool nearby_ = false;      ///< step_.d and the tangent are of nearly the same step, `solved_h_` long

@@ -13,8 +13,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr double whole_step = 1e-9;   // no step for what rounding leaves of the run
-constexpr int longest_cascade = 8;    // events at one instant
+constexpr double whole_step = 1e-9;    // no step for what rounding leaves of the run
+constexpr int longest_cascade = 8;     // events at one instant
 constexpr int most_looks_beyond = 10;  // steps beyond the end of the run: there may be nothing behind it
 
 double first_step(const IntegrationOptions& options) {
@@ -143,6 +143,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     memory(looks_beyond);
     counters.exchange(memory);
     stepper->exchange(memory);
+    aim.exchange(memory);
     side.exchange(memory);
   };
   if (checkpoints != nullptr && checkpoints->from) {

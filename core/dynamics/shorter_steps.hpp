@@ -16,11 +16,13 @@ class ShorterSteps {
   /// A step failed, and `half` of it is tried next.
   void failed(double half) {
     solvable_ = half;
-    wait_ = std::clamp(2 * wait_, least_wait, most_wait);
+    if (!failed_) wait_ = std::clamp(2 * wait_, least_wait, most_wait);  // halvings in a row are one failure
+    failed_ = true;
     left_ = wait_;
   }
   /// A step was taken: after some of them twice the length is tried, up to `whole`.
   void taken(double whole) {
+    failed_ = false;
     if (left_ == 0 || --left_ > 0) return;
     if (solvable_ < whole) {
       solvable_ *= 2;
@@ -32,6 +34,7 @@ class ShorterSteps {
 
   void exchange(Memory& memory) {
     memory(solvable_);
+    memory(failed_);
     memory(wait_);
     memory(left_);
   }
@@ -39,6 +42,7 @@ class ShorterSteps {
  private:
   static constexpr int least_wait = 4, most_wait = 64;  // steps
 
+  bool failed_ = false;  ///< the last step did
   double solvable_ = 0;  ///< [s], for so many steps:
   int left_ = 0;
   int wait_ = 0;  ///< steps of one length, before a longer one is tried

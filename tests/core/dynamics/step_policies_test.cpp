@@ -31,6 +31,12 @@ TEST(ShorterSteps, StayLongerWhereWholeOnesFailAgain) {
   EXPECT_EQ(until_whole(steps, 1).size(), 65U);
 }
 
+TEST(ShorterSteps, TakeHalvingsInARowForOneFailure) {
+  ShorterSteps steps;
+  for (const double half : {0.5, 0.25, 0.125}) steps.failed(half);
+  EXPECT_EQ(until_whole(steps, 0.125).size(), 4U * 4 + 1);
+}
+
 TEST(ShorterSteps, ForgetOnceWholeStepsHaveGoneOn) {
   ShorterSteps steps;
   until_whole(steps, 1);
