@@ -19,7 +19,7 @@ constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int most_repetitions = 6;        // of a step that is aimed at an event
 constexpr double shortest_aim = 1e-6;      // of the whole step
 constexpr double just_passed = 0.02;       // of the step
-constexpr double same_instant = 1e-9;      // of the whole step: events of two joints by symmetry, in their order
+constexpr double same_instant = 1e-4;      // of the whole step: what is foreseen is not known better
 
 /// Near enough to its root, in the attempt `i`.
 bool is_at_root(const Guard& guard, int i) {
@@ -153,7 +153,7 @@ bool EventAim::all_stay_behind(const Guards& now, double t, double dt) const {
 
 double EventAim::take(const Eigen::VectorXd& y, double t, double dt) {
   guard_ = -1;
-  if (!takes_aim_) return dt;
+  if (!takes_aim_ || t == missed_from_) return dt;
   const Guards now = ode_.guards(y, t);
   const bool behind = all_stay_behind(now, t, dt);
   known_ = now;
@@ -198,7 +198,7 @@ void EventAim::exchange(Memory& memory) {
 }
 
 void EventAim::aim_at_what_has_passed(const Guards& then, double t) {
-  if (!repeats_ || known_.size() != then.size()) return;
+  if (!repeats_ || known_t_ == missed_from_ || known_.size() != then.size()) return;
   const auto due = std::ranges::find_if(then, is_due);
   if (due == then.end()) return;
   const auto k = due - then.begin();
@@ -208,29 +208,38 @@ void EventAim::aim_at_what_has_passed(const Guards& then, double t) {
   slope_ = rise / (t - known_t_);
 }
 
-bool EventAim::hits(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t) {
+EventAim::Shot EventAim::shoot(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t) {
   double last_t = 0, last_value = 0;
   for (int i = 0; i < most_repetitions; ++i) {
     const Guards guards = ode_.guards(y, t);
     if (guard_ < 0) aim_at_what_has_passed(guards, t);
-    if (guard_ < 0) return false;
-    for (std::size_t k = 0; k < guards.size(); ++k) {
-      if (static_cast<int>(k) != guard_ && is_due(guards[k])) return false;
+    if (guard_ < 0) return Shot::none;
+    const auto k = static_cast<std::size_t>(guard_);
+    const Guard& guard = guards[k];
+    if (is_at_root(guard, i) || guard.value < 0) {
+      bool is_first = true;
+      for (std::size_t other = 0; other < guards.size(); ++other)
+        is_first = is_first && (other == k || !is_due(guards[other]));
+      if (!is_first) break;
+      if (is_at_root(guard, i)) return Shot::hit;
     }
-    const Guard& guard = guards[static_cast<std::size_t>(guard_)];
-    if (is_at_root(guard, i)) return true;
     if (i > 0) slope_ = (guard.value - last_value) / (t - last_t);
     last_t = t;
     last_value = guard.value;
     const double next = t - guard.value / slope_ - t0;
-    if (!(next > 0 && next <= longest)) return false;
+    if (!(next > 0 && next <= longest)) break;
     main_.resume_nearby(main_);
     y = y0;
     t = t0;
     double dt = next;
-    if (!main_.try_step(ode_, y, t, dt) || !y.allFinite()) throw SideStepUnderflow{t0, 0};
+    if (!main_.try_step(ode_, y, t, dt) || !y.allFinite()) break;
   }
-  return false;
+  missed_from_ = t0;
+  guard_ = -1;
+  main_.resume(main_);
+  y = y0;
+  t = t0;
+  return Shot::missed;
 }
 
 }  // namespace vlbeam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/dynamics/side_stepper.hpp"
 
 namespace vlbeam {
@@ -54,10 +56,15 @@ class EventAim {
   /// Whether the last call of take() has found an event to aim at.
   bool aims() const { return guard_ >= 0; }
 
+  enum class Shot {
+    none,    ///< nothing to aim at
+    hit,     ///< the step ends at the event
+    missed,  ///< (t, y) is where it started: it is to be taken again, whole, and no aim is taken then
+  };
   /// Repeats the step from (t0, y0), which ended at (t, y), until it ends at the event that was aimed at, or that it
-  /// has just passed. False where there is none, where another one is due there, or where it turns out that it is not
-  /// within `longest` of the start. Throws SideStepUnderflow where the step cannot be repeated.
-  bool hits(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t);
+  /// has just passed. It misses where another one comes before, where that one turns out not to be within `longest` of
+  /// the start, and where the step cannot be repeated.
+  Shot shoot(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t);
 
   /// The event that was hit.
   int guard() const { return guard_; }
@@ -76,6 +83,7 @@ class EventAim {
   bool repeats_ = false;  ///< the method can, and knows accelerations
   Guards known_;          ///< at the start of the last step
   double known_t_ = 0;
+  double missed_from_ = std::numeric_limits<double>::quiet_NaN();  ///< [s], no time before the first one
   int guard_ = -1;
   double slope_ = 0;  ///< [1/s], of that guard where it turns
   Eigen::VectorXd ahead_;

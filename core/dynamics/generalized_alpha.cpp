@@ -44,6 +44,7 @@ class GeneralizedAlpha final : public Stepper {
     if (h < shortest_share * options_.step && !stalled_ && prescribed) {
       drift(y, t, h);
       nearby_ = false;
+      solved_h_ = 0;
       dt = options_.step;
       return true;
     }
@@ -72,7 +73,7 @@ class GeneralizedAlpha final : public Stepper {
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
     if (options_.newton_tolerance == 0) choose_tolerance(h);
-    if (!nearby) shorter_.taken(options_.step);
+    if (!nearby) shorter_.taken(h, options_.step);
     double next = shorter_.longest(options_.step);
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
@@ -105,6 +106,7 @@ class GeneralizedAlpha final : public Stepper {
 
   void reset() override {
     started_ = nearby_ = false;
+    solved_h_ = 0;
     tangent_by_a_ = 0;
   }
 

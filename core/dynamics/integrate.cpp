@@ -191,10 +191,15 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     }
     if (last && !beyond && !aim.aims()) t = t_end;
 
+    const EventAim::Shot shot = aim.shoot(before, t_before, whole, y, t);
+    if (shot == EventAim::Shot::missed) {
+      dt = whole;
+      if (beyond) ++looks_beyond;
+      continue;
+    }
+    const bool hit = shot == EventAim::Shot::hit;
     LocatedEvent event;
-    bool hit = false;
     try {
-      hit = aim.hits(before, t_before, whole, y, t);
       if (hit) {
         event = {aim.guard(), t, {}, LocatedEvent::Where::end};
       } else {

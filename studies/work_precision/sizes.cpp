@@ -50,18 +50,20 @@ void compare_sizes(StudyReport& report, const StudyContext& context) {
                             1e9 * result.timing.motion / (evaluations * elements),
                             1e3 * result.timing.length_control / std::max(events, 1.0)});
       if (threads != 1) continue;
-      const auto tangents = static_cast<double>(result.solver.newton.tangents);
+      // at an element a step rounding decides in which step an event falls, and so how many steps there are
+      const auto tangents = static_cast<double>(result.solver.newton.tangents),
+                 steps = static_cast<double>(result.solver.steps);
       work.rows.push_back({elements, result.solver.steps, result.events.size(), result.solver.rhs_evaluations,
                            result.solver.newton.iterations, result.solver.newton.tangents});
       if (elements == counts.front()) {
-        first_evaluations = evaluations;
-        first_tangents = tangents;
+        first_evaluations = evaluations / steps;
+        first_tangents = tangents / steps;
       }
       const std::string of = "sizes/N" + std::to_string(elements);
       report.measured[of + "/evaluations"] = evaluations;
       report.measured[of + "/tangents"] = tangents;
-      report.measured["sizes/growth/evaluations"] = evaluations / first_evaluations;
-      report.measured["sizes/growth/tangents"] = tangents / first_tangents;
+      report.measured["sizes/growth/evaluations"] = evaluations / steps / first_evaluations;
+      report.measured["sizes/growth/tangents"] = tangents / steps / first_tangents;
     }
   }
   report.tables.push_back(work);

@@ -60,6 +60,31 @@ TEST(SceneLibrary, EverySceneHasAnAnswer) {
   }
 }
 
+// Steps as long as these miss events that they foresee, and are taken again.
+TEST(SceneLibrary, EventsDoNotDependOnTheEndOfTheRun) {
+  for (const std::string name : {"semicircle", "ring", "suspended_beam", "falling_beam"}) {
+    for (const double accuracy : {0.003, 0.01}) {
+      Json json = parse_json(read_text(source / "scenes" / (name + ".json")));
+      json["integrator"] = {{"accuracy", accuracy}};
+      Scene scene = scene_from_json(json);
+      const RunResult whole = simulate(scene);
+      ASSERT_FALSE(whole.events.empty());
+      for (std::size_t i = 0; i < whole.events.size(); ++i) {
+        const double there = whole.events[i].t,
+                     next = i + 1 < whole.events.size() ? whole.events[i + 1].t : scene.duration;
+        if (next == there) continue;
+        Scene part = scene;
+        part.duration = there + 0.1 * (next - there);
+        std::erase_if(part.output.configurations, [&](double t) { return t > part.duration; });
+        const RunResult result = simulate(part);
+        ASSERT_EQ(result.events.size(), i + 1) << name << " " << accuracy << " " << part.duration;
+        EXPECT_EQ(result.events.back().t, there) << name << " " << accuracy;
+        EXPECT_EQ(result.events.back().type, whole.events[i].type);
+      }
+    }
+  }
+}
+
 TEST(SceneLibrary, NamesTheNearest) {
   try {
     library_scene_text(source / "scenes", "falling-baem");

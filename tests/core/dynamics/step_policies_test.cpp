@@ -8,40 +8,40 @@
 namespace vlbeam::test {
 namespace {
 
-/// Lengths of steps that are all solved from `tried` on, in units of the whole one, until one is whole.
+/// Lengths of steps from one that was `tried` in vain to before the next one that is whole, 1.
 std::vector<double> until_whole(ShorterSteps& steps, double tried) {
-  steps.failed(tried / 2);
-  std::vector<double> lengths{tried / 2};
-  for (steps.taken(1); lengths.back() < 1; steps.taken(1)) lengths.push_back(steps.longest(1));
+  std::vector<double> lengths;
+  double h = tried / 2;
+  for (steps.failed(h); h < 1; h = steps.longest(1)) {
+    lengths.push_back(h);
+    steps.taken(h, 1);
+  }
   return lengths;
 }
 
-TEST(ShorterSteps, DoubleAfterFourOfALength) {
+TEST(ShorterSteps, AreWholeAtOnceBehindOneFailure) {
   ShorterSteps steps;
   EXPECT_EQ(steps.longest(1), 1);
-  EXPECT_EQ(until_whole(steps, 0.5), (std::vector<double>{0.25, 0.25, 0.25, 0.25, 0.5, 0.5, 0.5, 0.5, 1}));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(until_whole(steps, 1), std::vector<double>{0.5});
+    steps.taken(1, 1);
+  }
 }
 
 TEST(ShorterSteps, StayLongerWhereWholeOnesFailAgain) {
   ShorterSteps steps;
-  EXPECT_EQ(until_whole(steps, 1).size(), 5U);
-  EXPECT_EQ(until_whole(steps, 1).size(), 9U);
-  EXPECT_EQ(until_whole(steps, 1).size(), 17U);
-  for (int i = 0; i < 10; ++i) until_whole(steps, 1);
-  EXPECT_EQ(until_whole(steps, 1).size(), 65U);
+  std::vector<std::size_t> counts;
+  for (int i = 0; i < 7; ++i) counts.push_back(until_whole(steps, 1).size());
+  EXPECT_EQ(counts, (std::vector<std::size_t>{1, 4, 8, 16, 32, 64, 64}));
+  steps.taken(1, 1);
+  EXPECT_EQ(until_whole(steps, 1).size(), 1U);
 }
 
-TEST(ShorterSteps, TakeHalvingsInARowForOneFailure) {
-  ShorterSteps steps;
-  for (const double half : {0.5, 0.25, 0.125}) steps.failed(half);
-  EXPECT_EQ(until_whole(steps, 0.125).size(), 4U * 4 + 1);
-}
-
-TEST(ShorterSteps, ForgetOnceWholeStepsHaveGoneOn) {
+TEST(ShorterSteps, DoubleAfterSomeOfALength) {
   ShorterSteps steps;
   until_whole(steps, 1);
-  for (int i = 0; i < 4; ++i) steps.taken(1);
-  EXPECT_EQ(until_whole(steps, 1).size(), 5U);
+  steps.failed(0.5);  // halvings in a row are one failure
+  EXPECT_EQ(until_whole(steps, 0.5), (std::vector<double>{0.25, 0.25, 0.25, 0.25, 0.5, 0.5, 0.5, 0.5}));
 }
 
 TEST(KeptTangent, IsTriedMoreAndMoreRarelyWhileItFailsAtOnce) {
