@@ -51,7 +51,8 @@ TEST(AimedSteps, EndAtTheEvent) {
 }
 
 TEST(AimedSteps, EndAtTheFirstOfTwo) {
-  for (const auto& [first, second] : {std::pair{0.512, 0.537}, {0.537, 0.512}, {0.512, 0.5121}}) {
+  for (const auto& times : {std::pair{0.512, 0.537}, {0.537, 0.512}, {0.512, 0.5121}}) {
+    const double first = times.first, second = times.second;
     Outcome run;
     run.ode.guard = [&run, first](const Eigen::VectorXd&, double t) {
       return std::ranges::count(run.ode.events, 0, &FunctionOde::EventSeen::index) > 0 ? -1 : t - first;
