@@ -191,10 +191,11 @@ double EventAim::take(const Eigen::VectorXd& y, double t, double dt) {
 void EventAim::exchange(Memory& memory) {
   memory(repeats_);
   memory(known_t_);
-  std::size_t count = known_.size();
-  memory(count);
-  known_.resize(count);
-  for (Guard& guard : known_) memory(guard.value);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(known_.size()));
+  for (std::size_t k = 0; k < known_.size(); ++k) values[static_cast<Eigen::Index>(k)] = known_[k].value;
+  memory(values);
+  known_.resize(static_cast<std::size_t>(values.size()));
+  for (std::size_t k = 0; k < known_.size(); ++k) known_[k].value = values[static_cast<Eigen::Index>(k)];
 }
 
 void EventAim::aim_at_what_has_passed(const Guards& then, double t) {
@@ -218,8 +219,9 @@ EventAim::Shot EventAim::shoot(const Eigen::VectorXd& y0, double t0, double long
     const Guard& guard = guards[k];
     if (is_at_root(guard, i) || guard.value < 0) {
       bool is_first = true;
-      for (std::size_t other = 0; other < guards.size(); ++other)
+      for (std::size_t other = 0; other < guards.size(); ++other) {
         is_first = is_first && (other == k || !is_due(guards[other]));
+      }
       if (!is_first) break;
       if (is_at_root(guard, i)) return Shot::hit;
     }
