@@ -46,7 +46,7 @@ TEST(AimedSteps, EndAtTheEvent) {
   EXPECT_LE(bouncing.largest_miss, 1e-12);
   EXPECT_NEAR(bouncing.state[0], std::cos(10 - 8 * std::acos(0.3)), 1e-2);
   // a step to the event, and two like it; neither the whole step nor those of another stepper
-  EXPECT_LE(bouncing.ode.residuals, free.ode.residuals + 12 * 4);
+  EXPECT_LE(bouncing.ode.residuals, free.ode.residuals + 7 * 4);
   EXPECT_EQ(bouncing.counters.smallest_step, 0.05);
 }
 
