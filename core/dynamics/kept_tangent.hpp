@@ -17,7 +17,7 @@ class KeptTangent {
 
   /// A step started with its own, and its slowest contraction [-] was that.
   void made(double slowest) {
-    times_kept_ = 0;
+    served_ = false;
     if (waits_ > 0) --waits_;
     old_ = waits_ > 0 || (slowest > fast_contraction && slowest < slow_contraction);
   }
@@ -25,19 +25,19 @@ class KeptTangent {
   void kept(double slowest, bool renewed) {
     old_ = slowest > old_contraction;
     if (!renewed && !old_) {
-      ++times_kept_;
+      served_ = true;
       wait_ = 0;
       return;
     }
-    wait_ = times_kept_ == 0 ? std::clamp(2 * wait_, 1, longest_wait) : 0;
+    wait_ = served_ ? 0 : std::clamp(2 * wait_, 1, longest_wait);
     waits_ = wait_;
     old_ = old_ || waits_ > 0;
-    times_kept_ = 0;
+    served_ = false;
   }
 
   void exchange(Memory& memory) {
-    memory(old_);
-    for (int* number : {&times_kept_, &wait_, &waits_}) memory(*number);
+    for (bool* answer : {&old_, &served_}) memory(*answer);
+    for (int* number : {&wait_, &waits_}) memory(*number);
   }
 
  private:
@@ -46,9 +46,9 @@ class KeptTangent {
   static constexpr int longest_wait = 32;           // steps
 
   bool old_ = false;
-  int times_kept_ = 0;  ///< [steps], since it was made
-  int wait_ = 0;        ///< steps that make their own before the next try
-  int waits_ = 0;       ///< so many of them are left
+  bool served_ = false;  ///< for a whole step, since it was made
+  int wait_ = 0;         ///< steps that make their own before the next try
+  int waits_ = 0;        ///< so many of them are left
 };
 
 }  // namespace vlbeam

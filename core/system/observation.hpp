@@ -68,7 +68,7 @@ class Observer {
   void add(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest, Observation<D>& seen) const {
     sum<false>(element, rest, seen);
   }
-  /// Energies alone, which cost a third.
+  /// Energies alone.
   void add_energies(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
                     Observation<D>& seen) const {
     sum<true>(element, rest, seen);

@@ -1,7 +1,7 @@
 # Motions: mean of the errors over the scale of each, against what is refined.
 width = 1300; height = 820
 load folder . "/style.gp"
-set multiplot layout 2,2 title "Motions against what is exact" margins 0.06,0.985,0.075,0.91 spacing 0.07,0.13
+set multiplot layout 2,2 title "Motions against what is exact" margins 0.075,0.985,0.1,0.9 spacing 0.08,0.16
 set key inside top right
 set title "moving loads"
 set xlabel "elements"
