@@ -23,8 +23,7 @@ class ThreadLimit {
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
  private:
-  struct Control;
-  std::unique_ptr<Control> control_;
+  int before_;
 };
 
 /// Calls task(context, i) for i from 0 to `count` - 1, at once where there are threads. Nothing may be thrown.

@@ -39,6 +39,25 @@ auto node_part(const double* x, int k) {
   return Eigen::Map<const Eigen::Matrix<double, B, 1>>(x + std::ptrdiff_t{B} * k);
 }
 
+/// Calls a(i) and b(i), each for i from 0 to its count, if any, both of which need nothing of each other: at once where there are
+/// threads, or by turns, so that the processor works on the one while the other waits for what it needs of itself.
+template <class A, class B>
+void side_by_side(bool by_threads, int count_a, const A& a, int count_b, const B& b) {
+  if (by_threads) {
+    at_once(2, [&](std::ptrdiff_t side) {
+      for (int i = 0; i < (side == 0 ? count_a : count_b); ++i) side == 0 ? a(i) : b(i);
+    });
+    return;
+  }
+  const int both = std::max(std::min(count_a, count_b), 0);
+  for (int i = 0; i < both; ++i) {
+    a(i);
+    b(i);
+  }
+  for (int i = both; i < count_a; ++i) a(i);
+  for (int i = both; i < count_b; ++i) b(i);
+}
+
 }  // namespace
 
 template <int B>
@@ -50,7 +69,7 @@ void BorderedBlockTridiagonal<B>::reset(int nodes) {
       std::fill_n(blocks->begin() + first, count, Block::Zero());
     }
   });
-  middle_ = nodes * B < long_range ? nodes - 1 : nodes / 2;
+  middle_ = nodes / 2;
   inverse_.resize(solves_ ? 0 : n);
   pivots_.resize(solves_ ? n : 0);
   border.clear();
@@ -107,26 +126,17 @@ void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
 }
 
 template <int B>
-bool BorderedBlockTridiagonal<B>::factor_towards_middle(int first, int step) {
-  for (int k = first; k != middle_; k += step) {
-    Block pivot = diagonal[static_cast<std::size_t>(k)];
-    if (k != first) eliminate(k, k - step, pivot);
-    if (!factor_pivot(k, pivot)) return false;
-  }
-  return true;
-}
-
-template <int B>
 bool BorderedBlockTridiagonal<B>::factor() {
   const int last = nodes() - 1;
   std::array<bool, 2> sound{true, true};
-  if (middle_ == last) {
-    sound[0] = factor_towards_middle(0, 1);
-  } else {
-    at_once(2, [&](std::ptrdiff_t side) {
-      sound[static_cast<std::size_t>(side)] = side == 0 ? factor_towards_middle(0, 1) : factor_towards_middle(last, -1);
-    });
-  }
+  const auto factor_node = [&](int k, int before) {
+    Block pivot = diagonal[static_cast<std::size_t>(k)];
+    if (before >= 0 && before <= last) eliminate(k, before, pivot);
+    return factor_pivot(k, pivot);
+  };
+  side_by_side(
+      is_long(), middle_, [&](int i) { sound[0] = factor_node(i, i - 1) && sound[0]; }, last - middle_,
+      [&](int i) { sound[1] = factor_node(last - i, last - i + 1) && sound[1]; });
   if (!sound[0] || !sound[1]) return false;
   Block pivot = diagonal[static_cast<std::size_t>(middle_)];
   if (middle_ > 0) eliminate(middle_, middle_ - 1, pivot);
@@ -252,35 +262,20 @@ void BorderedBlockTridiagonal<B>::substitute(double* x, std::size_t first) const
   const auto subtract = [x](const Block* by, int k, int from) {
     node_part<B>(x, k).noalias() -= by[k] * node_part<B>(x, from);
   };
-  const auto from_start = [=] {
-    for (int k = static_cast<int>(first) + 1; k < middle; ++k) subtract(below, k, k - 1);
+  const auto finish = [=, this](const Block* by, int k, int from) {
+    subtract(by, k, from);
+    apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
   };
-  const auto from_end = [=] {
-    for (int k = last - 1; k > middle; --k) subtract(above, k, k + 1);
-  };
-  const auto to_start = [=, this] {
-    for (int k = middle - 1; k >= 0; --k) {
-      subtract(above, k, k + 1);
-      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
-    }
-  };
-  const auto to_end = [=, this] {
-    for (int k = middle + 1; k <= last; ++k) {
-      subtract(below, k, k - 1);
-      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
-    }
-  };
-  const bool whole = middle == last;
-  if (whole) {
-    from_start();
-  } else {
-    at_once(2, [&](std::ptrdiff_t side) { side == 0 ? from_start() : from_end(); });
-  }
-  if (middle > static_cast<int>(first)) subtract(below, middle, middle - 1);
+  const int start = static_cast<int>(first) + 1;
+  side_by_side(
+      is_long(), middle - start, [=](int i) { subtract(below, start + i, start + i - 1); }, last - middle - 1,
+      [=](int i) { subtract(above, last - 1 - i, last - i); });
+  if (middle >= start) subtract(below, middle, middle - 1);
   if (middle < last) subtract(above, middle, middle + 1);
   apply_pivot(static_cast<std::size_t>(middle), node_part<B>(x, middle));
-  if (whole) return to_start();
-  at_once(2, [&](std::ptrdiff_t side) { side == 0 ? to_start() : to_end(); });
+  side_by_side(
+      is_long(), middle, [=](int i) { finish(above, middle - 1 - i, middle - i); }, last - middle,
+      [=](int i) { finish(below, middle + 1 + i, middle + i); });
 }
 
 template class BorderedBlockTridiagonal<2>;

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/pieces.hpp"
+
 namespace vlbeam {
 
 /// A block tridiagonal matrix with blocks of `B` unknowns, one a node, and a few more unknowns, the border, each of
@@ -47,8 +49,8 @@ class BorderedBlockTridiagonal {
   /// directions.
   void solve_pivots() { solves_ = true; }
 
-  /// Block LU from the first node to the last, or, with many nodes, from both ends to the middle, at once where there
-  /// are threads; then the small system that the border leaves. Returns false where a pivot is singular or not finite.
+  /// Block LU from both ends to the middle, at once where there are many nodes and threads; then the small system that
+  /// the border leaves. Returns false where a pivot is singular or not finite.
   bool factor();
 
   /// Solves in place; `x` holds B numbers a node, then the border's unknowns.
@@ -67,6 +69,8 @@ class BorderedBlockTridiagonal {
   Eigen::MatrixXd corner;  ///< among the border's unknowns; new ones are zero, and any beyond them
 
  private:
+  /// Whether it is worth the call of a thread.
+  bool is_long() const { return std::ptrdiff_t{B} * nodes() >= long_range; }
   int reached(const Border& b) const { return std::min(reach, nodes() - b.first); }
   double row_times(const Border& b, const double* x) const;
 
@@ -74,8 +78,6 @@ class BorderedBlockTridiagonal {
   bool factor_pivot(int k, const Block& pivot);
   /// Eliminates its neighbour `from`, which is factored, from a node's row, whose pivot this becomes.
   void eliminate(int node, int from, Block& pivot);
-  /// Factors the nodes from an end up to the middle, without that one.
-  bool factor_towards_middle(int first, int step);
 
   /// Makes of `x` the solution of pivot k.
   template <class Columns>
