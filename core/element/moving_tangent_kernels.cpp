@@ -6,7 +6,7 @@
 namespace vlbeam::VLBEAM_KERNELS {
 
 template <int D, MovingEnds Ends, int Unknown>
-MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
+[[gnu::flatten]] MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
                                                const MovingCoordinates<double, D>& rate,
                                                const MovingCoordinates<double, D>& a, const TangentWeights& by,
                                                const WeightFunction& weights, const ShapeTabulation& table,
