@@ -7,7 +7,7 @@
 
 #include "core/element/moving_kinematics.hpp"
 #include "core/element/rest_strain.hpp"
-#include "core/system/strain_extremes.hpp"
+#include "core/element/strain_extremes.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/run_support.hpp"

@@ -1,6 +1,8 @@
 #include "scene/time_function.hpp"
 
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
@@ -49,16 +51,28 @@ TimeFunction tabulated(const std::vector<Point>& table) {
   };
 }
 
-}  // namespace
+/// The same function, which remembers its last value: all iterations of a step, and all that is held there, ask for the
+/// same time. A copy of it is for one thread.
+TimeFunction remembering(TimeFunction function) {
+  return [function = std::move(function), last = std::numeric_limits<double>::quiet_NaN(),
+          value = Prescribed{}](double t) mutable {
+    if (t != last) {
+      value = function(t);
+      last = t;
+    }
+    return value;
+  };
+}
 
-TimeFunction time_function(const TimeSpec& spec) {
-  if (!spec.table.empty()) return tabulated(spec.table);
+TimeFunction analytic(const TimeSpec& spec) {
   TimeSpec plain = spec;
   plain.table.clear();
   const auto function = [spec = plain](double t) -> Prescribed {
     const double omega = 2 * std::numbers::pi * spec.frequency;
     const double angle = omega * t + spec.phase_degrees * (std::numbers::pi / 180);
-    const double sine = spec.amplitude * portable::sin(angle), cosine = spec.amplitude * portable::cos(angle);
+    const bool swings = spec.amplitude != 0;
+    const double sine = swings ? spec.amplitude * portable::sin(angle) : 0,
+                 cosine = swings ? spec.amplitude * portable::cos(angle) : 0;
     const double acceleration = spec.acceleration - omega * omega * sine;
     if (spec.rate_ramp > 0) {
       const Prescribed way = ramped_way(t, spec.rate_ramp);
@@ -78,6 +92,12 @@ TimeFunction time_function(const TimeSpec& spec) {
     const Prescribed then = function(until);
     return {then.value + then.rate * (t - until), then.rate, 0};
   };
+}
+
+}  // namespace
+
+TimeFunction time_function(const TimeSpec& spec) {
+  return remembering(spec.table.empty() ? analytic(spec) : tabulated(spec.table));
 }
 
 double steepest(const TimeSpec& f) {

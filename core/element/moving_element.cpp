@@ -1,6 +1,7 @@
 #include "core/element/moving_element.hpp"
 
 #include "core/element/moving_kernels.hpp"
+#include "core/element/twist_law.hpp"
 
 namespace vlbeam {
 
@@ -19,7 +20,7 @@ const MovingKernels<D, Ends>& fastest_moving_kernels() {
 }
 
 template <int D, MovingEnds Ends>
-requires(D > 1) MovingEquations<double, D> MovingElement<double, D, Ends>::equations(const Coordinates& q,
+MovingEquations<double, D> MovingElement<double, D, Ends>::equations(const Coordinates& q,
                                                                                      const Coordinates& rate,
                                                                                      const WeightFunction& weights,
                                                                                      const ShapeTabulation& table,
@@ -29,25 +30,28 @@ requires(D > 1) MovingEquations<double, D> MovingElement<double, D, Ends>::equat
 }
 
 template <int D, MovingEnds Ends>
-requires(D > 1) MovingEquations<double, D> MovingElement<double, D, Ends>::forces(
+MovingEquations<double, D> MovingElement<double, D, Ends>::forces(
     const Coordinates& q, const Coordinates& rate, const Coordinates& a, const WeightFunction& weights,
     const ShapeTabulation& table, const MovingLaw<D>& law) {
   if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, a, weights, table, law);
   return fastest_moving_kernels<D, Ends>().forces(q, rate, a, weights, table, law);
 }
 
+template struct MovingElement<double, 1, MovingEnds::both>;
 template struct MovingElement<double, 2, MovingEnds::a>;
 template struct MovingElement<double, 2, MovingEnds::b>;
 template struct MovingElement<double, 2, MovingEnds::both>;
 template struct MovingElement<double, 3, MovingEnds::a>;
 template struct MovingElement<double, 3, MovingEnds::b>;
 template struct MovingElement<double, 3, MovingEnds::both>;
+template MovingKernels<1, MovingEnds::both> moving_kernels(InstructionSet);
 template MovingKernels<2, MovingEnds::a> moving_kernels(InstructionSet);
 template MovingKernels<2, MovingEnds::b> moving_kernels(InstructionSet);
 template MovingKernels<2, MovingEnds::both> moving_kernels(InstructionSet);
 template MovingKernels<3, MovingEnds::a> moving_kernels(InstructionSet);
 template MovingKernels<3, MovingEnds::b> moving_kernels(InstructionSet);
 template MovingKernels<3, MovingEnds::both> moving_kernels(InstructionSet);
+template const MovingKernels<1, MovingEnds::both>& fastest_moving_kernels();
 template const MovingKernels<2, MovingEnds::a>& fastest_moving_kernels();
 template const MovingKernels<2, MovingEnds::b>& fastest_moving_kernels();
 template const MovingKernels<2, MovingEnds::both>& fastest_moving_kernels();

@@ -173,7 +173,7 @@ struct MovingElement {
 
 /// The same, where there is no rest shape four points at once (`element/moving_kernels.cpp`).
 template <int D, MovingEnds Ends>
-requires(D > 1) struct MovingElement<double, D, Ends> {
+struct MovingElement<double, D, Ends> {
   using Coordinates = MovingCoordinates<double, D>;
 
   static MovingEquations<double, D> equations(const Coordinates& q, const Coordinates& rate,

@@ -2,6 +2,7 @@
 // that the linker shares with units for other machines: a test looks for it.
 #include "core/element/moving_kernels.hpp"
 #include "core/element/pack_lanes.hpp"
+#include "core/element/twist_law.hpp"
 
 namespace vlbeam::VLBEAM_KERNELS {
 namespace {
@@ -50,12 +51,15 @@ template <int D, MovingEnds Ends>
 
 template <int D, MovingEnds Ends>
 MovingKernels<D, Ends> moving_kernels() {
-  if constexpr (Ends == MovingEnds::both) {
+  if constexpr (D == 1) {
+    return {&equations<D, Ends>, &forces<D, Ends>, nullptr, nullptr};
+  } else if constexpr (Ends == MovingEnds::both) {
     return {&equations<D, Ends>, &forces<D, Ends>, nullptr, &moving_tangent<D, Ends, 0>};
   } else {
     return {&equations<D, Ends>, &forces<D, Ends>, &moving_tangent<D, Ends, 1>, nullptr};
   }
 }
+template MovingKernels<1, MovingEnds::both> moving_kernels();
 template MovingKernels<2, MovingEnds::a> moving_kernels();
 template MovingKernels<2, MovingEnds::b> moving_kernels();
 template MovingKernels<2, MovingEnds::both> moving_kernels();

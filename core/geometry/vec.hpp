@@ -55,10 +55,10 @@ Small<Real, R, C> operator*(const Scale& scale, const Eigen::Matrix<Real, R, C>&
 }
 
 /// r x v: in the plane, its component across it is the last.
-template <int D>
-Vec<double, 3> moment_about_origin(const Vec<double, D>& r, const Vec<double, D>& v) {
-  const double across = r[0] * v[1] - r[1] * v[0];
-  if constexpr (D == 2) return {0, 0, across};
+template <class Real, int D>
+Vec<Real, 3> moment_about_origin(const Eigen::Matrix<Real, D, 1>& r, const Eigen::Matrix<Real, D, 1>& v) {
+  const Real across = r[0] * v[1] - r[1] * v[0];
+  if constexpr (D == 2) return {Real(0), Real(0), across};
   if constexpr (D == 3) return {r[1] * v[2] - r[2] * v[1], r[2] * v[0] - r[0] * v[2], across};
 }
 

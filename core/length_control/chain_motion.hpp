@@ -17,14 +17,24 @@ Weights<double> current_weights(const ChainState<D>& chain, int k, WeightTranspo
   return restricted ? weights.on(chain.mesh.x[i], chain.mesh.x[i + 1]) : weights.w;
 }
 
+/// Kinematics of element k.
+template <int D>
+MovingKinematics<double, D> kinematics_of(const ChainState<D>& chain, int k, WeightTransport of_joint) {
+  return {chain.coordinates(k), chain.rates(k), chain.moves(k) ? of_joint : WeightTransport::frozen,
+          chain.mesh.weights[static_cast<std::size_t>(k)]};
+}
+
+/// Motion of the material point x of an element.
+template <int D>
+PointMotion<double, D> motion_at(const MovingKinematics<double, D>& element, double x) {
+  const double u = (x - element.coordinates().x_a) / element.length();
+  return element.at(u, rational_shape(element.weights(), u));
+}
+
 /// Motion of the material point x, in element k of `chain`.
 template <int D>
 PointMotion<double, D> motion_at(const ChainState<D>& chain, int k, double x, WeightTransport of_joint) {
-  const auto q = chain.coordinates(k), rate = chain.rates(k);
-  const WeightTransport transport = chain.moves(k) ? of_joint : WeightTransport::frozen;
-  const MovingKinematics<double, D> kinematics(q, rate, transport, chain.mesh.weights[static_cast<std::size_t>(k)]);
-  const double u = (x - q.x_a) / (q.x_b - q.x_a);
-  return kinematics.at(u, rational_shape(kinematics.weights(), u));
+  return motion_at(kinematics_of(chain, k, of_joint), x);
 }
 
 /// The intervals between neighbouring nodes of either mesh, from `start` to `end`.

@@ -14,9 +14,9 @@ void at_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int fir
   const Observer<D> observer(section, beam.gravity(t), beam_rule(points, beam.model().axial_strain),
                              beam.model().rotary.present() ? &beam.model().rotary : nullptr);
   for (int k = first; k < last; ++k) {
-    const MovingKinematics<double, D> element(chain.coordinates(k), chain.rates(k),
-                                              chain.moves(k) ? beam.model().transport : WeightTransport::frozen,
-                                              chain.mesh.weights[static_cast<std::size_t>(k)]);
+    const SummedElement<D> element{chain.coordinates(k), chain.rates(k),
+                                   chain.moves(k) ? beam.model().transport : WeightTransport::frozen,
+                                   chain.mesh.weights[static_cast<std::size_t>(k)]};
     if (chain.curved_at_rest()) {
       const NodalCubic<double, D> rest = chain.rest_nodes(k);
       add(observer, element, &rest);
@@ -38,8 +38,9 @@ template <int D>
 void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
                       Observation<D>& seen) {
   at_elements(beam, chain, first, last, t, points, seen,
-              [&](const Observer<D>& observer, const MovingKinematics<double, D>& element,
-                  const NodalCubic<double, D>* rest) { observer.add(element, rest, seen); });
+              [&](const Observer<D>& observer, const SummedElement<D>& element, const NodalCubic<double, D>* rest) {
+                observer.add(element, rest, seen);
+              });
 }
 
 template <int D>
@@ -47,8 +48,9 @@ Energy energies_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& cha
                             int points) {
   Observation<D> seen;
   at_elements(beam, chain, first, last, t, points, seen,
-              [&](const Observer<D>& observer, const MovingKinematics<double, D>& element,
-                  const NodalCubic<double, D>* rest) { observer.add_energies(element, rest, seen); });
+              [&](const Observer<D>& observer, const SummedElement<D>& element, const NodalCubic<double, D>* rest) {
+                seen.energy += observer.energies(element, rest);
+              });
   return seen.energy;
 }
 

@@ -62,12 +62,8 @@ class KineticChange {
     return {a.r_a - b.r_a, a.s_a - b.s_a, a.r_b - b.r_b, a.s_b - b.s_b};
   }
   double by_points(int k_before, int k_after) const {
-    const auto of = [this](const ChainState<D>& chain, int k) {
-      return MovingKinematics<double, D>(chain.coordinates(k), chain.rates(k),
-                                         chain.moves(k) ? model_.transport : WeightTransport::frozen,
-                                         chain.mesh.weights[static_cast<std::size_t>(k)]);
-    };
-    const auto was = of(before_, k_before), is = of(after_, k_after);
+    const auto was = kinematics_of(before_, k_before, model_.transport),
+               is = kinematics_of(after_, k_after, model_.transport);
     double sum = 0;
     for (const auto& [u, weight, feels] : with_mass(rule_)) {
       const auto shape = rational_shape(is.weights(), u);

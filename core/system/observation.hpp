@@ -5,16 +5,20 @@
 #include <vector>
 
 #include "core/beam/node_map.hpp"
-#include "core/element/moving_points.hpp"
+#include "core/element/element_sums.hpp"
 #include "core/element/rotary_inertia.hpp"
 #include "core/geometry/vec.hpp"
 #include "core/system/energy.hpp"
-#include "core/system/strain_extremes.hpp"
 
 namespace vlbeam {
 
 /// Gauss points an element of what is reported of a run, whatever the model's own are.
 inline constexpr int ledger_points = 25;
+
+template <int D>
+Energy energy_of(const ElementSums<double, D>& sums) {
+  return {.kinetic = sums.kinetic, .axial = sums.axial, .bending = sums.bending, .gravity = sums.gravity};
+}
 
 /// Quantities of the whole system at one instant.
 template <int D>
@@ -31,12 +35,21 @@ struct Observation {
   double mass_in = 0;                                        ///< the same [kg]
   std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
 
+  void add(const ElementSums<double, D>& sums) {
+    energy += energy_of(sums);
+    beam_length += sums.length;
+    beam_length_rate += sums.length_rate;
+    momentum += sums.momentum;
+    angular_momentum += sums.angular_momentum;
+    mass_moment += sums.mass_moment;
+    mass += sums.mass;
+  }
   /// A lumped mass at r that moves with v.
   void add_mass(double m, const Vec<double, D>& r, const Vec<double, D>& v, const Vec<double, D>& gravity) {
     energy.kinetic += 0.5 * m * v.squaredNorm();
     energy.gravity -= m * gravity.dot(r);
     momentum += m * v;
-    angular_momentum += m * moment_about_origin<D>(r, v);
+    angular_momentum += m * moment_about_origin(r, v);
     mass_moment += m * r;
   }
 };
@@ -65,20 +78,14 @@ class Observer {
 
   /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
   /// where `seen` has a place for them.
-  void add(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest, Observation<D>& seen) const {
-    sum<false>(element, rest, seen);
-  }
+  void add(const SummedElement<D>& element, const NodalCubic<double, D>* rest, Observation<D>& seen) const;
   /// Energies alone.
-  void add_energies(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
-                    Observation<D>& seen) const {
-    sum<true>(element, rest, seen);
-  }
+  Energy energies(const SummedElement<D>& element, const NodalCubic<double, D>* rest) const;
 
  private:
-  /// Flattened: what nobody asks for of a point's motion is then not computed.
-  template <bool energies_alone>
-  [[gnu::flatten]] void sum(const MovingKinematics<double, D>& element, const NodalCubic<double, D>* rest,
-                            Observation<D>& seen) const;
+  /// Sums of any element, point by point.
+  ElementSums<double, D> sums(const SummedElement<D>& element, const NodalCubic<double, D>* rest,
+                              StrainExtremes* extremes) const;
 
   const BeamSection& section_;
   FeltSections sections_;

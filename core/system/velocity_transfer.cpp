@@ -10,7 +10,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr int transfer_points = 12;    // on each piece between nodes of either mesh
+// On each piece between nodes of either mesh: of cubics, whose products they integrate exactly, and of rational ones.
+constexpr int cubic_points = 4, rational_points = 12;
 constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 
 }  // namespace
@@ -19,7 +20,6 @@ template <int D>
 Eigen::VectorXd VelocityProjection<D>::excess_momentum(const ChainState<D>& before, const ChainState<D>& after,
                                                        int first, int last) const {
   Eigen::VectorXd momentum = Eigen::VectorXd::Zero(beam_.coordinates());
-  const auto& rule = gauss_legendre(transfer_points);
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
@@ -34,11 +34,13 @@ Eigen::VectorXd VelocityProjection<D>::excess_momentum(const ChainState<D>& befo
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     const double a = pieces[piece], length = pieces[piece + 1] - a;
     const int from = before.mesh.element_at(a + length / 2), to = after.mesh.element_at(a + length / 2);
-    for (const auto& [u, weight] : rule) {
+    const auto was = kinematics_of(before, from, beam_.model().transport),
+               is = kinematics_of(after, to, beam_.model().transport);
+    const bool cubic = was.weights() == unit_weights && is.weights() == unit_weights;
+    for (const auto& [u, weight] : gauss_legendre(cubic ? cubic_points : rational_points)) {
       const double x = a + u * length;
-      const auto was = motion_at(before, from, x, beam_.model().transport),
-                 is = motion_at(after, to, x, beam_.model().transport);
-      add(to, is, (was.v - is.v) * (weight * length * beam_.model().section.rhoA));
+      const PointMotion<double, D> now = motion_at(is, x);
+      add(to, now, (motion_at(was, x).v - now.v) * (weight * length * beam_.model().section.rhoA));
     }
   }
   for (const PointMass& point : beam_.model().masses.points) {
