@@ -1,6 +1,5 @@
 #include "scene/time_function.hpp"
 
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -51,11 +50,12 @@ TimeFunction tabulated(const std::vector<Point>& table) {
   };
 }
 
-/// The same function, which remembers its last value: all iterations of a step, and all that is held there, ask for the
-/// same time. A copy of it is for one thread.
+/// The same function, which remembers its value at t = 0, from which motions count, and its last one: all iterations of
+/// a step, and all that is held there, ask for the same time. A copy of it is for one thread.
 TimeFunction remembering(TimeFunction function) {
-  return [function = std::move(function), last = std::numeric_limits<double>::quiet_NaN(),
-          value = Prescribed{}](double t) mutable {
+  const Prescribed start = function(0);
+  return [function = std::move(function), start, last = 0.0, value = start](double t) mutable {
+    if (t == 0) return start;
     if (t != last) {
       value = function(t);
       last = t;
@@ -65,9 +65,7 @@ TimeFunction remembering(TimeFunction function) {
 }
 
 TimeFunction analytic(const TimeSpec& spec) {
-  TimeSpec plain = spec;
-  plain.table.clear();
-  const auto function = [spec = plain](double t) -> Prescribed {
+  const auto function = [spec](double t) -> Prescribed {
     const double omega = 2 * std::numbers::pi * spec.frequency;
     const double angle = omega * t + spec.phase_degrees * (std::numbers::pi / 180);
     const bool swings = spec.amplitude != 0;

@@ -1,5 +1,7 @@
 #include "core/system/held.hpp"
 
+#include <limits>
+
 namespace vlbeam {
 namespace {
 
@@ -31,6 +33,7 @@ template <int D>
 void Held<D>::adopt(const BeamModel<D>& model, int last, std::span<const JointPlace> joints,
                     const std::vector<int>& index, Eigen::Index angles) {
   nodes_.clear();
+  looked_at_ = std::numeric_limits<double>::quiet_NaN();
   index_ = index;
   moves_ = model.supports_move();
   nodes_.push_back({.node = 0, .end = 0, .built = &model.start, .motion = &model.start_motion});
@@ -86,7 +89,8 @@ void Held<D>::set_anchors() const {
 
 template <int D>
 const std::vector<HeldNode<D>>& Held<D>::at(double t) const {
-  if (!moves_) return nodes_;
+  if (!moves_ || t == looked_at_) return nodes_;
+  looked_at_ = t;
   for (HeldNode<D>& held : nodes_) {
     if (held.motion == nullptr) continue;
     held.driven = held.motion->at(*held.built, t);
