@@ -228,6 +228,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.formulation = scene.formulation;
   model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
+  model.polynomial_points = points_of_polynomials(scene);
   model.axial_strain = axial_strain(scene);
   model.gravity = vector_of<D>(scene.gravity);
   if (scene.analysis == Analysis::dynamics) model.gravity_ramp = scene.gravity_ramp;

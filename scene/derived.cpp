@@ -63,6 +63,10 @@ int quadrature_points(const Scene& scene) {
   return is_polynomial(scene.beam.element) ? polynomial_points : rational_points;
 }
 
+int points_of_polynomials(const Scene& scene) {
+  return scene.beam.quadrature_points > 0 ? scene.beam.quadrature_points : polynomial_points;
+}
+
 AxialStrain axial_strain(const Scene& scene) {
   const double EA = build_section(scene.beam).stiffness.EA, l = standard_length(scene);
   const FrameSection bending = build_frames(scene.beam);

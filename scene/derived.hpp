@@ -12,8 +12,10 @@ namespace vlbeam {
 /// they stand for.
 Scene scene_in(SceneSetting setting);
 
-/// Gauss points an element: those that the scene asks for, or its element's default.
+/// Gauss points an element: those that the scene asks for, or its element's default; and those of an element with unit
+/// weights, which needs fewer by default.
 int quadrature_points(const Scene& scene);
+int points_of_polynomials(const Scene& scene);
 
 /// Where the axial strain of the scene's elements is summed. By default: at nodes and middle if EA l^2/EI of an element
 /// of standard length is above 100, else at all points; at all points of ropes (EI = 0), too.

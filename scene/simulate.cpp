@@ -117,7 +117,7 @@ class Run {
     if (stops_.keeps_shape_at(t)) keep_shape(y, t);
     if (stops_.samples_at(t)) {
       const Observation<D> seen = system_.observe(y, t, ledger_points, true);
-      const Observation<D> own = system_.observe(y, t, system_.model().quadrature_points);
+      const Observation<D> own = system_.observe(y, t, own_points);
       Sample sample;
       sample.t = t;
       const ChainState<D> chain = system_.chain(y, t);

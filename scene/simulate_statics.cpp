@@ -20,7 +20,7 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
   sample.beam_length = seen.beam_length;
   sample.energy = seen.energy;
-  sample.discrete_total = system.observe(at.y, at.factor, system.model().quadrature_points).energy.total();
+  sample.discrete_total = system.observe(at.y, at.factor, own_points).energy.total();
   sample.strains = strain_sample(*seen.extremes);
   const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
   for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);

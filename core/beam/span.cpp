@@ -14,6 +14,16 @@ namespace {
 
 constexpr std::ptrdiff_t numbers_in_pack = 4 * Pack::width;  // where pieces of a span are to end
 
+/// Gives all elements of a pack as many points: those of fewer repeat their last one, with zero weight.
+void even_out(std::vector<FixedBasis<double>>& lanes) {
+  const auto most = std::ranges::max(lanes, {}, [](const auto& basis) { return basis.points.size(); }).points.size();
+  for (FixedBasis<double>& basis : lanes) {
+    FixedBasis<double>::Point last = basis.points.back();
+    last.weight = 0;
+    basis.points.resize(most, last);
+  }
+}
+
 /// Basis of neighbouring elements as one pack; lanes beyond the last element repeat it with zero weight.
 FixedBasis<Pack> pack_basis(const std::vector<FixedBasis<double>>& lanes) {
   FixedBasis<Pack> basis;
@@ -96,7 +106,7 @@ const SpanKernels<D>& span_kernels() {
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses, Span* before)
+              const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses, Span* before)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
@@ -104,7 +114,7 @@ Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, 
       section_(section),
       curved_at_rest_(rest != nullptr) {
   const int known = before != nullptr ? take_over(*before, mesh) : 0;
-  build_packs(mesh, rule, rest, masses);
+  build_packs(mesh, rules, rest, masses);
   factor(known);
 }
 
@@ -134,7 +144,7 @@ int Span<D>::take_over(Span& before, const Mesh& mesh) {
 }
 
 template <int D>
-void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest,
+void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest,
                           const std::vector<PointMass>& masses) {
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
   auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
@@ -158,12 +168,11 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* 
       continue;
     }
     std::vector<FixedBasis<double>> lanes;
-    std::vector<std::vector<RestStrain<double>>> rest_lanes;
     auto tables = std::make_shared<PackTables>();
     for (int k = first; k < first + count; ++k) {
       const auto& weights = mesh.weights[static_cast<std::size_t>(k)].w;
+      const BeamRule& rule = rules.of(weights);
       lanes.push_back(fixed_basis(length(k), weights, rule));
-      if (rest != nullptr) rest_lanes.push_back(strains_of<D>(element_nodes<D>(rest, k), lanes.back(), section_));
       auto& inertia = tables->inertia[static_cast<std::size_t>(k - first)];
       inertia = fixed_inertia(length(k), weights, rule);
       for (auto& row : inertia.mass) {
@@ -172,8 +181,16 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRule& rule, const double* 
       for (double& entry : inertia.load) entry *= section_.rhoA;
       add_point_masses(masses, mesh, k, inertia.mass);
     }
+    even_out(lanes);
     tables->basis = pack_basis(lanes);
-    if (rest != nullptr) tables->rest = pack_rest(rest_lanes);
+    if (rest != nullptr) {
+      std::vector<std::vector<RestStrain<double>>> rest_lanes;
+      for (int i = 0; i < count; ++i) {
+        const auto& basis = lanes[static_cast<std::size_t>(i)];
+        rest_lanes.push_back(strains_of<D>(element_nodes<D>(rest, first + i), basis, section_));
+      }
+      tables->rest = pack_rest(rest_lanes);
+    }
     packs_.push_back({first, count, tables});
     if (is_uniform) {
       uniform = tables;

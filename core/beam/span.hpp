@@ -25,7 +25,7 @@ class Span {
   /// `before`, a span of the same beam on another mesh, gives away what holds for elements that both have next to the
   /// outer node: the cost is that of the others.
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-       const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr);
+       const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -91,7 +91,7 @@ class Span {
   }
   /// Takes from `before` what goes on to hold; returns for how many elements.
   int take_over(Span& before, const Mesh& mesh);
-  void build_packs(const Mesh& mesh, const BeamRule& rule, const double* rest, const std::vector<PointMass>& masses);
+  void build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses);
   void factor(int known);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one

@@ -14,14 +14,15 @@ class SpanBetween {
  public:
   using Coupling = CouplingBlock<double>;
 
-  SpanBetween(const Mesh& mesh, int low, int high, const BeamSection& section, const BeamRule& rule, const double* rest,
-              const std::vector<PointMass>& masses)
-      : span_(mesh, low, high, low == high ? Support<D>::free_end() : Support<D>::clamp(), section, rule, rest, masses),
+  SpanBetween(const Mesh& mesh, int low, int high, const BeamSection& section, const BeamRules& rules,
+              const double* rest, const std::vector<PointMass>& masses)
+      : span_(mesh, low, high, low == high ? Support<D>::free_end() : Support<D>::clamp(), section, rules, rest,
+              masses),
         low_(low),
         high_(high),
         low_low_{0, 0, 0, 0},
         low_high_{0, 0, 0, 0} {
-    if (low < high) respond(mesh, section, rule, masses);
+    if (low < high) respond(mesh, section, rules, masses);
   }
 
   const Span<D>& span() const { return span_; }
@@ -62,10 +63,10 @@ class SpanBetween {
  private:
   /// The accelerations that a unit one of `low` (its position in the first component, its slope in the second) makes
   /// of the inner nodes while `high` rests, and the forces that this takes.
-  void respond(const Mesh& mesh, const BeamSection& section, const BeamRule& rule,
+  void respond(const Mesh& mesh, const BeamSection& section, const BeamRules& rules,
                const std::vector<PointMass>& masses) {
     const auto e = static_cast<std::size_t>(low_);
-    auto mass = fixed_inertia(mesh.x[e + 1] - mesh.x[e], mesh.weights[e].w, rule).mass;
+    auto mass = fixed_inertia(mesh.x[e + 1] - mesh.x[e], mesh.weights[e].w, rules.of(mesh.weights[e].w)).mass;
     for (auto& row : mass) {
       for (double& entry : row) entry *= section.rhoA;
     }

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/weights.hpp"
+
 namespace vlbeam {
 
 /// Where the axial strain of an element is summed.
@@ -34,5 +36,16 @@ inline std::span<const BeamPoint> with_mass(const BeamRule& rule) {
 /// Gauss points of an element, 3..25 of them; with `lobatto` those of the axial strain behind them.
 /// Throws std::out_of_range for any other number.
 BeamRule beam_rule(int points, AxialStrain axial_strain = AxialStrain::full);
+
+/// The rules of a beam's elements. One of unit weights is a polynomial, and needs fewer points.
+struct BeamRules {
+  BeamRule polynomial, rational;
+
+  BeamRules(const BeamRule& of_all) : polynomial(of_all), rational(of_all) {}  // NOLINT(google-explicit-constructor)
+  BeamRules(int polynomial_points, int rational_points, AxialStrain axial_strain)
+      : polynomial(beam_rule(polynomial_points, axial_strain)), rational(beam_rule(rational_points, axial_strain)) {}
+
+  const BeamRule& of(const Weights<double>& weights) const { return weights == unit_weights ? polynomial : rational; }
+};
 
 }  // namespace vlbeam

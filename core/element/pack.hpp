@@ -21,12 +21,11 @@ class Pack {
 
   Pack() = default;
   Pack(double x) : Pack(x, x, x, x) {}  // NOLINT(google-explicit-constructor): a number is a pack of equal lanes
-  Pack(double a, double b, double c, double d) {
-    set(0, a);
-    set(1, b);
-    set(2, c);
-    set(3, d);
-  }
+#ifdef __AVX__
+  Pack(double a, double b, double c, double d) : parts_{{a, b, c, d}} {}
+#else
+  Pack(double a, double b, double c, double d) : parts_{{a, b}, {c, d}} {}
+#endif
 
   double operator[](int i) const { return parts_[i / in_part][i % in_part]; }
   void set(int i, double x) { parts_[i / in_part][i % in_part] = x; }

@@ -9,49 +9,40 @@ namespace vlbeam {
 template <class Real, int D>
 using Vec = Eigen::Matrix<Real, D, 1>;
 
-#ifdef __AVX__
-inline namespace in_one_register {
-#else
-inline namespace in_two_registers {
-#endif
-class Pack;
-}  // namespace
-
 // Sums and multiples of small matrices are computed at once: as Eigen's expressions each would be a type of its own,
-// with hundreds of declarations, which is most of what compiling them takes. They round alike. Not those of packs,
-// which are wider than registers: what is stored in between costs them a twentieth more.
+// with hundreds of declarations, which is most of what compiling them takes, and a scalar in one a copy in memory. They
+// round alike.
 
 template <class Real, int R, int C>
-using Small =
-    std::enable_if_t<R >= 1 && C >= 1 && R * C <= 16 && !std::is_same_v<Real, Pack>, Eigen::Matrix<Real, R, C>>;
+using Small = std::enable_if_t<R >= 1 && C >= 1 && R * C <= 16, Eigen::Matrix<Real, R, C>>;
 
-template <class Real, int R, int C>
-Small<Real, R, C> operator+(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
-  Eigen::Matrix<Real, R, C> sum = a;
-  sum += b;
-  return sum;
+template <class Real, int R, int C, class Entry>
+[[gnu::always_inline]] inline Small<Real, R, C> by_entry(const Entry& entry) {
+  Eigen::Matrix<Real, R, C> result;
+  for (int i = 0; i < R * C; ++i) result.data()[i] = entry(i);
+  return result;
 }
 template <class Real, int R, int C>
-Small<Real, R, C> operator-(const Eigen::Matrix<Real, R, C>& a, const Eigen::Matrix<Real, R, C>& b) {
-  Eigen::Matrix<Real, R, C> difference = a;
-  difference -= b;
-  return difference;
+[[gnu::always_inline]] inline Small<Real, R, C> operator+(const Eigen::Matrix<Real, R, C>& a,
+                                                          const Eigen::Matrix<Real, R, C>& b) {
+  return by_entry<Real, R, C>([&](int i) { return a.data()[i] + b.data()[i]; });
 }
 template <class Real, int R, int C>
-Small<Real, R, C> operator-(const Eigen::Matrix<Real, R, C>& a) {
-  return a.operator-();
+[[gnu::always_inline]] inline Small<Real, R, C> operator-(const Eigen::Matrix<Real, R, C>& a,
+                                                          const Eigen::Matrix<Real, R, C>& b) {
+  return by_entry<Real, R, C>([&](int i) { return a.data()[i] - b.data()[i]; });
+}
+template <class Real, int R, int C>
+[[gnu::always_inline]] inline Small<Real, R, C> operator-(const Eigen::Matrix<Real, R, C>& a) {
+  return by_entry<Real, R, C>([&](int i) { return -a.data()[i]; });
 }
 template <class Real, int R, int C, class Scale, std::enable_if_t<std::is_same_v<Real, Scale>, int> = 0>
-Small<Real, R, C> operator*(const Eigen::Matrix<Real, R, C>& a, const Scale& scale) {
-  Eigen::Matrix<Real, R, C> product = a;
-  product *= scale;
-  return product;
+[[gnu::always_inline]] inline Small<Real, R, C> operator*(const Eigen::Matrix<Real, R, C>& a, const Scale& scale) {
+  return by_entry<Real, R, C>([&](int i) { return a.data()[i] * scale; });
 }
 template <class Real, int R, int C, class Scale, std::enable_if_t<std::is_same_v<Real, Scale>, int> = 0>
-Small<Real, R, C> operator*(const Scale& scale, const Eigen::Matrix<Real, R, C>& a) {
-  Eigen::Matrix<Real, R, C> product = a;
-  product *= scale;
-  return product;
+[[gnu::always_inline]] inline Small<Real, R, C> operator*(const Scale& scale, const Eigen::Matrix<Real, R, C>& a) {
+  return by_entry<Real, R, C>([&](int i) { return a.data()[i] * scale; });
 }
 
 /// r x v: in the plane, its component across it is the last.

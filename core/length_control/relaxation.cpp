@@ -21,7 +21,7 @@ class Patch {
  public:
   using Vector = Vec<double, D>;
 
-  Patch(ChainState<D>& chain, const std::vector<GivingNode>& giving, const BeamRule& rule, const MovingLaw<D>& law)
+  Patch(ChainState<D>& chain, const std::vector<GivingNode>& giving, const BeamRules& rules, const MovingLaw<D>& law)
       : chain_(chain), section_(law.section) {
     const auto number = [&](double* vector) {
       unknowns_.push_back(vector);
@@ -39,8 +39,8 @@ class Patch {
       const auto* const joint = chain.joint_at(k);
       if (joint != nullptr && joint->kink) element.unknown[1] = -1;  // the slope behind a kink is not the node's
       if (std::ranges::all_of(element.unknown, [](int u) { return u < 0; })) continue;
-      element.basis =
-          fixed_basis(chain.mesh.x[i + 1] - chain.mesh.x[i], current_weights(chain, k, law.transport), rule);
+      element.basis = fixed_basis(chain.mesh.x[i + 1] - chain.mesh.x[i], current_weights(chain, k, law.transport),
+                                  rules.of(chain.mesh.weights[i].w));
       if (chain.curved_at_rest()) {
         const auto rest = chain.rest_nodes(k);
         element.basis.visit(section_, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) {
@@ -131,10 +131,10 @@ class Patch {
 }  // namespace
 
 template <int D>
-int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRule& rule, const MovingLaw<D>& law,
+int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules& rules, const MovingLaw<D>& law,
           double excess) {
   if (!(excess > 0)) return 0;
-  Patch<D> patch(chain, giving, rule, law);
+  Patch<D> patch(chain, giving, rules, law);
   if (patch.size() == 0) return 0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
@@ -183,7 +183,7 @@ int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRule& 
   return most_iterations;
 }
 
-template int relax(ChainState<2>&, std::vector<GivingNode>, const BeamRule&, const MovingLaw<2>&, double);
-template int relax(ChainState<3>&, std::vector<GivingNode>, const BeamRule&, const MovingLaw<3>&, double);
+template int relax(ChainState<2>&, std::vector<GivingNode>, const BeamRules&, const MovingLaw<2>&, double);
+template int relax(ChainState<3>&, std::vector<GivingNode>, const BeamRules&, const MovingLaw<3>&, double);
 
 }  // namespace vlbeam

@@ -15,13 +15,13 @@ struct GivingNode {
   bool position, slope;
 };
 
-/// Moves what gives way, by Newton's iteration, until `excess` [J] of the strain energy by `rule` is gone or the least
+/// Moves what gives way, by Newton's iteration, until `excess` [J] of the strain energy by `rules` is gone or the least
 /// is reached. All other nodes and slopes behind kinks stay. Returns the iterations taken. Why: a published cut keeps
 /// the curve, and a merge the outer nodes. Where the axial strain is sampled, or locks, new elements store another
 /// energy in that curve, the more the stiffer the beam. Only what the event has created is taken away, because a beam
 /// in motion is not at its least energy.
 template <int D>
-int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRule& rule, const MovingLaw<D>& law,
+int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules& rules, const MovingLaw<D>& law,
           double excess = std::numeric_limits<double>::infinity());
 
 }  // namespace vlbeam

@@ -7,11 +7,7 @@ namespace vlbeam {
 
 template <int D>
 FreeTension<D>::FreeTension(const BeamSystem<D>& system)
-    : system_(system), stiffness_(system.model().axis_section().stiffness) {
-  for (const BeamPoint& point : beam_rule(system.model().quadrature_points, system.model().axial_strain)) {
-    if (point.feels != Feels::all_but_stretch) rule_.push_back(point);
-  }
-}
+    : system_(system), stiffness_(system.model().axis_section().stiffness) {}
 
 template <int D>
 std::array<double, 2> FreeTension<D>::pull_at(double strain) const {
@@ -35,7 +31,8 @@ void FreeTension<D>::at_points(const Eigen::VectorXd& q, const Visit& visit) con
   };
   for (int k = 0; k < system_.mesh().elements(); ++k) {
     const MovingKinematics<double, D> element = beam.kinematics(k);
-    for (const BeamPoint& of : rule_) {
+    for (const BeamPoint& of : system_.rules().of(system_.mesh().weights[static_cast<std::size_t>(k)].w)) {
+      if (of.feels == Feels::all_but_stretch) continue;
       const PointMotion<double, D> at = element.at(of.u, rational_shape(element.weights(), of.u));
       Point point{k, at.s_x, of.weight * element.length(), at.r_x, strain_of(at.r_x)};
       if (chain.curved_at_rest()) point.strain -= strain_of(combine_nodes(at.s_x, chain.rest_nodes(k)));

@@ -47,8 +47,7 @@ class FreeTension {
 
   const BeamSystem<D>& system_;
   const Stiffness stiffness_;
-  std::vector<BeamPoint> rule_;  ///< of the axial strain
-  std::vector<double> forces_;   ///< conjugate to the strain [N]
+  std::vector<double> forces_;  ///< conjugate to the strain [N]
 };
 
 extern template class FreeTension<2>;

@@ -12,10 +12,10 @@ void BeamMass<D>::adopt() {
   const BeamModel<D>& model = beam_.model();
   const Mesh& mesh = beam_.mesh();
   if (model.driven()) {
-    const BeamRule rule = beam_rule(model.quadrature_points, model.axial_strain);
     for (const std::size_t end : {0, 1}) {
       const std::size_t k = end == 0 ? 0 : static_cast<std::size_t>(mesh.elements()) - 1;
-      end_inertia_[end] = fixed_inertia(mesh.x[k + 1] - mesh.x[k], mesh.weights[k].w, rule);
+      const Weights<double>& w = mesh.weights[k].w;
+      end_inertia_[end] = fixed_inertia(mesh.x[k + 1] - mesh.x[k], w, beam_.rules().of(w));
     }
   }
   if (!chained()) return;

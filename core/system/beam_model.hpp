@@ -42,13 +42,17 @@ struct NodeSupport {
   Support<D> support;
 };
 
+/// Stands for a model's own Gauss points, which need not be as many in all elements.
+inline constexpr int own_points = 0;
+
 /// What a beam system is made of and which choices its equations follow.
 template <int D>
 struct BeamModel {
   BeamSection section;
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
-  int quadrature_points = 5;
+  int quadrature_points = 5;  ///< Gauss points an element
+  int polynomial_points = 0;  ///< of one with unit weights, 0 for as many
   AxialStrain axial_strain = AxialStrain::full;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
   double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
@@ -83,6 +87,8 @@ struct BeamModel {
   /// others; null for a straight, unstrained rest shape.
   std::shared_ptr<const Axis<D>> rest;
 
+  int points_of_polynomials() const { return polynomial_points > 0 ? polynomial_points : quadrature_points; }
+  BeamRules rules() const { return {points_of_polynomials(), quadrature_points, axial_strain}; }
   /// What elements of the axis alone resist.
   BeamSection axis_section() const {
     BeamSection axis = section;

@@ -11,7 +11,7 @@ template <int D, class Add>
 void at_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
                  Observation<D>& seen, const Add& add) {
   const BeamSection section = beam.model().axis_section();
-  const Observer<D> observer(section, beam.gravity(t), beam_rule(points, beam.model().axial_strain),
+  const Observer<D> observer(section, beam.gravity(t), beam.rules(points),
                              beam.model().rotary.present() ? &beam.model().rotary : nullptr);
   for (int k = first; k < last; ++k) {
     const SummedElement<D> element{chain.coordinates(k), chain.rates(k),
@@ -69,7 +69,8 @@ Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y
   }
   if (beam.spin()) {
     const Spin::Seen turning =
-        beam.spin()->observe(y.data() + beam.angles(), y.data() + beam.coordinates() + beam.angles(), points);
+        beam.spin()->observe(y.data() + beam.angles(), y.data() + beam.coordinates() + beam.angles(),
+                             points == own_points ? beam.model().points_of_polynomials() : points);
     seen.energy.kinetic += turning.kinetic;
     seen.energy.torsion += turning.torsion;
     seen.spin_momentum += turning.momentum;

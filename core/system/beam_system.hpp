@@ -96,7 +96,8 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   std::size_t rhs_evaluations() const { return accelerations_.evaluations(); }
   /// Nodes that keep a distance: those of blocks, then what rests against each other.
   const std::vector<NodeLink<D>>& links() const { return links_.all(); }
-  /// Energies, momenta and length, summed with `points` Gauss points an element; strains only where they are asked for.
+  /// Energies, momenta and length, summed with `points` Gauss points an element, or own_points; strains only where they
+  /// are asked for.
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
@@ -123,7 +124,7 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   /// Where a mass is that has just left a support [m].
   double clear_of_end() const;
   typename RampWork<D>::Moment moment(const Eigen::VectorXd& y, double t) const {
-    const Observation<D> seen = observe(y, t, model().quadrature_points);
+    const Observation<D> seen = observe(y, t, own_points);
     return {seen.mass_moment, moment_rate(seen, y)};
   }
   /// Rate of the first moment of mass: the momentum, and what is fed into the beam.

@@ -18,14 +18,15 @@ void ConservingStep<D>::refresh() {
   if (revision_ == beam_.revision()) return;
   revision_ = beam_.revision();
   const auto& mesh = beam_.mesh();
-  const BeamRule rule = beam_rule(beam_.model().quadrature_points, beam_.model().axial_strain);
   const int joint = beam_.has_joint() ? beam_.places().front().node : -2;
   fixed_.clear();
   for (int k = 0; k < mesh.elements(); ++k) {
     if (k == joint || k + 1 == joint) continue;
     const auto i = static_cast<std::size_t>(k);
     const double l = mesh.x[i + 1] - mesh.x[i];
-    fixed_.push_back({k, fixed_basis(l, mesh.weights[i].w, rule), fixed_inertia(l, mesh.weights[i].w, rule)});
+    const Weights<double>& w = mesh.weights[i].w;
+    const BeamRule& rule = beam_.rules().of(w);
+    fixed_.push_back({k, fixed_basis(l, w, rule), fixed_inertia(l, w, rule)});
   }
 }
 

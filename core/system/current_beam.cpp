@@ -7,14 +7,15 @@
 namespace vlbeam {
 
 template <int D>
-CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chain) : model_(model) {
+CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chain)
+    : model_(model), rules_(model.rules()) {
   if (model.travels()) moving_.emplace(model_, chain.mesh.weights);
   if (model.spin) {
     check_drives(model.spin->drives, chain.mesh.last());
     std::vector<Prescribed> marks;
     if (moving_) marks = moving_->marks();
     for (std::size_t k = marks.size(); k < chain.mesh.x.size(); ++k) marks.push_back({chain.mesh.x[k], 0, 0});
-    sections_.spin.emplace(model.spin.value(), std::move(marks), model.formulation, model.quadrature_points);
+    sections_.spin.emplace(model.spin.value(), std::move(marks), model.formulation, model.points_of_polynomials());
   }
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   if (model_.loads.present()) acting_.push_back(std::make_shared<ActingLoads<D>>(model_.loads));
@@ -103,7 +104,6 @@ void CurrentBeam<D>::adopt_frames() {
 template <int D>
 void CurrentBeam<D>::adopt_elements() {
   const BeamSection section = model_.axis_section();
-  const BeamRule rule = beam_rule(model_.quadrature_points, model_.axial_strain);
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
   const int right_open = moving_       ? mesh_.last()
@@ -112,7 +112,7 @@ void CurrentBeam<D>::adopt_elements() {
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   const auto& masses = model_.masses.points;
   const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support) {
-    Span<D> next(mesh_, outer, open, support, section, rule, rest, masses, span ? &*span : nullptr);
+    Span<D> next(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr);
     span = std::move(next);
   };
   renew(spans_.left, 0, left_open, model_.start);
@@ -120,7 +120,7 @@ void CurrentBeam<D>::adopt_elements() {
   spans_.between.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;
-    if (low <= high) spans_.between.emplace_back(mesh_, low, high, section, rule, rest, masses);
+    if (low <= high) spans_.between.emplace_back(mesh_, low, high, section, rules_, rest, masses);
   }
   parts_.clear();
   const auto joint_at = [&](int node) {
@@ -133,7 +133,8 @@ void CurrentBeam<D>::adopt_elements() {
     const int a = joint_at(k), b = joint_at(k + 1);
     if (a < 0 && b < 0 && !moving_) continue;
     const MovingEnds ends = moving_ || (a >= 0 && b >= 0) ? MovingEnds::both : a < 0 ? MovingEnds::b : MovingEnds::a;
-    parts_.push_back({k, ends, a, b, ShapeTabulation(rule, mesh_.weights[static_cast<std::size_t>(k)].w)});
+    const Weights<double>& weights = mesh_.weights[static_cast<std::size_t>(k)].w;
+    parts_.push_back({k, ends, a, b, ShapeTabulation(rules_.of(weights), weights)});
   }
 }
 

@@ -50,6 +50,12 @@ class CurrentBeam {
 
   const BeamModel<D>& model() const { return model_; }
   const Mesh& mesh() const { return mesh_; }
+  /// Of the elements.
+  const BeamRules& rules() const { return rules_; }
+  /// With so many Gauss points an element, or own_points.
+  BeamRules rules(int points) const {
+    return points == own_points ? rules_ : BeamRules(beam_rule(points, model_.axial_strain));
+  }
   const Layout<D>& layout() const { return layout_; }
   Eigen::Index coordinates() const { return layout_.coordinates(); }
   /// Counts the meshes there have been.
@@ -274,6 +280,7 @@ class CurrentBeam {
   void take_frames(const ChainState<D>& chain);
 
   BeamModel<D> model_;
+  BeamRules rules_;
   Mesh mesh_;
   std::vector<double> rest_;        ///< nodes of the rest shape, but for the moving one; empty if it is straight
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain

@@ -33,8 +33,9 @@ struct CubicRule {
 template <int D>
 class KineticChange {
  public:
-  KineticChange(const BeamModel<D>& model, const ChainState<D>& before, const ChainState<D>& after, int points)
-      : model_(model), before_(before), after_(after), rule_(beam_rule(points, model.axial_strain)), points_(points) {}
+  KineticChange(const BeamModel<D>& model, const ChainState<D>& before, const ChainState<D>& after,
+                const BeamRules& rules)
+      : model_(model), before_(before), after_(after), rules_(rules) {}
 
   double of(int k_before, int k_after) const {
     const auto was = before_.rates(k_before), is = after_.rates(k_after);
@@ -43,8 +44,9 @@ class KineticChange {
     if (still && change.r_a.isZero(0) && change.s_a.isZero(0) && change.r_b.isZero(0) && change.s_b.isZero(0)) return 0;
     const Mesh& mesh = after_.mesh;
     const auto k = static_cast<std::size_t>(k_after);
-    if (after_.moves(k_after) || mesh.weights[k].w != unit_weights || points_ < exact_points) {
-      return by_points(k_before, k_after);
+    const auto points = with_mass(rules_.of(mesh.weights[k].w));
+    if (after_.moves(k_after) || mesh.weights[k].w != unit_weights || points.size() < exact_points) {
+      return by_points(k_before, k_after, points);
     }
     static const CubicRule rule;
     const double length = mesh.x[k + 1] - mesh.x[k];
@@ -61,11 +63,11 @@ class KineticChange {
   static NodalCubic<double, D> difference(const NodalCubic<double, D>& a, const NodalCubic<double, D>& b) {
     return {a.r_a - b.r_a, a.s_a - b.s_a, a.r_b - b.r_b, a.s_b - b.s_b};
   }
-  double by_points(int k_before, int k_after) const {
+  double by_points(int k_before, int k_after, std::span<const BeamPoint> points) const {
     const auto was = kinematics_of(before_, k_before, model_.transport),
                is = kinematics_of(after_, k_after, model_.transport);
     double sum = 0;
-    for (const auto& [u, weight, feels] : with_mass(rule_)) {
+    for (const auto& [u, weight, feels] : points) {
       const auto shape = rational_shape(is.weights(), u);
       const Vec<double, D> v0 = was.at(u, shape).v, v1 = is.at(u, shape).v;
       sum += weight * (v1 - v0).dot(v1 + v0);
@@ -75,8 +77,7 @@ class KineticChange {
 
   const BeamModel<D>& model_;
   const ChainState<D>&before_, &after_;
-  BeamRule rule_;
-  int points_;
+  BeamRules rules_;
 };
 
 }  // namespace
@@ -89,7 +90,7 @@ Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, cons
                 energies_of_elements(beam, before, reach.lowest, reach.highest, t, points);
 
   const BeamModel<D>& model = beam.model();
-  const KineticChange<D> change(model, before, after, points);
+  const KineticChange<D> change(model, before, after, beam.rules(points));
   double outside = 0;
   for (int k = 0; k < reach.lowest; ++k) outside += change.of(k, k);
   for (int k = reach.highest; k < before.mesh.elements(); ++k) outside += change.of(k, k + more);

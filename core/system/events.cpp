@@ -182,7 +182,7 @@ int BeamSystem<D>::relax_after(const std::vector<PendingEvent>& dues, ChainState
     }
   }
   if (giving.empty()) return 0;
-  return relax(chain, giving, beam_rule(model().quadrature_points, model().axial_strain), Beam::moving_law(t), excess);
+  return relax(chain, giving, Beam::rules(), Beam::moving_law(t), excess);
 }
 
 template <int D>
@@ -260,7 +260,6 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   std::vector<EventRecord<D>> records = records_of(dues, y, t);
   EventRecord<D>& record = records.front();
   const LengthControl& control = model().length_control;
-  const int own_points = model().quadrature_points;
   const EventReach reach = reach_of(dues);
   // an impact, or a mass that gets a node or loses it, changes more than a mesh; frames have energies of their own
   const bool looks_at_all =

@@ -5,9 +5,14 @@
 namespace vlbeam {
 
 template <int D>
-Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRule& rule,
+Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRules& rules,
                       const RotaryInertia<D>* rotary)
-    : section_(section), sections_(section), gravity_(gravity), polynomial_(rule, unit_weights), rotary_(rotary) {}
+    : section_(section),
+      sections_(section),
+      gravity_(gravity),
+      polynomial_(rules.polynomial, unit_weights),
+      rational_(rules.rational, unit_weights),
+      rotary_(rotary) {}
 
 template <int D>
 ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& of, const NodalCubic<double, D>* rest,
@@ -17,7 +22,8 @@ ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& of, const Nodal
     if (rest == nullptr) return std::nullopt;
     return rest_strain<D>(combine_nodes(at.s_x, *rest), combine_nodes(at.s_xx, *rest), section_);
   };
-  const auto look = [&](const PointMotion<double, D>& at, const std::optional<RestStrain<double>>& strain, Feels feels) {
+  const auto look = [&](const PointMotion<double, D>& at, const std::optional<RestStrain<double>>& strain,
+                        Feels feels) {
     if (extremes != nullptr) extremes->add(section_, at, strain ? &*strain : nullptr, feels);
   };
   ElementSums<double, D> sums;
@@ -41,7 +47,7 @@ ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& of, const Nodal
   };
   const auto motion = [&](double u, const ShapeTable<double>& shape) { return element.at(u, shape); };
   const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
-  for_each_point(element, polynomial_, of.is_rational(), none, motion, add);
+  for_each_point(element, table_of(of), of.is_rational(), none, motion, add);
   for (const double u : {0.0, 1.0}) {
     const PointMotion<double, D> at = element.at(u, rational_shape(element.weights(), u));
     look(at, at_rest(at), Feels::everything);
@@ -53,14 +59,14 @@ template <int D>
 void Observer<D>::add(const SummedElement<D>& element, const NodalCubic<double, D>* rest, Observation<D>& seen) const {
   StrainExtremes* const extremes = seen.extremes ? &*seen.extremes : nullptr;
   const bool plain = rest == nullptr && rotary_ == nullptr;
-  seen.add(plain ? fastest_sum_kernels<D>().all(element, polynomial_, sections_, gravity_, extremes)
+  seen.add(plain ? fastest_sum_kernels<D>().all(element, table_of(element), sections_, gravity_, extremes)
                  : sums(element, rest, extremes));
 }
 
 template <int D>
 Energy Observer<D>::energies(const SummedElement<D>& element, const NodalCubic<double, D>* rest) const {
   const bool plain = rest == nullptr && rotary_ == nullptr;
-  return energy_of(plain ? fastest_sum_kernels<D>().energies(element, polynomial_, sections_, gravity_, nullptr)
+  return energy_of(plain ? fastest_sum_kernels<D>().energies(element, table_of(element), sections_, gravity_, nullptr)
                          : sums(element, rest, nullptr));
 }
 

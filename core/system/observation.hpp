@@ -73,7 +73,7 @@ template <int D>
 class Observer {
  public:
   /// `section` and `rotary` (null without) must outlive this object.
-  Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRule& rule,
+  Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRules& rules,
            const RotaryInertia<D>* rotary = nullptr);
 
   /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
@@ -83,6 +83,9 @@ class Observer {
   Energy energies(const SummedElement<D>& element, const NodalCubic<double, D>* rest) const;
 
  private:
+  const ShapeTabulation& table_of(const SummedElement<D>& element) const {
+    return element.is_rational() ? rational_ : polynomial_;
+  }
   /// Sums of any element, point by point.
   ElementSums<double, D> sums(const SummedElement<D>& element, const NodalCubic<double, D>* rest,
                               StrainExtremes* extremes) const;
@@ -90,7 +93,7 @@ class Observer {
   const BeamSection& section_;
   FeltSections sections_;
   Vec<double, D> gravity_;
-  ShapeTabulation polynomial_;  ///< of unit weights
+  ShapeTabulation polynomial_, rational_;  ///< of unit weights, both
   const RotaryInertia<D>* rotary_;
 };
 

@@ -117,14 +117,14 @@ Gap ledger(const Stem& stem, int elements, double duration) {
   const BeamModel<D> model = model_of(stem, elements, true);
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = at_rest(beam, stem);
-  const auto before = beam.observe(y, 0, model.quadrature_points);
+  const auto before = beam.observe(y, 0, own_points);
   IntegrationOptions options;
   options.type = IntegratorType::fehlberg78;
   options.tolerances = {1e-9, 1e-11};
   SolverCounters counters;
   double t = 0;
   integrate(beam, y, t, duration, {}, options, counters);
-  const auto after = beam.observe(y, t, model.quadrature_points);
+  const auto after = beam.observe(y, t, own_points);
   const Tally book = model.tallies().of(y);
   const double passed = std::abs(book.ends) + std::abs(book.loads);
   return {

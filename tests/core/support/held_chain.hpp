@@ -35,7 +35,7 @@ struct HeldChain {
   double energy_rate() const {
     const Eigen::VectorXd along = rates();
     return slope_of([&](double s) {
-      const auto seen = system->observe(y + s * along, now, system->model().quadrature_points);
+      const auto seen = system->observe(y + s * along, now, own_points);
       return Eigen::VectorXd::Constant(1, seen.energy.total());
     })[0];
   }

@@ -27,8 +27,7 @@ class FreeBeam : public ::testing::Test {
     BeamSystem<dim> system(model, chain);
     std::vector<Seen> seen;
     system.on_sample = [&](const Eigen::VectorXd& y, double t) {
-      seen.push_back(
-          {t, system.observe(y, t, model.quadrature_points), angular_momentum(system, y), system.slope_residual(y), 0});
+      seen.push_back({t, system.observe(y, t, own_points), angular_momentum(system, y), system.slope_residual(y), 0});
       if (!system.has_joint()) return;
       const auto slopes = system.joint_slopes(0, y.data());
       seen.back().kink = (slopes.template head<dim>() - slopes.template tail<dim>()).norm();

@@ -35,9 +35,7 @@ struct Step {
     return step.residual(y0.head(n), y0.segment(n, n), y1.head(n), y1.segment(n, n), 0, h, r);
   }
 
-  double energy(const Eigen::VectorXd& y) const {
-    return system->observe(y, 0, system->model().quadrature_points).energy.total();
-  }
+  double energy(const Eigen::VectorXd& y) const { return system->observe(y, 0, own_points).energy.total(); }
 
   Random random;
   std::unique_ptr<BeamSystem<D>> system;

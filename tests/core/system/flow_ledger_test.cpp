@@ -76,11 +76,11 @@ template <int D>
 Gap gap_of(const BeamModel<D>& model, const IntegrationOptions& options, double duration = 0.3) {
   BeamSystem<D> beam = system_of(model);
   Eigen::VectorXd y = start_of(beam);
-  const Observation<D> before = beam.observe(y, 0, model.quadrature_points);
+  const Observation<D> before = beam.observe(y, 0, own_points);
   SolverCounters counters;
   double t = 0;
   integrate(beam, y, t, duration, {}, options, counters);
-  const Observation<D> after = beam.observe(y, t, model.quadrature_points);
+  const Observation<D> after = beam.observe(y, t, own_points);
   const Tally ledger = model.tallies().of(y);
   EXPECT_GT(std::abs(ledger.ends), 1e-3);
   EXPECT_GT(std::abs(ledger.loads), 1e-3);

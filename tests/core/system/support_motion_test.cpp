@@ -147,7 +147,7 @@ struct DrivenRun {
       const auto chain = system.chain(y, t);
       seen.position = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), static_cast<Eigen::Index>(chain.q.size()));
       seen.rate = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), static_cast<Eigen::Index>(chain.rate.size()));
-      seen.energy = system.observe(y, t, system.model().quadrature_points).energy;
+      seen.energy = system.observe(y, t, own_points).energy;
       seen.supplied.push_back(seen.energy.supplied);
       if (t == 0) first = seen.energy.total();
       seen.largest_kinetic = std::max(seen.largest_kinetic, seen.energy.kinetic);
