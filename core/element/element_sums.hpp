@@ -37,6 +37,17 @@ struct ElementSums {
   }
 };
 
+/// Shape functions of unit weights at the points of both rules: those of rational elements depend on their weights.
+struct SumTables {
+  ShapeTabulation polynomial, rational;
+
+  explicit SumTables(const BeamRules& rules)
+      : polynomial(rules.polynomial, unit_weights), rational(rules.rational, unit_weights) {}
+  const ShapeTabulation& of(const Weights<double>& weights) const {
+    return weights == unit_weights ? polynomial : rational;
+  }
+};
+
 /// An element whose sums are asked for.
 template <int D>
 struct SummedElement {

@@ -11,7 +11,7 @@ template <int D, class Add>
 void at_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
                  Observation<D>& seen, const Add& add) {
   const BeamSection section = beam.model().axis_section();
-  const Observer<D> observer(section, beam.gravity(t), beam.rules(points),
+  const Observer<D> observer(section, beam.gravity(t), beam.tables(points),
                              beam.model().rotary.present() ? &beam.model().rotary : nullptr);
   for (int k = first; k < last; ++k) {
     const SummedElement<D> element{chain.coordinates(k), chain.rates(k),

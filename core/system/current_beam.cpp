@@ -102,6 +102,14 @@ void CurrentBeam<D>::adopt_frames() {
 }
 
 template <int D>
+const SumTables& CurrentBeam<D>::tables(int points) const {
+  const auto known = tables_.find(points);
+  if (known != tables_.end()) return known->second;
+  const BeamRules rules = points == own_points ? rules_ : BeamRules(beam_rule(points, model_.axial_strain));
+  return tables_.emplace(points, rules).first->second;
+}
+
+template <int D>
 void CurrentBeam<D>::adopt_elements() {
   const BeamSection section = model_.axis_section();
   const int middle = mesh_.elements() / 2;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/beam/span_between.hpp"
+#include "core/element/element_sums.hpp"
 #include "core/joint/joint_chain.hpp"
 #include "core/joint/kinks.hpp"
 #include "core/joint/rider.hpp"
@@ -52,10 +54,8 @@ class CurrentBeam {
   const Mesh& mesh() const { return mesh_; }
   /// Of the elements.
   const BeamRules& rules() const { return rules_; }
-  /// With so many Gauss points an element, or own_points.
-  BeamRules rules(int points) const {
-    return points == own_points ? rules_ : BeamRules(beam_rule(points, model_.axial_strain));
-  }
+  /// For sums over elements by so many Gauss points, or own_points.
+  const SumTables& tables(int points) const;
   const Layout<D>& layout() const { return layout_; }
   Eigen::Index coordinates() const { return layout_.coordinates(); }
   /// Counts the meshes there have been.
@@ -281,6 +281,7 @@ class CurrentBeam {
 
   BeamModel<D> model_;
   BeamRules rules_;
+  mutable std::map<int, SumTables> tables_;  ///< those that have been asked for
   Mesh mesh_;
   std::vector<double> rest_;        ///< nodes of the rest shape, but for the moving one; empty if it is straight
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain

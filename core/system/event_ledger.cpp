@@ -34,8 +34,8 @@ template <int D>
 class KineticChange {
  public:
   KineticChange(const BeamModel<D>& model, const ChainState<D>& before, const ChainState<D>& after,
-                const BeamRules& rules)
-      : model_(model), before_(before), after_(after), rules_(rules) {}
+                const SumTables& tables)
+      : model_(model), before_(before), after_(after), tables_(tables) {}
 
   double of(int k_before, int k_after) const {
     const auto was = before_.rates(k_before), is = after_.rates(k_after);
@@ -44,7 +44,7 @@ class KineticChange {
     if (still && change.r_a.isZero(0) && change.s_a.isZero(0) && change.r_b.isZero(0) && change.s_b.isZero(0)) return 0;
     const Mesh& mesh = after_.mesh;
     const auto k = static_cast<std::size_t>(k_after);
-    const auto points = with_mass(rules_.of(mesh.weights[k].w));
+    const auto points = with_mass(tables_.of(mesh.weights[k].w).rule);
     if (after_.moves(k_after) || mesh.weights[k].w != unit_weights || points.size() < exact_points) {
       return by_points(k_before, k_after, points);
     }
@@ -77,7 +77,7 @@ class KineticChange {
 
   const BeamModel<D>& model_;
   const ChainState<D>&before_, &after_;
-  BeamRules rules_;
+  const SumTables& tables_;
 };
 
 }  // namespace
@@ -90,7 +90,7 @@ Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, cons
                 energies_of_elements(beam, before, reach.lowest, reach.highest, t, points);
 
   const BeamModel<D>& model = beam.model();
-  const KineticChange<D> change(model, before, after, beam.rules(points));
+  const KineticChange<D> change(model, before, after, beam.tables(points));
   double outside = 0;
   for (int k = 0; k < reach.lowest; ++k) outside += change.of(k, k);
   for (int k = reach.highest; k < before.mesh.elements(); ++k) outside += change.of(k, k + more);

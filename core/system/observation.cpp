@@ -5,14 +5,9 @@
 namespace vlbeam {
 
 template <int D>
-Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRules& rules,
+Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, const SumTables& tables,
                       const RotaryInertia<D>* rotary)
-    : section_(section),
-      sections_(section),
-      gravity_(gravity),
-      polynomial_(rules.polynomial, unit_weights),
-      rational_(rules.rational, unit_weights),
-      rotary_(rotary) {}
+    : section_(section), sections_(section), gravity_(gravity), tables_(tables), rotary_(rotary) {}
 
 template <int D>
 ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& of, const NodalCubic<double, D>* rest,
@@ -47,7 +42,7 @@ ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& of, const Nodal
   };
   const auto motion = [&](double u, const ShapeTable<double>& shape) { return element.at(u, shape); };
   const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
-  for_each_point(element, table_of(of), of.is_rational(), none, motion, add);
+  for_each_point(element, tables_.of(of.weights.w), of.is_rational(), none, motion, add);
   for (const double u : {0.0, 1.0}) {
     const PointMotion<double, D> at = element.at(u, rational_shape(element.weights(), u));
     look(at, at_rest(at), Feels::everything);
@@ -59,15 +54,16 @@ template <int D>
 void Observer<D>::add(const SummedElement<D>& element, const NodalCubic<double, D>* rest, Observation<D>& seen) const {
   StrainExtremes* const extremes = seen.extremes ? &*seen.extremes : nullptr;
   const bool plain = rest == nullptr && rotary_ == nullptr;
-  seen.add(plain ? fastest_sum_kernels<D>().all(element, table_of(element), sections_, gravity_, extremes)
+  seen.add(plain ? fastest_sum_kernels<D>().all(element, tables_.of(element.weights.w), sections_, gravity_, extremes)
                  : sums(element, rest, extremes));
 }
 
 template <int D>
 Energy Observer<D>::energies(const SummedElement<D>& element, const NodalCubic<double, D>* rest) const {
   const bool plain = rest == nullptr && rotary_ == nullptr;
-  return energy_of(plain ? fastest_sum_kernels<D>().energies(element, table_of(element), sections_, gravity_, nullptr)
-                         : sums(element, rest, nullptr));
+  return energy_of(
+      plain ? fastest_sum_kernels<D>().energies(element, tables_.of(element.weights.w), sections_, gravity_, nullptr)
+            : sums(element, rest, nullptr));
 }
 
 template class Observer<2>;

@@ -72,8 +72,8 @@ struct OuterForces {
 template <int D>
 class Observer {
  public:
-  /// `section` and `rotary` (null without) must outlive this object.
-  Observer(const BeamSection& section, const Vec<double, D>& gravity, const BeamRules& rules,
+  /// `section`, `tables` and `rotary` (null without) must outlive this object.
+  Observer(const BeamSection& section, const Vec<double, D>& gravity, const SumTables& tables,
            const RotaryInertia<D>* rotary = nullptr);
 
   /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
@@ -83,9 +83,6 @@ class Observer {
   Energy energies(const SummedElement<D>& element, const NodalCubic<double, D>* rest) const;
 
  private:
-  const ShapeTabulation& table_of(const SummedElement<D>& element) const {
-    return element.is_rational() ? rational_ : polynomial_;
-  }
   /// Sums of any element, point by point.
   ElementSums<double, D> sums(const SummedElement<D>& element, const NodalCubic<double, D>* rest,
                               StrainExtremes* extremes) const;
@@ -93,7 +90,7 @@ class Observer {
   const BeamSection& section_;
   FeltSections sections_;
   Vec<double, D> gravity_;
-  ShapeTabulation polynomial_, rational_;  ///< of unit weights, both
+  const SumTables& tables_;
   const RotaryInertia<D>* rotary_;
 };
 
