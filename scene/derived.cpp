@@ -64,6 +64,7 @@ int quadrature_points(const Scene& scene) {
 }
 
 int points_of_polynomials(const Scene& scene) {
+  if (scene.beam.polynomial_points > 0) return scene.beam.polynomial_points;
   return scene.beam.quadrature_points > 0 ? scene.beam.quadrature_points : polynomial_points;
 }
 

@@ -150,6 +150,7 @@ struct BeamSpec {
   std::optional<OutOfPlane> out_of_plane = {};   ///< to be said of a curved beam in space whose law is scalar
   std::optional<AxialStrain> axial_strain = {};  ///< see axial_strain()
   int quadrature_points = 0;                     ///< Gauss points an element; 0 stands for the element's default
+  int polynomial_points = 0;                     ///< of one with unit weights; 0 stands for its default
   std::array<double, 4> weights{1, 1, 1, 1};     ///< initial weights of every element
 };
 

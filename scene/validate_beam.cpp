@@ -184,10 +184,13 @@ void check_curve(const Scene& scene) {
 
 void check_beam(const Scene& scene) {
   const BeamSpec& beam = scene.beam;
-  if (beam.quadrature_points == 1 || beam.quadrature_points == 2) {
-    refuse("/beam/quadrature_points", std::to_string(beam.quadrature_points),
+  const auto check_points = [](const char* key, int points) {
+    if (points != 1 && points != 2) return;
+    refuse(key, std::to_string(points),
            "it must be 0 (the element's default) or 3 to 25: the mass matrix is singular with fewer points");
-  }
+  };
+  check_points("/beam/quadrature_points", beam.quadrature_points);
+  check_points("/beam/polynomial_points", beam.polynomial_points);
 
   check_weight_ratio("/beam/weights", beam.weights.data(), beam.weights.size());
   const auto unequal = std::ranges::find_if(beam.weights, [](double w) { return w != 1; });

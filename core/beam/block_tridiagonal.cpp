@@ -69,7 +69,7 @@ void BorderedBlockTridiagonal<B>::reset(int nodes) {
       std::fill_n(blocks->begin() + first, count, Block::Zero());
     }
   });
-  middle_ = nodes / 2;
+  middle_ = solves_ && !is_long() ? nodes - 1 : nodes / 2;
   inverse_.resize(solves_ ? 0 : n);
   pivots_.resize(solves_ ? n : 0);
   border.clear();

@@ -45,8 +45,8 @@ class BorderedBlockTridiagonal {
 
   /// Solves with each pivot from now on, by pivoting, instead of multiplying with its inverse. The inverse of a badly
   /// conditioned pivot errs most where the pivot is stiffest, and this error takes the place of what the elimination
-  /// leaves of a stiff matrix in soft directions. Slower: the integrators do not need it, whose mass stiffens all
-  /// directions.
+  /// leaves of a stiff matrix in soft directions. Slower, and from one end as long as there are few nodes: what is
+  /// singular but for rounding then comes last. The integrators do not need it, whose mass stiffens all directions.
   void solve_pivots() { solves_ = true; }
 
   /// Block LU from both ends to the middle, at once where there are many nodes and threads; then the small system that

@@ -484,10 +484,9 @@ Scene read_scene(const std::filesystem::path& file) {
 
 Json scene_to_json(const Scene& scene) {
   Scene filled = scene;
-  filled.integrator.automatic = false;                             // what was chosen, as one may write it
-  if (quadrature_points(scene) == points_of_polynomials(scene)) {  // else no one number says it
-    filled.beam.quadrature_points = quadrature_points(scene);
-  }
+  filled.integrator.automatic = false;  // what was chosen, as one may write it
+  filled.beam.quadrature_points = quadrature_points(scene);
+  filled.beam.polynomial_points = points_of_polynomials(scene);
   filled.beam.axial_strain = axial_strain(scene);
   if (auto& mass = filled.sliding_mass) mass->separation_distance = separation_distance(scene, *mass);
   for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene, joint);

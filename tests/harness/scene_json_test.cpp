@@ -77,7 +77,8 @@ TEST(SceneJson, EchoHoldsWhatTheFileLeftOut) {
                                                   "beam": {"curve": {"end": [2, 0]}}, "duration": 1})"));
   EXPECT_EQ(echo["integrator"]["type"], "generalized-alpha");
   EXPECT_EQ(echo["sliding_mass"]["separation_distance"], 2e-3);
-  EXPECT_GE(echo["beam"]["quadrature_points"], 3) << "the element's default, not its placeholder 0";
+  EXPECT_EQ(echo["beam"]["quadrature_points"], 10) << "the element's default, not its placeholder 0";
+  EXPECT_EQ(echo["beam"]["polynomial_points"], 5);
   EXPECT_FALSE(echo["beam"]["section"].contains("EA"));
 }
 

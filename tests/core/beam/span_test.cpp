@@ -15,11 +15,11 @@ constexpr int D = 2;
 struct Beam {
   Mesh mesh;
   BeamSection section{.rhoA = 1.5, .stiffness = {100, 2}};
-  BeamRule rule = beam_rule(5);
+  BeamRules rules{5, 10, AxialStrain::full};
   std::vector<PointMass> masses{{0.3, 1.1}};
 
   Span<D> span(int outer, int open, Span<D>* before = nullptr) const {
-    return Span<D>(mesh, outer, open, Support<D>::pin(), section, rule, nullptr, masses, before);
+    return Span<D>(mesh, outer, open, Support<D>::pin(), section, rules, nullptr, masses, before);
   }
 };
 
@@ -60,6 +60,48 @@ TEST(Span, GoesOnFromOneOnAnotherMesh) {
       Span<D> left = old.span(0, was), right = old.span(19, was);
       expect_alike(cut.span(0, open, &left), cut.span(0, open), 21);
       expect_alike(cut.span(20, open, &right), cut.span(20, open), 21);
+    }
+  }
+}
+
+/// Whatever its neighbours in a pack are: of the first nine elements, five are rational.
+TEST(Span, AnElementTakesTheRuleOfItsWeights) {
+  const Beam mixed = beam(9);
+  Random random(1);
+  Eigen::VectorXd q(node_size<D> * 10);
+  for (double& entry : q) entry = random.uniform(-1, 1);
+  struct Sums {
+    Eigen::VectorXd force;
+    std::vector<NodeTangent<D>> diagonal, upper, lower;
+  };
+  const auto of = [&](const Beam& beam) {
+    const std::vector<NodeTangent<D>> none(10, NodeTangent<D>::Zero());
+    Sums sums{Eigen::VectorXd::Zero(q.size()), none, none, none};
+    const Span<D> whole = beam.span(0, 9);
+    whole.add_forces(q.data(), q.data(), {0, 0}, sums.force.data());
+    whole.add_tangent(q.data(), q.data(), {1, 0, 0}, sums.diagonal.data(), sums.upper.data(), sums.lower.data());
+    return sums;
+  };
+  const auto row = [](const Sums& sums, int node) -> Eigen::Matrix<double, node_size<D>, 1> {
+    return sums.force.segment<node_size<D>>(Eigen::Index{node_size<D>} * node);
+  };
+  Beam by_five = mixed, by_ten = mixed;
+  by_five.rules = beam_rule(5);
+  by_ten.rules = beam_rule(10);
+  const Sums sums = of(mixed), five = of(by_five), ten = of(by_ten);
+  for (int node = 0; node <= 9; ++node) {
+    const auto k = static_cast<std::size_t>(node);
+    if (node <= 4) {
+      EXPECT_EQ(row(sums, node), row(ten, node)) << node;
+      EXPECT_EQ(sums.upper[k], ten.upper[k]) << node;
+      EXPECT_NE(sums.upper[k], five.upper[k]) << node;
+    }
+    if (node >= 6) {
+      EXPECT_EQ(row(sums, node), row(five, node)) << node;
+    }
+    if (node >= 5 && node < 9) {
+      EXPECT_EQ(sums.upper[k], five.upper[k]) << node;
+      EXPECT_NE(sums.upper[k], ten.upper[k]) << node;
     }
   }
 }
