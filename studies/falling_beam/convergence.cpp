@@ -235,6 +235,13 @@ void add_quadrature_convergence(StudyReport& report, const Runs& runs, const Tim
     table.columns.push_back(name);
     table.columns.push_back(name + "_mesh");
   }
+  for (const Column& c : columns) {
+    const Run* by_default = runs.find("default_points", {.elements = c.elements, .element = c.kind});
+    const Run* best = runs.find("quadrature", {.elements = c.elements, .element = c.kind, .points = most});
+    if (by_default == nullptr || best == nullptr) continue;
+    report.measured["quadrature_error_share_" + short_name(c.kind) + "_n" + std::to_string(c.elements)] =
+        position_error(*by_default->result, *best->result, times.error) / error_of(runs, best, times.error);
+  }
   for (const int points : counts) {
     if (points == most) continue;
     std::vector<Json> row{points};
@@ -245,12 +252,6 @@ void add_quadrature_convergence(StudyReport& report, const Runs& runs, const Tim
       const double mesh = error_of(runs, best, times.error);
       row.push_back(number_or_null(error));
       row.push_back(number_or_null(mesh));
-      Scene by_default = best ? best->scene : Scene{};
-      by_default.beam.quadrature_points = 0;
-      if (points == quadrature_points(by_default)) {
-        report.measured["quadrature_error_share_" + short_name(c.kind) + "_n" + std::to_string(c.elements)] =
-            error / mesh;
-      }
       if (run && counts.size() > 2 && points == counts[counts.size() - 2]) {
         report.measured["quadrature_known_to_" + short_name(c.kind) + "_n" + std::to_string(c.elements)] = error / mesh;
       }

@@ -1,7 +1,7 @@
 # Error, jumps of kinetic energy and number of events against the trigger, hysteresis 1e-3.
 width = 1200; height = 800
 load folder . "/../style.gp"
-set multiplot layout 2,3 title "Length-control trigger, hysteresis 10^{-3}" margins 0.08,0.98,0.09,0.89 spacing 0.08,0.18
+set multiplot layout 2,3 title "Length-control trigger, hysteresis 10^{-3}" margins 0.08,0.98,0.09,0.87 spacing 0.08,0.18
 kinds = "ALE-RANCF ALE-ANCF"
 colour(i) = i == 1 ? "#08519c" : "#a63603"
 set xlabel "upper (L_{std})"
@@ -9,7 +9,7 @@ set xrange [1.45:2]
 pick(beam, kind, value) = (strcol("beam") eq beam && strcol("element") eq kind && strcol("control") eq "on" && column("hysteresis") == 0.001) ? column(value) : NaN
 do for [b=1:2] {
   beam = word("falling suspended", b)
-  if (b == 1) { set key at screen 0.99,0.995 top right horizontal maxrows 1 } else { unset key }
+  if (b == 1) { set key at screen 0.985,0.96 top right horizontal maxrows 1 } else { unset key }
   set title sprintf("(%s) %s beam: error at the end", word("a d", b), beam)
   set ylabel "error / L"
   set logscale y
