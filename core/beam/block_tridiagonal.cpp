@@ -39,8 +39,9 @@ auto node_part(const double* x, int k) {
   return Eigen::Map<const Eigen::Matrix<double, B, 1>>(x + std::ptrdiff_t{B} * k);
 }
 
-/// Calls a(i) and b(i), each for i from 0 to its count, if any, both of which need nothing of each other: at once where there are
-/// threads, or by turns, so that the processor works on the one while the other waits for what it needs of itself.
+/// Calls a(i) and b(i), each for i from 0 to its count, if any, both of which need nothing of each other: at once where
+/// there are threads, or by turns, so that the processor works on the one while the other waits for what it needs of
+/// itself.
 template <class A, class B>
 void side_by_side(bool by_threads, int count_a, const A& a, int count_b, const B& b) {
   if (by_threads) {

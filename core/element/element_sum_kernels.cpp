@@ -17,7 +17,8 @@ template <int D, bool energies_alone>
   for_each_point(element, table, of.is_rational(), none, motion,
                  [&](const auto& point, const PointMotion<Pack, D>& at, const auto*) {
                    const BeamSection& section = sections[point.feels];
-                   if (!energies_alone && extremes != nullptr) extremes->add(sections.everything, at, nullptr, point.feels);
+                   if (!energies_alone && extremes != nullptr)
+                     extremes->add(sections.everything, at, nullptr, point.feels);
                    const ElasticStress<Pack, D> stress(at.r_x, at.r_xx, section.stiffness);
                    lanes.axial += point.weight * stress.axial;
                    lanes.bending += point.weight * stress.bending;
