@@ -20,19 +20,19 @@ const MovingKernels<D, Ends>& fastest_moving_kernels() {
 }
 
 template <int D, MovingEnds Ends>
-MovingEquations<double, D> MovingElement<double, D, Ends>::equations(const Coordinates& q,
-                                                                                     const Coordinates& rate,
-                                                                                     const WeightFunction& weights,
-                                                                                     const ShapeTabulation& table,
-                                                                                     const MovingLaw<D>& law) {
+MovingEquations<double, D> MovingElement<double, D, Ends>::equations(const Coordinates& q, const Coordinates& rate,
+                                                                     const WeightFunction& weights,
+                                                                     const ShapeTabulation& table,
+                                                                     const MovingLaw<D>& law) {
   if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, AtAnyAcceleration{}, weights, table, law);
   return fastest_moving_kernels<D, Ends>().equations(q, rate, weights, table, law);
 }
 
 template <int D, MovingEnds Ends>
-MovingEquations<double, D> MovingElement<double, D, Ends>::forces(
-    const Coordinates& q, const Coordinates& rate, const Coordinates& a, const WeightFunction& weights,
-    const ShapeTabulation& table, const MovingLaw<D>& law) {
+MovingEquations<double, D> MovingElement<double, D, Ends>::forces(const Coordinates& q, const Coordinates& rate,
+                                                                  const Coordinates& a, const WeightFunction& weights,
+                                                                  const ShapeTabulation& table,
+                                                                  const MovingLaw<D>& law) {
   if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, a, weights, table, law);
   return fastest_moving_kernels<D, Ends>().forces(q, rate, a, weights, table, law);
 }

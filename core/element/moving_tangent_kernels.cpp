@@ -7,10 +7,10 @@ namespace vlbeam::VLBEAM_KERNELS {
 
 template <int D, MovingEnds Ends, int Unknown>
 [[gnu::flatten]] MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D>& q,
-                                               const MovingCoordinates<double, D>& rate,
-                                               const MovingCoordinates<double, D>& a, const TangentWeights& by,
-                                               const WeightFunction& weights, const ShapeTabulation& table,
-                                               const MovingLaw<D>& law) {
+                                                                const MovingCoordinates<double, D>& rate,
+                                                                const MovingCoordinates<double, D>& a,
+                                                                const TangentWeights& by, const WeightFunction& weights,
+                                                                const ShapeTabulation& table, const MovingLaw<D>& law) {
   const auto lanes = tangent_sums<Ends, D, Unknown, Pack>(in_all_lanes<D>(q), in_all_lanes<D>(rate), in_all_lanes<D>(a),
                                                           by, weights, table, law);
   MovingTangent<Ends, D, Unknown> sum;
