@@ -16,7 +16,7 @@ std::atomic<int> most_threads{0};  // 0 for one a processor
 #ifdef VLBEAM_HAVE_TBB
 
 /// Tells oneTBB of the limit, before its first work and not before that: to start it takes longer than many a run.
-class Control {
+class LimitOfTbb {
  public:
   void set(int threads) {
     const std::scoped_lock alone(mutex_);
@@ -35,7 +35,7 @@ class Control {
   std::unique_ptr<tbb::global_control> control_;
 };
 
-Control control;
+LimitOfTbb limit_of_tbb;
 
 #endif
 
@@ -52,7 +52,7 @@ ThreadLimit::~ThreadLimit() { most_threads = before_; }
 void at_once(std::ptrdiff_t count, void (*task)(const void* context, std::ptrdiff_t i), const void* context) {
 #ifdef VLBEAM_HAVE_TBB
   if (const int threads = most_threads; threads != 1) {
-    control.set(threads);
+    limit_of_tbb.set(threads);
     tbb::parallel_for(tbb::blocked_range<std::ptrdiff_t>(0, count), [&](const auto& range) {
       for (std::ptrdiff_t i = range.begin(); i < range.end(); ++i) task(context, i);
     });

@@ -10,8 +10,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr int most_iterations = 40;
-constexpr double converged = 1e-12;  // predicted decrease of the energy, over what there is
+constexpr int most_relaxations = 40;
+constexpr double relaxed = 1e-12;  // predicted decrease of the energy, over what there is
 constexpr int halvings = 50;
 constexpr double shortest_step = 1e-3;  // of Newton's
 
@@ -140,7 +140,7 @@ int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules&
   Eigen::MatrixXd hessian;
   double energy = patch.energy();
   const double enough = energy - excess;
-  for (int iteration = 1; iteration <= most_iterations; ++iteration) {
+  for (int iteration = 1; iteration <= most_relaxations; ++iteration) {
     patch.differentiate(gradient, hessian);
     Eigen::LLT<Eigen::MatrixXd> factors(hessian);
     // slack elements have directions without stiffness, or with a negative one
@@ -152,7 +152,7 @@ int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules&
     if (factors.info() != Eigen::Success) return iteration;
     const Eigen::VectorXd step = -factors.solve(gradient);
     const double decrease = -gradient.dot(step);
-    if (!(decrease > converged * energy)) {  // the energy no longer tells: the last step is Newton's own
+    if (!(decrease > relaxed * energy)) {  // the energy no longer tells: the last step is Newton's own
       if (decrease > 0 && decrease < excess) patch.move(step);
       return iteration;
     }
@@ -180,7 +180,7 @@ int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules&
       if (share < shortest_step) return iteration;
     }
   }
-  return most_iterations;
+  return most_relaxations;
 }
 
 template int relax(ChainState<2>&, std::vector<GivingNode>, const BeamRules&, const MovingLaw<2>&, double);
