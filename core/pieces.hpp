@@ -23,7 +23,7 @@ class ThreadLimit {
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
  private:
-  int before_;
+  int threads_;
 };
 
 /// Calls task(context, i) for i from 0 to `count` - 1, at once where there are threads. Nothing may be thrown.

@@ -149,7 +149,8 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     number("/beam/quadrature_points", "-", Range::closed(0, 25),
            "Gauss points an element, 3 to 25; 0 takes the element's default", beam.quadrature_points);
     number("/beam/polynomial_points", "-", Range::closed(0, 25),
-           "the same for an element whose weights are all 1; 0 takes quadrature_points, or 5 where these are 0, too",
+           "the same for stress and mass of an element whose weights are all 1; 0 takes quadrature_points, or 5 where "
+           "these are 0, too, and no rope goes slack",
            beam.polynomial_points);
     number("/beam/weights", "-", Range::positive(), "initial rational weights of every element", beam.weights,
            {.source = "Ding & Ouyang 2022, Eq. 5"});

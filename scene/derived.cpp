@@ -65,7 +65,9 @@ int quadrature_points(const Scene& scene) {
 
 int points_of_polynomials(const Scene& scene) {
   if (scene.beam.polynomial_points > 0) return scene.beam.polynomial_points;
-  return scene.beam.quadrature_points > 0 ? scene.beam.quadrature_points : polynomial_points;
+  if (scene.beam.quadrature_points > 0) return scene.beam.quadrature_points;
+  // where a rope goes slack its law bends sharply, and is no polynomial of anything
+  return scene.beam.compression == Compression::none ? quadrature_points(scene) : polynomial_points;
 }
 
 AxialStrain axial_strain(const Scene& scene) {

@@ -12,8 +12,8 @@ namespace vlbeam {
 /// they stand for.
 Scene scene_in(SceneSetting setting);
 
-/// Gauss points an element: those that the scene asks for, or its element's default; and those of an element with unit
-/// weights, which needs fewer by default.
+/// Gauss points an element: those that the scene asks for, or its element's default; and those of an element whose
+/// weights are 1, which needs fewer by default unless its rope goes slack.
 int quadrature_points(const Scene& scene);
 int points_of_polynomials(const Scene& scene);
 

@@ -175,7 +175,7 @@ std::vector<Warning> energy_warnings(const Scene& scene, const RunResult& result
     warnings.push_back({WarningKind::energy_unexplained,
                         "by a 25-point rule the total energy changes by up to " + shown(ledger.largest_unexplained) +
                             " that nothing explains: the model's own points are too few to see it",
-                        "more /beam/quadrature_points, or more elements"});
+                        "more /beam/quadrature_points, and /beam/polynomial_points, or more elements"});
   }
   return warnings;
 }

@@ -187,7 +187,7 @@ void check_beam(const Scene& scene) {
   const auto check_points = [](const char* key, int points) {
     if (points != 1 && points != 2) return;
     refuse(key, std::to_string(points),
-           "it must be 0 (the element's default) or 3 to 25: the mass matrix is singular with fewer points");
+           "it must be 0 (the default) or 3 to 25: the mass matrix is singular with fewer points");
   };
   check_points("/beam/quadrature_points", beam.quadrature_points);
   check_points("/beam/polynomial_points", beam.polynomial_points);

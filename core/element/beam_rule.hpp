@@ -37,7 +37,7 @@ inline std::span<const BeamPoint> with_mass(const BeamRule& rule) {
 /// Throws std::out_of_range for any other number.
 BeamRule beam_rule(int points, AxialStrain axial_strain = AxialStrain::full);
 
-/// The rules of a beam's elements. One of unit weights is a polynomial, and needs fewer points.
+/// The rules of a beam's elements. An element whose weights are 1 is a polynomial, and needs fewer points.
 struct BeamRules {
   BeamRule polynomial, rational;
 
@@ -45,7 +45,7 @@ struct BeamRules {
   BeamRules(int polynomial_points, int rational_points, AxialStrain axial_strain)
       : polynomial(beam_rule(polynomial_points, axial_strain)), rational(beam_rule(rational_points, axial_strain)) {}
 
-  const BeamRule& of(const Weights<double>& weights) const { return weights == unit_weights ? polynomial : rational; }
+  const BeamRule& of(const Weights<double>& weights) const { return nearly_unit(weights) ? polynomial : rational; }
 };
 
 }  // namespace vlbeam

@@ -37,14 +37,15 @@ struct ElementSums {
   }
 };
 
-/// Shape functions of unit weights at the points of both rules: those of rational elements depend on their weights.
+/// Both rules, with shape functions of unit weights: those of rational elements depend on their weights, and are made
+/// where they are needed.
 struct SumTables {
   ShapeTabulation polynomial, rational;
 
   explicit SumTables(const BeamRules& rules)
       : polynomial(rules.polynomial, unit_weights), rational(rules.rational, unit_weights) {}
   const ShapeTabulation& of(const Weights<double>& weights) const {
-    return weights == unit_weights ? polynomial : rational;
+    return nearly_unit(weights) ? polynomial : rational;
   }
 };
 

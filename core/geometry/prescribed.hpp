@@ -8,6 +8,7 @@ namespace vlbeam {
 struct Prescribed {
   double value = 0, rate = 0, acceleration = 0;
 };
+/// It may remember what it was asked last: threads do not share one.
 using TimeFunction = std::function<Prescribed(double t)>;
 
 /// value + rate t.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace vlbeam {
 
@@ -9,6 +11,12 @@ template <class Real>
 using Weights = std::array<Real, 4>;
 
 inline constexpr Weights<double> unit_weights{1, 1, 1, 1};
+
+/// Whether the cubic is a polynomial, or next to one: what is merged of a straight beam has weights of 1 but for
+/// rounding.
+inline bool nearly_unit(const Weights<double>& w) {
+  return std::ranges::all_of(w, [](double weight) { return std::abs(weight - 1) < 1e-6; });
+}
 
 /// Blossom of the cubic with Bernstein coefficients `c`, at the arguments (s, t, u).
 /// Works for any coefficient type with a linear structure (weights or homogeneous points), inside [0, 1] or beyond.

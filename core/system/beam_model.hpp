@@ -52,7 +52,7 @@ struct BeamModel {
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;  ///< Gauss points an element
-  int polynomial_points = 0;  ///< of one with unit weights, 0 for as many
+  int polynomial_points = 0;  ///< of one whose weights are 1; 0 for `quadrature_points`
   AxialStrain axial_strain = AxialStrain::full;
   Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
   double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start

@@ -6,7 +6,7 @@
 namespace vlbeam {
 
 /// Adds energies and momenta of the elements `first` to `last` - 1 of a chain, point masses on them included, by
-/// `points` Gauss points an element; the model is that of the beam.
+/// `points` Gauss points an element, or own_points; the model is that of the beam.
 template <int D>
 void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
                       Observation<D>& seen);

@@ -74,7 +74,7 @@ class Held {
   std::vector<int> index_;
   bool anchored_ = false, moves_ = false;
   mutable std::vector<HeldNode<D>> nodes_;
-  mutable double looked_at_ = 0;  ///< [s], the instant at which nodes_ stand as they move
+  mutable double looked_at_ = 0;  ///< [s], the instant that `nodes_` belong to
 };
 
 extern template class Held<2>;

@@ -55,7 +55,7 @@ Scene with_setting(const Scene& given, const Setting& setting) {
   const int from = scene.beam.elements, to = setting.elements;
   changed.beam.elements = to;
   changed.beam.quadrature_points = setting.points;
-  changed.beam.polynomial_points = 0;
+  changed.beam.polynomial_points = points_of_polynomials(scene) + setting.points - quadrature_points(scene);
   if (changed.flow) {
     for (auto& guide : changed.flow->nodes) guide.node = renumbered(guide.node, from, to, "/flow/nodes");
   }

@@ -66,7 +66,8 @@ TEST(Span, GoesOnFromOneOnAnotherMesh) {
 
 /// Whatever its neighbours in a pack are: of the first nine elements, five are rational.
 TEST(Span, AnElementTakesTheRuleOfItsWeights) {
-  const Beam mixed = beam(9);
+  Beam mixed = beam(9);
+  mixed.mesh.weights[7].w[1] += 1e-14;  // rounding, as merges leave it
   Random random(1);
   Eigen::VectorXd q(node_size<D> * 10);
   for (double& entry : q) entry = random.uniform(-1, 1);
