@@ -9,7 +9,7 @@ set xrange [1.45:2]
 pick(beam, kind, value) = (strcol("beam") eq beam && strcol("element") eq kind && strcol("control") eq "on" && column("hysteresis") == 0.001) ? column(value) : NaN
 do for [b=1:2] {
   beam = word("falling suspended", b)
-  if (b == 1) { set key at screen 0.985,0.96 top right horizontal maxrows 1 } else { unset key }
+  if (b == 1) { set key at screen 0.985,0.998 top right horizontal maxrows 1 } else { unset key }
   set title sprintf("(%s) %s beam: error at the end", word("a d", b), beam)
   set ylabel "error / L"
   set logscale y
