@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/beam/span_kernels.hpp"
+#include "core/element/element_sums.hpp"
 #include "core/element/moving_kernels.hpp"
 #include "tests/core/support/element_state.hpp"
 
@@ -48,6 +49,33 @@ void expect_same_bits(Random& random, const BeamSection& section, AxialStrain ax
         keep_all(kernels.tangent(q, rate, a, by, weights, table, law));
       }
     }
+    return all;
+  };
+  const auto portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
+  expect_same_bits(portable.data(), avx2.data(), portable.size());
+}
+
+template <int D>
+void expect_same_sums(Random& random, const BeamSection& section, AxialStrain axial, WeightTransport transport) {
+  const auto q = coordinates<double, D>(random_element<D>(random));
+  const WeightFunction weights{random.weights(3), q.x_a - 0.1, q.x_b + 0.05};
+  const SummedElement<D> element{q, coordinates<double, D>(random_rates<D>(random)), transport, weights};
+  const ShapeTabulation table(beam_rule(25, axial), unit_weights);
+  const Vec<double, D> gravity = random.vector<D>(9.81);
+  const auto of = [&](InstructionSet set) {
+    const auto kernels = sum_kernels<D>(set);
+    StrainExtremes seen;
+    std::vector<double> all;
+    for (const auto& sums : {kernels.all(element, table, FeltSections(section), gravity, &seen),
+                             kernels.energies(element, table, FeltSections(section), gravity, nullptr)}) {
+      all.insert(all.end(),
+                 {sums.axial, sums.bending, sums.kinetic, sums.gravity, sums.mass, sums.length, sums.length_rate});
+      all.insert(all.end(), sums.momentum.begin(), sums.momentum.end());
+      all.insert(all.end(), sums.mass_moment.begin(), sums.mass_moment.end());
+      all.insert(all.end(), sums.angular_momentum.begin(), sums.angular_momentum.end());
+    }
+    all.insert(all.end(),
+               {seen.strain.least, seen.strain.largest, seen.force.least, seen.force.largest, seen.curvature});
     return all;
   };
   const auto portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
@@ -121,6 +149,8 @@ TEST(InstructionSets, GiveTheSameBits) {
             expect_same_bits<MovingEnds::a, 3>(random, section, axial, transport);
             expect_same_bits<MovingEnds::b, 3>(random, section, axial, transport);
             expect_same_bits<MovingEnds::both, 3>(random, section, axial, transport);
+            expect_same_sums<2>(random, section, axial, transport);
+            expect_same_sums<3>(random, section, axial, transport);
           }
           expect_same_spans<2>(random, section, axial);
           expect_same_spans<3>(random, section, axial);
