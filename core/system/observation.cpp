@@ -43,6 +43,7 @@ ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& of, const Nodal
   const auto motion = [&](double u, const ShapeTable<double>& shape) { return element.at(u, shape); };
   const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
   for_each_point(element, tables_.of(of.weights.w), of.is_rational(), none, motion, add);
+  if (extremes == nullptr) return sums;
   for (const double u : {0.0, 1.0}) {
     const PointMotion<double, D> at = element.at(u, rational_shape(element.weights(), u));
     look(at, at_rest(at), Feels::everything);
