@@ -198,22 +198,26 @@ void EventAim::exchange(Memory& memory) {
   for (std::size_t k = 0; k < known_.size(); ++k) known_[k].value = values[static_cast<Eigen::Index>(k)];
 }
 
-void EventAim::aim_at_what_has_passed(const Guards& then, double t) {
+void EventAim::aim_at_what_has_passed(const Guards& then, double t, double latest) {
   if (!repeats_ || known_t_ == missed_from_ || known_.size() != then.size()) return;
-  const auto due = std::ranges::find_if(then, is_due);
-  if (due == then.end()) return;
-  const auto k = due - then.begin();
-  const double rise = due->value - known_[static_cast<std::size_t>(k)].value;
-  if (due->value > just_passed * rise) return;
-  guard_ = static_cast<int>(k);
-  slope_ = rise / (t - known_t_);
+  for (std::size_t k = 0; k < then.size(); ++k) {
+    const double rise = then[k].value - known_[k].value, slope = rise / (t - known_t_);
+    if (is_due(then[k])) {
+      if (then[k].value > just_passed * rise) return;
+    } else if (known_[k].value > clearly_before || !(rise > 0) || t - then[k].value / slope > latest) {
+      continue;
+    }
+    guard_ = static_cast<int>(k);
+    slope_ = slope;
+    return;
+  }
 }
 
 EventAim::Shot EventAim::shoot(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t) {
   double last_t = 0, last_value = 0;
   for (int i = 0; i < most_repetitions; ++i) {
     const Guards guards = ode_.guards(y, t);
-    if (guard_ < 0) aim_at_what_has_passed(guards, t);
+    if (guard_ < 0) aim_at_what_has_passed(guards, t, t0 + longest);
     if (guard_ < 0) return Shot::none;
     const auto k = static_cast<std::size_t>(guard_);
     const Guard& guard = guards[k];

@@ -75,7 +75,8 @@ class EventAim {
 
  private:
   bool all_stay_behind(const Guards& now, double t, double dt) const;
-  void aim_at_what_has_passed(const Guards& then, double t);
+  /// Or at what the step has all but reached, if a step until `latest` would.
+  void aim_at_what_has_passed(const Guards& then, double t, double latest);
 
   EventedOde& ode_;
   Stepper& main_;

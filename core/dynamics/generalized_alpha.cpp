@@ -14,7 +14,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr double newton_share = 1e-4;  // of a step's own error, that Newton's iteration may leave
+constexpr double newton_share = 1e-3;    // of a step's own error, that Newton's iteration may leave
+constexpr double adaptive_share = 1e-2;  // the same, where steps are only as short as their error asks for
 constexpr double first_newton = 1e-8, least_newton = 1e-10, most_newton = 1e-4;  // of an increment
 constexpr double same_step = 0.05;  // relative difference of by_a: the tangent of nearly the same step
 constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
@@ -279,13 +280,12 @@ class GeneralizedAlpha final : public Stepper {
     const bool renew = kept_.is_old() && !nearby;
     if (renew || std::abs(rule_.by_a(h) - tangent_by_a_) > (nearby ? same_step * rule_.by_a(h) : 0)) tangent_by_a_ = 0;
     const bool starts_fresh = tangent_by_a_ == 0;
-    double slowest = 0;  // contraction
     if (h != noise_step_) stop_.forget_noise();
     noise_step_ = h;
     bool fresh = false;         // the tangent is of this step
     int with_this_tangent = 0;  // iterations of this step
     history_.clear();
-    stop_.begin_step();
+    stop_.begin_step(nearby && !starts_fresh);
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(step_.q, step_.v, step_.a, t, r_);
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
@@ -301,12 +301,11 @@ class GeneralizedAlpha final : public Stepper {
       step_.correct(rule_, r_, h);
       const NewtonStop::Verdict verdict = stop_.judge(r_, step_.d, tolerance_, slow_contraction);
       count(stop_.error());
-      slowest = std::max(slowest, stop_.contraction());
       if (verdict == NewtonStop::Verdict::done) {
         if (starts_fresh) {
-          kept_.made(slowest);
+          kept_.made(stop_.slowest());
         } else if (!nearby) {
-          kept_.kept(slowest, fresh);
+          kept_.kept(iteration + 1, fresh);
         }
         return true;
       }
@@ -320,7 +319,7 @@ class GeneralizedAlpha final : public Stepper {
         const double limit = kind == NewtonKind::full ? stagnation : 1;
         const bool late = kind == NewtonKind::modified || iteration > 1;  // the first may overshoot
         if (fresh && late && stop_.contraction() > limit && stop_.grows(limit, step_.q)) return false;
-        if (stop_.contraction() > slow_contraction) tangent_by_a_ = 0;
+        if (stop_.error_after(tangent_work + 1) > tolerance_) tangent_by_a_ = 0;
       }
     }
     return false;
@@ -373,7 +372,8 @@ class GeneralizedAlpha final : public Stepper {
       const auto f = static_cast<std::size_t>(field);
       if (errors[f] > 0 && increments[f] > 0) least = std::min(least, errors[f] / increments[f]);
     }
-    tolerance_ = std::clamp(newton_share * least, least_newton, most_newton);
+    const double share = options_.adaptive ? adaptive_share : newton_share;
+    tolerance_ = std::clamp(share * least, least_newton, most_newton);
   }
 
   /// r is linear in the accelerations, and next to 0 at the end of the step: with more acceleration it is that of this.

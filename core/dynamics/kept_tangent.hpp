@@ -7,8 +7,9 @@
 
 namespace vlbeam {
 
-/// Whether a step of Newton's iteration starts with the tangent of the step before, or makes its own, which costs about
-/// as much as three or four iterations. Where a tangent that was kept proves useless in the very next step, tries
+inline constexpr int tangent_work = 4;  // iterations, that take as long as a tangent and its factor
+
+/// Whether a step of Newton's iteration starts with the tangent of the step before, or makes its own. Where a tangent that was kept proves useless in the very next step, tries
 /// become rare: stiff beams of fine meshes turn by more in a step than any tangent bears.
 class KeptTangent {
  public:
@@ -22,8 +23,8 @@ class KeptTangent {
     old_ = waits_ > 0 || (slowest > fast_contraction && slowest < slow_contraction);
   }
   /// A step started with the one before's, and went on with it, or had to make its own on the way.
-  void kept(double slowest, bool renewed) {
-    old_ = slowest > old_contraction;
+  void kept(int iterations, bool renewed) {
+    old_ = !renewed && iterations >= tangent_work;
     if (!renewed && !old_) {
       served_ = true;
       wait_ = 0;
@@ -41,8 +42,7 @@ class KeptTangent {
   }
 
  private:
-  static constexpr double old_contraction = 0.2;    // the next step makes its own
-  static constexpr double fast_contraction = 1e-3;  // with the step's own: the next step may keep it
+  static constexpr double fast_contraction = 1e-2;  // with the step's own: the next step may keep it
   static constexpr int longest_wait = 32;           // steps
 
   bool old_ = false;

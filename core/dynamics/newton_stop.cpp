@@ -64,9 +64,13 @@ NewtonStop::Verdict NewtonStop::judge(const Eigen::VectorXd& r, const Eigen::Vec
   error_ = relative_error(1);
   contraction_ = previous > 0 ? error_ / previous : 0;
   if (std::isnan(contraction_)) contraction_ = 1;  // corrections of a field that does not move at all
+  slowest_ = std::max(slowest_, contraction_);
   if (error_ == 0) return Verdict::done;
-  if (previous == 0) return Verdict::go_on;
-  if (contraction_ < 1 && contraction_ / (1 - contraction_) * error_ <= tolerance) return Verdict::done;
+  const auto leaves_little = [&](double contraction) {
+    return contraction < 1 && contraction / (1 - contraction) * error_ <= tolerance;
+  };
+  if (previous == 0) return expected_ > 0 && leaves_little(expected_) ? Verdict::done : Verdict::go_on;
+  if (leaves_little(contraction_)) return Verdict::done;
   if (contraction_ <= slow) return Verdict::go_on;
   return !noise_known_ && (error_ < far_below || contraction_ > stagnant) ? Verdict::stagnates : Verdict::slow;
 }

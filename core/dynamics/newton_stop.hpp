@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -37,10 +38,13 @@ class NewtonStop {
   }
   const std::vector<FieldRun>& fields() const { return fields_; }
 
-  /// Before the first iteration of a step.
-  void begin_step() {
+  /// Before the first iteration of a step. `nearby`: with the tangent and nearly the length of the step before, so that
+  /// corrections will fall at least as fast as there.
+  void begin_step(bool nearby = false) {
     error_ = 0;
     corrections_ = 0;
+    expected_ = nearby ? slowest_ : 0;
+    slowest_ = expected_;
     if (++noise_age_ > noise_lifetime) forget_noise();
   }
   /// The length of the step, or the equations, are other ones.
@@ -75,11 +79,15 @@ class NewtonStop {
     memory(noise_age_);
     memory(error_);
     memory(contraction_);
+    memory(slowest_);
     memory(corrections_);
   }
 
   double error() const { return error_; }  ///< last correction over the increment, the largest of all fields
   double contraction() const { return contraction_; }  ///< from the correction before; 0 after the first
+  double slowest() const { return slowest_; }          ///< contraction of this step
+  /// What error() will be after so many more iterations, if corrections go on falling as they do.
+  double error_after(int iterations) const { return error_ * std::pow(contraction_, iterations); }
 
  private:
   static constexpr double settled = 4;  // times the noise: corrections that do not fall are not exactly alike
@@ -95,7 +103,8 @@ class NewtonStop {
   FieldNorms correction_{}, before_{}, increment_{}, noise_{};
   bool noise_known_ = false;
   int noise_age_ = 0;  ///< [steps]
-  double error_ = 0, contraction_ = 0;
+  double error_ = 0, contraction_ = 0, slowest_ = 0;
+  double expected_ = 0;  ///< contraction, before there is one; 0 where it is not known
   int corrections_ = 0;  ///< in this step
 };
 
