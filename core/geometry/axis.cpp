@@ -12,13 +12,17 @@
 namespace vlbeam {
 namespace {
 
-constexpr int length_pieces = 64;  // of a span; 10 points on each leave rounding alone
+constexpr int length_pieces = 64;  // of a span; 7 points on each leave rounding alone
+
+template <int D>
+double speed_at(const RationalCubic<double, D>& curve, double u) {
+  return curve.template evaluate<2>(u)[1].norm();
+}
 
 /// Arc length of `curve` between two values of its parameter.
 template <int D>
 double arc_length(const RationalCubic<double, D>& curve, double from, double to) {
-  auto speed = [&](double at) { return curve.evaluate(at)[1].norm(); };
-  return boost::math::quadrature::gauss<double, 10>::integrate(speed, from, to);
+  return boost::math::quadrature::gauss<double, 7>::integrate([&](double u) { return speed_at(curve, u); }, from, to);
 }
 
 /// The parameter at `length` from the start of `curve`: Newton's iteration inside the piece that holds it.
@@ -33,7 +37,7 @@ double parameter_at(const RationalCubic<double, D>& curve, const std::vector<dou
     const double excess = arc_length(curve, start, u) - target;
     if (std::abs(excess) <= 2e-16 * lengths.back()) break;
     (excess > 0 ? high : low) = u;
-    double next = u - excess / curve.evaluate(u)[1].norm();
+    double next = u - excess / speed_at(curve, u);
     if (!(low <= next && next <= high)) next = (low + high) / 2;
     const bool settled = std::abs(next - u) <= 1e-15;
     u = next;

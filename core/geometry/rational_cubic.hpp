@@ -44,12 +44,13 @@ struct RationalCubic {
             (points[3] - points[2]) * Real(Real(3) * w[2] / (l * w[3]))};
   }
 
-  /// Position and the first three derivatives with respect to u.
-  std::array<Vec<Real, D>, 4> evaluate(const Real& u) const {
+  /// Position and the first three derivatives with respect to u, or as many of these as are asked for.
+  template <int count = 4>
+  std::array<Vec<Real, D>, count> evaluate(const Real& u) const {
     std::array<std::array<Real, 4>, 4> b = bernstein(u);
-    std::array<Real, 4> w;
-    std::array<Vec<Real, D>, 4> value;
-    for (int n = 0; n < 4; ++n) {
+    std::array<Real, count> w;
+    std::array<Vec<Real, D>, count> value;
+    for (int n = 0; n < count; ++n) {
       w[n] = Real(0);
       value[n].setZero();
       for (int i = 0; i < 4; ++i) {
@@ -59,7 +60,7 @@ struct RationalCubic {
       }
     }
     constexpr int binomial[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
-    for (int n = 0; n < 4; ++n) {
+    for (int n = 0; n < count; ++n) {
       for (int k = 1; k <= n; ++k) value[n] -= value[n - k] * Real(Real(binomial[n][k]) * w[k]);
       value[n] *= Real(1) / w[0];
     }

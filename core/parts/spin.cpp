@@ -123,25 +123,31 @@ void Spin::add_inflow(const double* q, const double* rate, double* f) const {
 }
 
 double Spin::inner_residual(const double* q, const double* rate, const double* a, double* r) {
-  chain_.evaluate(q, rate, marks_);
   Eigen::Map<Eigen::VectorXd>(r, coordinates()).setZero();
-  chain_.add_residual(a, marks_, r);
-  return chain_.dissipation();
+  return chain_.residual(q, rate, a, marks_, r);
 }
 
 double Spin::residual(const double* q, const double* rate, const double* a, double t, double* r) {
   const double dissipated = inner_residual(q, rate, a, r);
+  take_forces(q, rate, t, r);
+  return dissipated;
+}
+
+void Spin::take_forces(const double* q, const double* rate, double t, double* r) {
   forces_.setZero();
   if (model_.torques.present()) add_torques(q, rate, t, forces_.data());
   add_inflow(q, rate, forces_.data());
   Eigen::Map<Eigen::VectorXd>(r, coordinates()) -= forces_;
-  return dissipated;
 }
 
 bool Spin::accelerate(const double* q, const double* rate, double t, double* a, double& dissipated) {
   for (const DrivenAngle& drive : model_.drives) prescribed_[angle(drive.node)] = drive.theta(t).acceleration;
-  dissipated += residual(q, rate, prescribed_.data(), t, a);
+  chain_.evaluate(q, rate, marks_);
+  dissipated += chain_.dissipation();
   Eigen::Map<Eigen::VectorXd> f(a, coordinates());
+  f.setZero();
+  chain_.add_residual(prescribed_.data(), marks_, a);
+  take_forces(q, rate, t, a);
   f = -f;
   if (!chain_.solve(a)) return false;
   for (const DrivenAngle& drive : model_.drives) a[angle(drive.node)] = prescribed_[angle(drive.node)];
@@ -179,10 +185,6 @@ std::vector<double> Spin::drive_torques(const double* residual) const {
   std::vector<double> torques;
   for (const DrivenAngle& drive : model_.drives) torques.push_back(residual[angle(drive.node)]);
   return torques;
-}
-
-std::array<double, 2> Spin::guiding_forces(int k, const double* a) const {
-  return vlbeam::guiding_forces(chain_.element(k), chain_.local(a, marks_, &Prescribed::acceleration, k));
 }
 
 void Spin::assemble(const TangentWeights& by, SpinTangent& tangent) const {

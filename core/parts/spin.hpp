@@ -79,7 +79,7 @@ class Spin {
   /// node, unless that is null.
   double add_torques(const double* q, const double* rate, double t, double* f, double* on_marks = nullptr) const;
   /// Forces along the beam [N] that move the ends of element k as their marks move, after a residual.
-  std::array<double, 2> guiding_forces(int k, const double* a) const;
+  const std::array<double, 2>& guiding_forces(int k) const { return chain_.guiding_forces(k); }
   /// The tangent of residual(), before driven angles.
   void assemble(const TangentWeights& by, SpinTangent& tangent) const;
   /// Factors it; false where it is singular.
@@ -109,6 +109,8 @@ class Spin {
     double rate, in;
   };
   std::array<Inlet, 2> inlets() const;
+  /// Takes from `r` the torques and what flows in with the matter.
+  void take_forces(const double* q, const double* rate, double t, double* r);
   /// Adds the momentum that comes in with the matter at the ends.
   void add_inflow(const double* q, const double* rate, double* f) const;
 

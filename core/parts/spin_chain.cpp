@@ -1,5 +1,6 @@
 #include "core/parts/spin_chain.hpp"
 
+#include "core/element/moving_tangent.hpp"
 #include "core/element/twist_law.hpp"
 
 namespace vlbeam {
@@ -17,6 +18,7 @@ SpinChain::SpinChain(const SpinSection& section, AngleField field, Formulation f
       field_(field),
       table_(beam_rule(quadrature_points), unit_weights),
       elements_(static_cast<std::size_t>(elements)),
+      guiding_(elements_.size()),
       work_(2 * (elements_.size() + 1)) {
   law_.section = {.rhoA = section.rhoIp, .stiffness = {section.GIp, 0}, .damping = section.damping};
   law_.formulation = formulation;
@@ -61,6 +63,29 @@ void SpinChain::add_residual(const double* a, const Nodes& nodes, double* r) con
     const auto part = nodal_residual(elements_[k], local(a, nodes, &Prescribed::acceleration, i));
     scatter(i, {part[0][0], part[1][0], part[2][0], part[3][0]}, r);
   }
+}
+
+double SpinChain::residual(const double* q, const double* rate, const double* a, const Nodes& nodes, double* r) {
+  double lost = 0;
+  for (std::size_t k = 0; k < guiding_.size(); ++k) {
+    const int i = static_cast<int>(k);
+    const Coordinates at = local(q, nodes, &Prescribed::value, i), rates = local(rate, nodes, &Prescribed::rate, i),
+                      accelerations = local(a, nodes, &Prescribed::acceleration, i);
+    std::array<Vec<double, 1>, 4> rows;
+    if (field_ == AngleField::hermite) {
+      const auto of =
+          moving_residual<MovingEnds::both, double, 1>(at, rates, accelerations, WeightFunction{}, table_, law_, &lost);
+      rows = of.nodes;
+      guiding_[k] = of.ends;
+    } else {
+      const Equations of = equations(at, rates);
+      rows = nodal_residual(of, accelerations);
+      guiding_[k] = vlbeam::guiding_forces(of, accelerations);
+      lost += of.dissipation;
+    }
+    scatter(i, {rows[0][0], rows[1][0], rows[2][0], rows[3][0]}, r);
+  }
+  return lost;
 }
 
 bool SpinChain::solve(double* f) {

@@ -42,14 +42,18 @@ class SpinChain {
   Equations equations(const Coordinates& q, const Coordinates& rate) const;
   /// Fills the equations of all elements.
   void evaluate(const double* q, const double* rate, const Nodes& nodes);
-  const Equations& element(int k) const { return elements_[static_cast<std::size_t>(k)]; }
-  /// Adds M a - Q.
+  /// Adds their M a - Q.
   void add_residual(const double* a, const Nodes& nodes, double* r) const;
+  /// Power that they lose to damping [W].
+  double dissipation() const;
   /// Solves M a = f in place; of driven angles f becomes zero.
   bool solve(double* f);
   /// The same by the factor that is there.
   void solve_again(double* f);
-  double dissipation() const;
+  /// Adds M a - Q of all elements without their equations; returns the power lost to damping [W].
+  double residual(const double* q, const double* rate, const double* a, const Nodes& nodes, double* r);
+  /// Forces along the beam [N] that move the ends of element k as their marks move, of the last residual().
+  const std::array<double, 2>& guiding_forces(int k) const { return guiding_[static_cast<std::size_t>(k)]; }
   /// Derivative of the residual of element k by angle and twist at its ends.
   Eigen::Matrix4d tangent(const Nodes& nodes, const TangentWeights& by, int k) const;
 
@@ -70,6 +74,7 @@ class SpinChain {
   MovingLaw<1> law_;
   ShapeTabulation table_;
   std::vector<Equations> elements_;
+  std::vector<std::array<double, 2>> guiding_;
   std::vector<std::array<ChainMass<1>::Components, 2>> free_;
   ChainMass<1> mass_;
   std::vector<double> work_;  // angle and twist at each node

@@ -171,18 +171,21 @@ ConstraintResidual CurrentBeam<D>::slope_residual(const Eigen::VectorXd& y) cons
   return largest;
 }
 
+/// Elements that meet there ask one behind the other.
+template <int D>
+const RestEnd<D>& CurrentBeam<D>::rest_end(double x) const {
+  if (!(last_rest_end_.x == x)) last_rest_end_ = {x, model_.rest->derivatives(x)};
+  return last_rest_end_;
+}
+
 template <int D>
 std::optional<RestElement<D>> CurrentBeam<D>::rest_of(const MovingPart& part, const double* q) const {
   if (!model_.rest) return std::nullopt;
   const auto end = [&](int node, int joint) -> RestEnd<D> {
     if (moving_) {
-      const double x = moving_->marks()[static_cast<std::size_t>(node)].value;
-      return {x, model_.rest->derivatives(x)};
+      return rest_end(moving_->marks()[static_cast<std::size_t>(node)].value);
     }
-    if (joint >= 0) {
-      const double x = q[places_[static_cast<std::size_t>(joint)].mark];
-      return {x, model_.rest->derivatives(x)};
-    }
+    if (joint >= 0) return rest_end(q[places_[static_cast<std::size_t>(joint)].mark]);
     return {mesh_.x[static_cast<std::size_t>(node)],
             {position<D>(rest_.data(), node), slope<D>(rest_.data(), node), Vector::Zero(), Vector::Zero()}};
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -273,6 +274,7 @@ class CurrentBeam {
     const auto at = std::ranges::find(joints_, index, &Joint::index);
     return at == joints_.end() ? -1 : static_cast<int>(at - joints_.begin());
   }
+  const RestEnd<D>& rest_end(double x) const;
   void adopt_joints(const ChainState<D>& chain);
   void adopt_frames();
   void adopt_elements();
@@ -283,6 +285,7 @@ class CurrentBeam {
   BeamRules rules_;
   mutable std::map<int, SumTables> tables_;  ///< those that have been asked for
   Mesh mesh_;
+  mutable RestEnd<D> last_rest_end_{std::numeric_limits<double>::quiet_NaN(), {}};
   std::vector<double> rest_;        ///< nodes of the rest shape, but for the moving one; empty if it is straight
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain
   std::vector<Joint> joints_;       ///< the same

@@ -37,7 +37,7 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
     const auto i = static_cast<std::size_t>(k);
     auto [force_a, force_b] = guiding_forces(elements[i], beam_.moving_mesh()->accelerations(a, k));
     if (beam_.spin()) {
-      const auto spin = beam_.spin()->guiding_forces(k, a + turns);
+      const auto& spin = beam_.spin()->guiding_forces(k);
       force_a += spin[0];
       force_b += spin[1];
     }
