@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -121,6 +122,27 @@ struct ChainState {
     narrow(rate);
     if (curved_at_rest()) narrow(rest);
     for (Joint& joint : joints) joint.node -= joint.node > at ? 1 : 0;
+  }
+
+  /// insert_node(at) and erase_node() of what is node `erased` before it, at the cost of the nodes between alone.
+  /// Returns the index of the new node.
+  int trade_node(int at, int erased) {
+    const bool forward = erased >= at;
+    const int low = forward ? at : erased, high = forward ? erased : at - 1;
+    const auto shift = [&](auto& entries, std::ptrdiff_t size) {
+      const auto first = entries.begin() + size * low, end = entries.begin() + size * (high + 1);
+      std::rotate(first, forward ? end - size : first + size, end);
+    };
+    shift(mesh.x, 1);
+    shift(mesh.weights, 1);
+    for (auto* nodal : {&q, &rate}) shift(*nodal, node_size<D>);
+    if (curved_at_rest()) shift(rest, node_size<D>);
+    for (Joint& joint : joints) {
+      if (low <= joint.node && joint.node <= high) joint.node += forward ? 1 : -1;
+    }
+    const int now = forward ? low : high;
+    mesh.weights[static_cast<std::size_t>(now)] = mesh.weights[static_cast<std::size_t>(now) - 1];
+    return now;
   }
 
   /// Copies node `from` of `other` to node `to`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -41,20 +42,29 @@ void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
   if (takes_rest_arc(chain, control)) take_rest_arc(chain, k, control);
 }
 
-/// What a rule of one's own makes of element k with the nodal coordinates `q`, which has lost node `deleted` of the
-/// chain `before`.
+/// A node that a merge deletes.
 template <int D>
-MergedWeights by_rule(const MergeRule& rule, const MovingCoordinates<double, D>& q, const ChainState<D>& before,
-                      int deleted) {
+struct Lost {
+  double x;
+  Vec<double, D> r, r_x;
+
+  Lost(const ChainState<D>& chain, int node)
+      : x(chain.mesh.x[static_cast<std::size_t>(node)]),
+        r(position<D>(chain.q.data(), node)),
+        r_x(slope<D>(chain.q.data(), node)) {}
+};
+
+/// What a rule of one's own makes of an element with the nodal coordinates `q`.
+template <int D>
+MergedWeights by_rule(const MergeRule& rule, const MovingCoordinates<double, D>& q, const Lost<D>& lost) {
   auto point = [](const Vec<double, D>& v) {
     LostNode::Point p{};
     std::copy(v.begin(), v.end(), p.begin());
     return p;
   };
   const std::array<double, 3> k =
-      rule({q.x_a, q.x_b, point(q.e.r_a), point(q.e.s_a), point(q.e.r_b), point(q.e.s_b),
-            before.mesh.x[static_cast<std::size_t>(deleted)], point(position<D>(before.q.data(), deleted)),
-            point(slope<D>(before.q.data(), deleted))});
+      rule({q.x_a, q.x_b, point(q.e.r_a), point(q.e.s_a), point(q.e.r_b), point(q.e.s_b), lost.x, point(lost.r),
+            point(lost.r_x)});
   for (const double weight : k) {
     if (weight > 0 && std::isfinite(weight)) continue;
     std::ostringstream what;
@@ -65,25 +75,28 @@ MergedWeights by_rule(const MergeRule& rule, const MovingCoordinates<double, D>&
   return {k};
 }
 
-/// Gives element k of `chain` the shape of one that has lost node `deleted` of the chain `before`.
+/// The beam before a merge, where its rule looks at more of it than the node it deletes.
 template <int D>
-MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& before, int deleted,
+std::optional<ChainState<D>> seen_by_merge(const ChainState<D>& chain, const LengthControl& control) {
+  return control.merge == MergePolicy::least_change ? std::optional(chain) : std::nullopt;
+}
+
+/// Gives element k of `chain` the shape of one that has lost a node of the chain `before`, see seen_by_merge().
+template <int D>
+MergedWeights merge_into(ChainState<D>& chain, int k, const std::optional<ChainState<D>>& before, const Lost<D>& lost,
                          const LengthControl& control, const MovingLaw<D>& law) {
-  if (control.merge == MergePolicy::least_change) {
-    return least_change(chain, before, k, control.rational, law);
-  }
+  if (before) return least_change(chain, *before, k, control.rational, law);
   if (takes_rest_arc(chain, control)) {
     const auto& weights = take_rest_arc(chain, k, control);
     return {{weights[0], weights[1], weights[2]}};
   }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
-  if (control.merge == MergePolicy::own) merged = by_rule<D>(control.rule, q, before, deleted);
+  if (control.merge == MergePolicy::own) merged = by_rule<D>(control.rule, q, lost);
   const bool fits = control.merge == MergePolicy::point_fit || control.merge == MergePolicy::relaxed;
   if (fits && control.rational) {
     const double l = q.x_b - q.x_a;
-    const double u = (before.mesh.x[static_cast<std::size_t>(deleted)] - q.x_a) / l;
-    merged = point_fit<D>(q.e, l, u, position<D>(before.q.data(), deleted));
+    merged = point_fit<D>(q.e, l, (lost.x - q.x_a) / l, lost.r);
   }
   chain.mesh.weights[static_cast<std::size_t>(k)] = {merged.weights(), q.x_a, q.x_b};
   return merged;
@@ -94,25 +107,31 @@ MergedWeights merge_into(ChainState<D>& chain, int k, const ChainState<D>& befor
 template <int D>
 MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Direction direction, const Remeshing& what,
                                 const LengthControl& control, const MovingLaw<D>& law) {
-  const ChainState<D> before = chain;
   const bool forward = direction == Direction::forward;
-  const int j = before.joints[which].node;
+  const int j = chain.joints[which].node, deleted = forward ? j + 1 : j - 1;
+  const std::optional<ChainState<D>> before = what.merge ? seen_by_merge(chain, control) : std::nullopt;
+  const std::optional<Lost<D>> lost = what.merge ? std::optional(Lost<D>(chain, deleted)) : std::nullopt;
   if (what.cut) {
     const int cut = forward ? j - 1 : j, at = cut + 1;
-    const auto& x = before.mesh.x;
+    const auto& x = chain.mesh.x;
     const double x_low = x[static_cast<std::size_t>(cut)], x_high = x[static_cast<std::size_t>(cut) + 1];
-    const bool between_joints = before.joint_at(cut) != nullptr && before.joint_at(at) != nullptr;
+    const bool between_joints = chain.joint_at(cut) != nullptr && chain.joint_at(at) != nullptr;
     const double x_new = between_joints ? (x_low + x_high) / 2
                          : forward      ? x_low + control.standard_length
                                         : x_high - control.standard_length;
-    const auto node = segment(before, cut, x_new, law.transport);
-    chain.insert_node(at);
-    place_node(chain, at, node);
-    chain.mesh.weights[static_cast<std::size_t>(at) - 1] = node.left;
-    chain.mesh.weights[static_cast<std::size_t>(at)] = node.right;
+    const auto node = segment(chain, cut, x_new, law.transport);
+    int now = at;
+    if (what.merge) {
+      now = chain.trade_node(at, deleted);
+    } else {
+      chain.insert_node(at);
+    }
+    place_node(chain, now, node);
+    chain.mesh.weights[static_cast<std::size_t>(now) - 1] = node.left;
+    chain.mesh.weights[static_cast<std::size_t>(now)] = node.right;
+  } else if (what.merge) {
+    chain.erase_node(deleted);
   }
-  const int now = chain.joints[which].node, deleted = forward ? now + 1 : now - 1;
-  if (what.merge) chain.erase_node(deleted);
   const int joint = chain.joints[which].node;
   if (what.cut) {
     const int cut = forward ? joint - 2 : joint;
@@ -120,7 +139,7 @@ MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Directi
     renew_cut(chain, cut + 1, control);
   }
   if (!what.merge) return {};
-  return merge_into(chain, forward ? joint : joint - 1, before, forward ? j + 1 : j - 1, control, law);
+  return merge_into(chain, forward ? joint : joint - 1, before, *lost, control, law);
 }
 
 template <int D>
@@ -138,7 +157,7 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
   chain.joints.clear();
   chain.rider = {merged, x[i], before.joints.front().rate, false};
   renew_cut(chain, cut, control);
-  return merge_into(chain, merged, before, j, control, law);
+  return merge_into(chain, merged, seen_by_merge(before, control), Lost<D>(before, j), control, law);
 }
 
 template <int D>
@@ -156,7 +175,7 @@ MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, con
   chain.joints = {{.node = j, .rate = rider.rate}};
   chain.rider.reset();
   renew_cut(chain, cut, control);
-  return merge_into(chain, merged, before, j, control, law);
+  return merge_into(chain, merged, seen_by_merge(before, control), Lost<D>(before, j), control, law);
 }
 
 template <int D>

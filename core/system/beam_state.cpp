@@ -94,6 +94,21 @@ ChainState<D> CurrentBeam<D>::chain(const Eigen::VectorXd& y, double t) const {
 }
 
 template <int D>
+void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) const {
+  const double* const rate = y.data() + coordinates();
+  chain.rate.assign(rate, rate + layout_.mark());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    chain.joints[i].rate = rate[places_[i].mark];
+    if (places_[i].behind >= 0) chain.joints[i].kink->rate = y.segment<D>(coordinates() + places_[i].behind);
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    chain.departed[i].v = y.segment<D>(coordinates() + departed_at(i));
+  }
+  if (rider_) chain.rider->rate = rate[layout_.mark()];
+  if (sections_.frames) chain.sections = sections_.frames->sections(y.data(), rate);
+}
+
+template <int D>
 std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(const Eigen::VectorXd& y,
                                                                                int index) const {
   const auto at = [&](Eigen::Index place) {
@@ -114,9 +129,11 @@ std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(c
 
 template Eigen::VectorXd CurrentBeam<2>::state_of(const ChainState<2>&, const Eigen::VectorXd&) const;
 template ChainState<2> CurrentBeam<2>::chain(const Eigen::VectorXd&, double) const;
+template void CurrentBeam<2>::take_rates(const Eigen::VectorXd&, ChainState<2>&) const;
 template std::optional<CurrentBeam<2>::MassMotion> CurrentBeam<2>::mass_motion(const Eigen::VectorXd&, int) const;
 template Eigen::VectorXd CurrentBeam<3>::state_of(const ChainState<3>&, const Eigen::VectorXd&) const;
 template ChainState<3> CurrentBeam<3>::chain(const Eigen::VectorXd&, double) const;
+template void CurrentBeam<3>::take_rates(const Eigen::VectorXd&, ChainState<3>&) const;
 template std::optional<CurrentBeam<3>::MassMotion> CurrentBeam<3>::mass_motion(const Eigen::VectorXd&, int) const;
 
 }  // namespace vlbeam

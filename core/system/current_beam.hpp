@@ -88,6 +88,8 @@ class CurrentBeam {
 
   /// Mesh and motion at state y, at time t.
   ChainState<D> chain(const Eigen::VectorXd& y, double t) const;
+  /// Brings that chain up to date with a state that differs in rates and angles alone.
+  void take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) const;
   /// The state of a chain whose mesh is this one; tallies, and angles of a section that spins, are those of `old`.
   Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
   /// The state at t = 0 of that chain, from which nuts and supports count.

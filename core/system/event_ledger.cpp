@@ -80,6 +80,23 @@ class KineticChange {
   const SumTables& tables_;
 };
 
+/// The first element before `end` at whose nodes the rates differ; far from an event none does.
+template <int D>
+int first_to_differ(const ChainState<D>& before, const ChainState<D>& after, int end) {
+  const auto nodes = before.rate.begin();
+  const auto at = std::mismatch(nodes, nodes + std::ptrdiff_t{node_size<D>} * (end + 1), after.rate.begin()).first;
+  return std::max(0, static_cast<int>((at - nodes) / node_size<D>) - 1);
+}
+
+/// The last element from `first` on at whose nodes they do, by its number before; first - 1 for none.
+template <int D>
+int last_to_differ(const ChainState<D>& before, const ChainState<D>& after, int first) {
+  const auto nodes = before.rate.rbegin();
+  const std::ptrdiff_t count = std::ptrdiff_t{node_size<D>} * (before.mesh.last() - first + 1);
+  const auto at = std::mismatch(nodes, nodes + count, after.rate.rbegin()).first;
+  return before.mesh.last() - std::max(1, static_cast<int>((at - nodes) / node_size<D>));
+}
+
 }  // namespace
 
 template <int D>
@@ -92,8 +109,10 @@ Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, cons
   const BeamModel<D>& model = beam.model();
   const KineticChange<D> change(model, before, after, beam.tables(points));
   double outside = 0;
-  for (int k = 0; k < reach.lowest; ++k) outside += change.of(k, k);
-  for (int k = reach.highest; k < before.mesh.elements(); ++k) outside += change.of(k, k + more);
+  for (int k = first_to_differ<D>(before, after, reach.lowest); k < reach.lowest; ++k) outside += change.of(k, k);
+  for (int k = reach.highest, last = last_to_differ<D>(before, after, reach.highest); k <= last; ++k) {
+    outside += change.of(k, k + more);
+  }
   jump.kinetic += model.section.rhoA * outside;
   const auto add_lumped = [&jump](double mass, const Vec<double, D>& v0, const Vec<double, D>& v1) {
     jump.kinetic += 0.5 * mass * (v1 - v0).dot(v1 + v0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/system/current_beam.hpp"
@@ -11,10 +12,14 @@ namespace vlbeam {
 template <int D>
 class EventMap {
  public:
-  /// Before an event of the mesh: `chain` is the beam as it is then.
-  void remember(const CurrentBeam<D>& beam, const ChainState<D>& chain) {
-    before_ = Before{chain, beam.places(), beam.layout()};
-  }
+  /// A beam, with where its state has what.
+  struct Beam {
+    ChainState<D> chain;
+    std::vector<JointPlace> places;
+    Layout<D> layout;
+  };
+  /// After an event of the mesh: the beam as it was before it.
+  void remember(Beam before) { before_ = std::move(before); }
   /// After an event behind which nothing goes on as before.
   void forget() { before_.reset(); }
 
@@ -24,16 +29,10 @@ class EventMap {
   bool carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Eigen::VectorXd& to) const;
 
  private:
-  struct Before {
-    ChainState<D> chain;
-    std::vector<JointPlace> places;
-    Layout<D> layout;
-  };
-
   /// Acceleration of the material point x.
   Vec<double, D> at(double x, WeightTransport transport, const Eigen::VectorXd& a) const;
 
-  std::optional<Before> before_;
+  std::optional<Beam> before_;
 };
 
 extern template class EventMap<2>;

@@ -235,7 +235,7 @@ template <int D>
 void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
                                         const Eigen::VectorXd& old, const std::shared_ptr<Frames>& old_frames,
                                         Eigen::VectorXd& y, double t) {
-  velocities_.project(record.before, reach.lowest, reach.highest, y, t);
+  velocities_.project(record.before, record.after, reach.lowest, reach.highest, y, t);
   if (old_frames == nullptr || !(model().frames->section.rhoIp > 0)) return;
   const Eigen::Index before = (old.size() - layout().tallies.count()) / 2;
   Beam::frames()->project_spins(*old_frames, old.data(), old.data() + before, y.data(), y.data() + coordinates());
@@ -281,13 +281,11 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     const Energy stored = energy_jump(*this, record.before, record.after, reach, t, own_points);
     record.relaxation = relax_after(dues, record.after, t, stored.axial + stored.bending);
   }
-  const bool goes_on = remeshes(type) && !rider() && type != EventType::end_merge;
-  if (goes_on || type == EventType::passage) {
-    accelerations_.last_event().remember(*this, record.before);
-  } else {
-    accelerations_.last_event().forget();
-  }
-  const Eigen::VectorXd old = y;
+  const bool goes_on =
+      type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
+  const std::vector<JointPlace> places_before = places();
+  const Layout<D> layout_before = layout();
+  const Eigen::VectorXd old = std::move(y);
   const std::shared_ptr<Frames> old_frames = Beam::shared_frames();
   take(record.after);
   Beam::orient(t);
@@ -298,19 +296,22 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     after.highest += record.after.mesh.elements() - record.before.mesh.elements();
     transfer_velocities(record, after, old, old_frames, y, t);
   } else if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
-    velocities_.project(record.before, reach.lowest, reach.lowest, y, t);
+    velocities_.project(record.before, record.after, reach.lowest, reach.lowest, y, t);
   }
-  const auto jump = [&](const Eigen::VectorXd& state, const Energy& was, int points) {
-    if (looks_at_all) return observe(state, t, points).energy - was;
-    return energy_jump(*this, record.before, Beam::chain(state, t), reach, t, points);
+  const auto jump = [&](const Energy& was, int points) {  // up to y, whose chain record.after is
+    if (looks_at_all) return observe(y, t, points).energy - was;
+    return energy_jump(*this, record.before, record.after, reach, t, points);
   };
   if (conserves) {
-    const auto gained = [&](const Eigen::VectorXd& state) { return jump(state, own_before, own_points).total(); };
+    const auto gained = [&] {
+      Beam::take_rates(y, record.after);
+      return jump(own_before, own_points).total();
+    };
     velocities_.restore(momenta_before, gained, y, t);
   }
-  if (transfers || type == EventType::end_merge) record.after = Beam::chain(y, t);
-  record.jump = jump(y, energy_before, ledger_points);
-  record.discrete_jump = jump(y, own_before, own_points).total();
+  if (transfers || type == EventType::end_merge) Beam::take_rates(y, record.after);
+  record.jump = jump(energy_before, ledger_points);
+  record.discrete_jump = jump(own_before, own_points).total();
   if (conserves) {
     const double size =
         std::abs(own_before.kinetic) + own_before.axial + own_before.bending + std::abs(own_before.gravity);
@@ -325,12 +326,18 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (!leaving) record.momentum_jump = velocities_.momenta(y, t) - momenta_before;
   if (ramped) ramp_.restart(t, moment(y, t));
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (!on_event) return;
-  on_event(record);
-  for (std::size_t i = 1; i < records.size(); ++i) {  // what happened with it is in the first one
-    records[i].before = records[i].after = record.after;
-    records[i].momentum_jump = Eigen::VectorXd::Zero(record.momentum_jump.size());
-    on_event(records[i]);
+  if (on_event) {
+    on_event(record);
+    for (std::size_t i = 1; i < records.size(); ++i) {  // what happened with it is in the first one
+      records[i].before = records[i].after = record.after;
+      records[i].momentum_jump = Eigen::VectorXd::Zero(record.momentum_jump.size());
+      on_event(records[i]);
+    }
+  }
+  if (goes_on) {
+    accelerations_.last_event().remember({std::move(record.before), places_before, layout_before});
+  } else {
+    accelerations_.last_event().forget();
   }
 }
 

@@ -6,6 +6,7 @@
 #include "core/element/quadrature.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "core/pieces.hpp"
 
 namespace vlbeam {
 namespace {
@@ -54,8 +55,9 @@ Eigen::VectorXd VelocityProjection<D>::excess_momentum(const ChainState<D>& befo
 }
 
 template <int D>
-void VelocityProjection<D>::project(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t) {
-  Eigen::VectorXd correction = excess_momentum(before, beam_.chain(y, t), first, last);
+void VelocityProjection<D>::project(const ChainState<D>& before, const ChainState<D>& after, int first, int last,
+                                    Eigen::VectorXd& y, double t) {
+  Eigen::VectorXd correction = excess_momentum(before, after, first, last);
   if (beam_.rider() && !before.joints.empty()) {  // a node moves as its element does not
     const auto at = beam_.rider_motion(y.data(), y.data() + beam_.coordinates());
     const Vector was = position<D>(before.rate.data(), before.joints.front().node);
@@ -69,7 +71,7 @@ void VelocityProjection<D>::project(const ChainState<D>& before, int first, int 
 template <int D>
 void VelocityProjection<D>::rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const {
   rigid.setZero(beam_.coordinates());
-  const int a = (mode - D + (D == 2 ? 0 : 1)) % D, b = (a + 1) % D;  // a rotation in the plane of axes a and b
+  const auto [a, b] = axes_of(mode);
   auto rotate = [&](Eigen::Index vector) {
     rigid[vector + a] = -y[vector + b];
     rigid[vector + b] = y[vector + a];
@@ -100,12 +102,29 @@ Eigen::MatrixXd VelocityProjection<D>::rigid_momenta(const JointElements& elemen
 
 template <int D>
 Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  Eigen::VectorXd of_rate(beam_.coordinates()), rigid, sum(rigid_modes);
+  Eigen::VectorXd of_rate(beam_.coordinates());
   mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), of_rate.data());
-  for (int mode = 0; mode < rigid_modes; ++mode) {
-    rigid_rates(mode, y, rigid);
-    sum[mode] = rigid.dot(of_rate);
+  using Sum = Eigen::Matrix<double, rigid_modes, 1>;
+  const auto turning = [&](Sum& sum, Eigen::Index vector) {  // moment about the origin
+    for (int i = D; i < rigid_modes; ++i) {
+      const auto [a, b] = axes_of(i);
+      sum[i] += y[vector + a] * of_rate[vector + b] - y[vector + b] * of_rate[vector + a];
+    }
+  };
+  Eigen::VectorXd sum = sum_in_pieces<Sum>(beam_.layout().nodes, node_size<D>, [&](Eigen::Index first, Eigen::Index n) {
+    Sum part = Sum::Zero();
+    for (Eigen::Index vector = first * node_size<D>; vector < (first + n) * node_size<D>; vector += node_size<D>) {
+      part.template head<D>() += of_rate.segment<D>(vector);
+      turning(part, vector);
+      turning(part, vector + D);
+    }
+    return part;
+  });
+  Sum behind = Sum::Zero();
+  for (const JointPlace& place : beam_.places()) {
+    if (place.behind >= 0) turning(behind, place.behind);
   }
+  sum += behind;
   if constexpr (D == 3) sum.tail<3>() += spin_momentum(y);
   return sum;
 }
@@ -148,7 +167,7 @@ void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const Energ
   const double twice_kinetic = fluctuation.dot(of_fluctuation);
   if (!(twice_kinetic > 0)) return;
   // T(v + s w) = T(v) + (s + s^2/2) w.M w, for w is orthogonal to what else there is
-  const double missing = -gained(y);
+  const double missing = -gained();
   const double root = 1 + 2 * missing / twice_kinetic;
   const double scaling = root > 0 ? std::min(std::sqrt(root) - 1, largest_scaling) : -1;
   rate += scaling * fluctuation;

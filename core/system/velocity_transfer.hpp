@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "core/system/beam_mass.hpp"
@@ -12,14 +13,15 @@ class VelocityProjection {
  public:
   using Vector = Vec<double, D>;
   using JointElements = typename CurrentBeam<D>::JointElements;
-  using EnergyGained = std::function<double(const Eigen::VectorXd& y)>;
+  using EnergyGained = std::function<double()>;  ///< by what was written to y last [J]
 
   /// Both must outlive this object.
   VelocityProjection(const CurrentBeam<D>& beam, BeamMass<D>& mass) : beam_(beam), mass_(mass) {}
 
-  /// Replaces the rates in `y`, a state of the mesh made from `before`, by the projection of the old velocity field,
-  /// which differs on the elements `first` to `last`.
-  void project(const ChainState<D>& before, int first, int last, Eigen::VectorXd& y, double t);
+  /// Replaces the rates in `y`, the state of the chain `after` that was made from `before`, by the projection of the
+  /// old velocity field, which differs on the elements `first` to `last`.
+  void project(const ChainState<D>& before, const ChainState<D>& after, int first, int last, Eigen::VectorXd& y,
+               double t);
   /// Linear and angular momentum of beam and mass, by the model's own points.
   Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t) const;
   /// Gives the rates in `y` these momenta, by the least change, and takes the energy that they have `gained`, by
@@ -30,6 +32,11 @@ class VelocityProjection {
   /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
   Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
   static constexpr int rigid_modes = D == 2 ? 3 : 6;
+  /// The axes in whose plane mode `mode` turns, the first towards the second.
+  static std::array<int, 2> axes_of(int mode) {
+    const int a = (mode - D + (D == 2 ? 0 : 1)) % D;
+    return {a, (a + 1) % D};
+  }
   /// Rates of the rigid motion `mode` at the positions `y`: translations, then rotations about the origin.
   void rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const;
   /// M phi of the rigid motions phi.
