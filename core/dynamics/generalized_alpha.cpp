@@ -177,7 +177,7 @@ class GeneralizedAlpha final : public Stepper {
   }
 
  private:
-  double length(double dt) const { return dt <= options_.step * (1 + 1e-8) ? dt : options_.step; }
+  double length(double dt) const { return dt <= options_.step * (1 + 2 * slightly_longer) ? dt : options_.step; }
 
   /// A step from (t, y), of length h.
   void begin(const Eigen::VectorXd& y, double t, double h) {

@@ -14,7 +14,6 @@ namespace vlbeam {
 namespace {
 
 constexpr double whole_step = 1e-9;    // no step for what rounding leaves of the run
-constexpr double all_but = 5e-9;       // of a step, that it may be longer by to end at an event
 constexpr int longest_cascade = 8;     // events at one instant
 constexpr int most_looks_beyond = 10;  // steps beyond the end of the run: there may be nothing behind it
 
@@ -192,7 +191,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     }
     if (last && !beyond && !aim.aims()) t = t_end;
 
-    const EventAim::Shot shot = aim.shoot(before, t_before, last ? whole : whole * (1 + all_but), y, t);
+    const EventAim::Shot shot = aim.shoot(before, t_before, last ? whole : whole * (1 + slightly_longer), y, t);
     if (shot == EventAim::Shot::missed) {
       dt = whole;
       if (beyond) ++looks_beyond;

@@ -24,6 +24,8 @@ struct Tolerances {
   double motion = 0;
 };
 
+inline constexpr double slightly_longer = 1e-6;  // share of a fixed step, that it may be longer to end at an event
+
 /// One step of a method.
 class Stepper {
  public:
