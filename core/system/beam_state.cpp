@@ -4,8 +4,8 @@
 namespace vlbeam {
 
 template <int D>
-Eigen::VectorXd CurrentBeam<D>::state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(layout_.state());
+void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::VectorXd& old, Eigen::VectorXd& y) const {
+  y.setZero(layout_.state());
   y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
   y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -29,7 +29,7 @@ Eigen::VectorXd CurrentBeam<D>::state_of(const ChainState<D>& chain, const Eigen
     y[angles() + k] = chain.sections[static_cast<std::size_t>(k)].angle;
     y[coordinates() + angles() + k] = chain.sections[static_cast<std::size_t>(k)].spin;
   }
-  if (old.size() == 0) return y;
+  if (old.size() == 0) return;
   const Eigen::Index tallies = layout_.tallies.count();
   y.tail(tallies) = old.tail(tallies);
   if (sections_.spin) {
@@ -37,16 +37,14 @@ Eigen::VectorXd CurrentBeam<D>::state_of(const ChainState<D>& chain, const Eigen
     y.segment(angles(), count) = old.segment(before - count, count);
     y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
   }
-  return y;
 }
 
 template <int D>
-ChainState<D> CurrentBeam<D>::chain(const Eigen::VectorXd& y, double t) const {
-  ChainState<D> result;
+void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, ChainState<D>& result) const {
   result.mesh = mesh_;
+  result.mark_rates.clear();
   if (moving_) {
     travel(t);
-    result.mark_rates.clear();
     for (std::size_t k = 0; k < mesh_.x.size(); ++k) {
       result.mesh.x[k] = moving_->marks()[k].value;
       result.mark_rates.push_back(moving_->marks()[k].rate);
@@ -61,6 +59,7 @@ ChainState<D> CurrentBeam<D>::chain(const Eigen::VectorXd& y, double t) const {
     result.rest_sections = sections_.rest;
     result.rest_triads = sections_.rest_triads;
   }
+  result.joints.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
     result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
@@ -85,12 +84,13 @@ ChainState<D> CurrentBeam<D>::chain(const Eigen::VectorXd& y, double t) const {
     position<D>(result.rest.data(), k) = at_node[0];
     slope<D>(result.rest.data(), k) = at_node[1];
   }
+  result.departed.clear();
   for (std::size_t i = 0; i < departed_.size(); ++i) {
     const Eigen::Index at = departed_at(i);
     result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
   }
+  result.rider.reset();
   if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
-  return result;
 }
 
 template <int D>
@@ -127,12 +127,12 @@ std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(c
   return std::nullopt;
 }
 
-template Eigen::VectorXd CurrentBeam<2>::state_of(const ChainState<2>&, const Eigen::VectorXd&) const;
-template ChainState<2> CurrentBeam<2>::chain(const Eigen::VectorXd&, double) const;
+template void CurrentBeam<2>::write_state(const ChainState<2>&, const Eigen::VectorXd&, Eigen::VectorXd&) const;
+template void CurrentBeam<2>::write_chain(const Eigen::VectorXd&, double, ChainState<2>&) const;
 template void CurrentBeam<2>::take_rates(const Eigen::VectorXd&, ChainState<2>&) const;
 template std::optional<CurrentBeam<2>::MassMotion> CurrentBeam<2>::mass_motion(const Eigen::VectorXd&, int) const;
-template Eigen::VectorXd CurrentBeam<3>::state_of(const ChainState<3>&, const Eigen::VectorXd&) const;
-template ChainState<3> CurrentBeam<3>::chain(const Eigen::VectorXd&, double) const;
+template void CurrentBeam<3>::write_state(const ChainState<3>&, const Eigen::VectorXd&, Eigen::VectorXd&) const;
+template void CurrentBeam<3>::write_chain(const Eigen::VectorXd&, double, ChainState<3>&) const;
 template void CurrentBeam<3>::take_rates(const Eigen::VectorXd&, ChainState<3>&) const;
 template std::optional<CurrentBeam<3>::MassMotion> CurrentBeam<3>::mass_motion(const Eigen::VectorXd&, int) const;
 

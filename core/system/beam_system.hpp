@@ -111,12 +111,11 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   MergedWeights change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
   /// What events of the mesh that are due at once make of it.
   void change_mesh(const std::vector<PendingEvent>& dues, std::vector<EventRecord<D>>& records, double t) const;
-  std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y,
-                                         double t) const;
+  std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y, double t);
   /// The two elements on either side, or, where slopes change too, one more.
   EventReach reach_of(const std::vector<PendingEvent>& dues) const;
-  /// Gives the new mesh in `y` the velocities of the beam before, of the state `old`.
-  void transfer_velocities(const EventRecord<D>& record, const EventReach& reach, const Eigen::VectorXd& old,
+  /// Gives the new mesh in `y` the velocities of the beam before, of the state old_.
+  void transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
                            const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t);
   /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
   /// gone; the iterations it took.
@@ -138,6 +137,8 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   EventGuards<D> guards_;
   Impacts<D> impacts_;
   VelocityProjection<D> velocities_;
+  ChainState<D> spare_chain_;  ///< memory for the next event
+  Eigen::VectorXd old_;        ///< the state before the last event
   RampWork<D> ramp_;
   Eigen::VectorXd initial_;
   std::unique_ptr<ImplicitBeam<D>> implicit_;

@@ -27,7 +27,8 @@ CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chai
 
 template <int D>
 Eigen::VectorXd CurrentBeam<D>::start(const ChainState<D>& chain) {
-  Eigen::VectorXd y = state_of(chain, {});
+  Eigen::VectorXd y;
+  write_state(chain, {}, y);
   double *const angle = y.data() + angles(), *const spin = angle + coordinates();
   if (sections_.spin) sections_.spin->start(angle, spin);
   for (std::size_t i = 0; i < places_.size(); ++i) {

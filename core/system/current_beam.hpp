@@ -87,11 +87,18 @@ class CurrentBeam {
   const std::vector<std::shared_ptr<const Part<D>>>& acting() const { return acting_; }
 
   /// Mesh and motion at state y, at time t.
-  ChainState<D> chain(const Eigen::VectorXd& y, double t) const;
+  ChainState<D> chain(const Eigen::VectorXd& y, double t) const {
+    ChainState<D> result;
+    write_chain(y, t, result);
+    return result;
+  }
+  /// The same into the memory of another chain of the beam.
+  void write_chain(const Eigen::VectorXd& y, double t, ChainState<D>& result) const;
   /// Brings that chain up to date with a state that differs in rates and angles alone.
   void take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) const;
-  /// The state of a chain whose mesh is this one; tallies, and angles of a section that spins, are those of `old`.
-  Eigen::VectorXd state_of(const ChainState<D>& chain, const Eigen::VectorXd& old) const;
+  /// Writes the state of a chain whose mesh is this one; tallies, and angles of a section that spins, are those of
+  /// `old`, if there is one.
+  void write_state(const ChainState<D>& chain, const Eigen::VectorXd& old, Eigen::VectorXd& y) const;
   /// The state at t = 0 of that chain, from which nuts and supports count.
   Eigen::VectorXd start(const ChainState<D>& chain);
   /// Becomes the beam of a chain that an event has made.

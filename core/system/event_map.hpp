@@ -20,6 +20,12 @@ class EventMap {
   };
   /// After an event of the mesh: the beam as it was before it.
   void remember(Beam before) { before_ = std::move(before); }
+  /// Forgets it, too, and gives its chain away, whose memory the next event can use.
+  ChainState<D> release() {
+    ChainState<D> chain = before_ ? std::move(before_->chain) : ChainState<D>{};
+    forget();
+    return chain;
+  }
   /// After an event behind which nothing goes on as before.
   void forget() { before_.reset(); }
 

@@ -203,7 +203,7 @@ void BeamSystem<D>::change_mesh(const std::vector<PendingEvent>& dues, std::vect
 
 template <int D>
 std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y,
-                                                      double t) const {
+                                                      double t) {
   std::vector<EventRecord<D>> records(dues.size());
   for (std::size_t i = 0; i < dues.size(); ++i) {
     records[i].t = t;
@@ -212,7 +212,11 @@ std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingE
     records[i].joint_position = y[rider() ? layout().mark() : places()[dues[i].which].mark];
     records[i].restored = true;
   }
-  records.front().before = records.front().after = Beam::chain(y, t);
+  EventRecord<D>& first = records.front();
+  first.before = accelerations_.last_event().release();
+  first.after = std::move(spare_chain_);
+  Beam::write_chain(y, t, first.before);
+  first.after = first.before;
   return records;
 }
 
@@ -233,12 +237,12 @@ EventReach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues) const 
 
 template <int D>
 void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
-                                        const Eigen::VectorXd& old, const std::shared_ptr<Frames>& old_frames,
-                                        Eigen::VectorXd& y, double t) {
+                                        const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t) {
   velocities_.project(record.before, record.after, reach.lowest, reach.highest, y, t);
   if (old_frames == nullptr || !(model().frames->section.rhoIp > 0)) return;
-  const Eigen::Index before = (old.size() - layout().tallies.count()) / 2;
-  Beam::frames()->project_spins(*old_frames, old.data(), old.data() + before, y.data(), y.data() + coordinates());
+  const double* const old = old_.data();
+  const Eigen::Index before = (old_.size() - layout().tallies.count()) / 2;
+  Beam::frames()->project_spins(*old_frames, old, old + before, y.data(), y.data() + coordinates());
 }
 
 template <int D>
@@ -285,16 +289,16 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
       type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
   const std::vector<JointPlace> places_before = places();
   const Layout<D> layout_before = layout();
-  const Eigen::VectorXd old = std::move(y);
+  old_.swap(y);
   const std::shared_ptr<Frames> old_frames = Beam::shared_frames();
   take(record.after);
   Beam::orient(t);
-  y = Beam::state_of(record.after, old);
+  Beam::write_state(record.after, old_, y);
 
   if (transfers) {
     EventReach after = reach;
     after.highest += record.after.mesh.elements() - record.before.mesh.elements();
-    transfer_velocities(record, after, old, old_frames, y, t);
+    transfer_velocities(record, after, old_frames, y, t);
   } else if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
     velocities_.project(record.before, record.after, reach.lowest, reach.lowest, y, t);
   }
@@ -334,11 +338,8 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
       on_event(records[i]);
     }
   }
-  if (goes_on) {
-    accelerations_.last_event().remember({std::move(record.before), places_before, layout_before});
-  } else {
-    accelerations_.last_event().forget();
-  }
+  if (goes_on) accelerations_.last_event().remember({std::move(record.before), places_before, layout_before});
+  spare_chain_ = std::move(record.after);
 }
 
 template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
@@ -348,9 +349,9 @@ template MergedWeights BeamSystem<2>::change(const PendingEvent&, ChainState<2>&
 template void BeamSystem<2>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<2>>&, double) const;
 template int BeamSystem<2>::relax_after(const std::vector<PendingEvent>&, ChainState<2>&, double, double) const;
 template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
-                                                               double) const;
+                                                               double);
 template EventReach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&) const;
-template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const EventReach&, const Eigen::VectorXd&,
+template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
@@ -360,9 +361,9 @@ template MergedWeights BeamSystem<3>::change(const PendingEvent&, ChainState<3>&
 template void BeamSystem<3>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<3>>&, double) const;
 template int BeamSystem<3>::relax_after(const std::vector<PendingEvent>&, ChainState<3>&, double, double) const;
 template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
-                                                               double) const;
+                                                               double);
 template EventReach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&) const;
-template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const EventReach&, const Eigen::VectorXd&,
+template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 

@@ -18,19 +18,19 @@ constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 }  // namespace
 
 template <int D>
-Eigen::VectorXd VelocityProjection<D>::excess_momentum(const ChainState<D>& before, const ChainState<D>& after,
-                                                       int first, int last) const {
-  Eigen::VectorXd momentum = Eigen::VectorXd::Zero(beam_.coordinates());
+void VelocityProjection<D>::find_excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first,
+                                                 int last) {
+  momentum_.setZero(beam_.coordinates());
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
   const ChainView<D> places = beam_.view(nullptr, nullptr);
   const auto add = [&](int to, const PointMotion<double, D>& is, const Vector& excess) {
     for (int i = 0; i < 4; ++i) {
-      momentum.segment<D>(places.vector(to, i)) += is.s[static_cast<std::size_t>(i)] * excess;
+      momentum_.segment<D>(places.vector(to, i)) += is.s[static_cast<std::size_t>(i)] * excess;
     }
-    if (const JointPlace* b = places.joint_at(to + 1)) momentum[b->mark] += is.y_b.dot(excess);
-    if (const JointPlace* a = places.joint_at(to)) momentum[a->mark] += is.y_a.dot(excess);
+    if (const JointPlace* b = places.joint_at(to + 1)) momentum_[b->mark] += is.y_b.dot(excess);
+    if (const JointPlace* a = places.joint_at(to)) momentum_[a->mark] += is.y_a.dot(excess);
   };
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     const double a = pieces[piece], length = pieces[piece + 1] - a;
@@ -51,20 +51,19 @@ Eigen::VectorXd VelocityProjection<D>::excess_momentum(const ChainState<D>& befo
     const Vector was = motion_at(before, before.mesh.element_at(point.x), point.x, beam_.model().transport).v;
     add(to, is, point.mass * (was - is.v));
   }
-  return momentum;
 }
 
 template <int D>
 void VelocityProjection<D>::project(const ChainState<D>& before, const ChainState<D>& after, int first, int last,
                                     Eigen::VectorXd& y, double t) {
-  Eigen::VectorXd correction = excess_momentum(before, after, first, last);
+  find_excess_momentum(before, after, first, last);
   if (beam_.rider() && !before.joints.empty()) {  // a node moves as its element does not
     const auto at = beam_.rider_motion(y.data(), y.data() + beam_.coordinates());
     const Vector was = position<D>(before.rate.data(), before.joints.front().node);
-    mass_.push_rider(at, beam_.rider_law().mass * (was - at.v), correction.data());
+    mass_.push_rider(at, beam_.rider_law().mass * (was - at.v), momentum_.data());
   }
-  if (mass_.solve(beam_.elements_at(y, t), y.data(), correction.data())) {
-    y.segment(beam_.coordinates(), beam_.coordinates()) += correction;
+  if (mass_.solve(beam_.elements_at(y, t), y.data(), momentum_.data())) {
+    y.segment(beam_.coordinates(), beam_.coordinates()) += momentum_;
   }
 }
 
@@ -101,20 +100,20 @@ Eigen::MatrixXd VelocityProjection<D>::rigid_momenta(const JointElements& elemen
 }
 
 template <int D>
-Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t) const {
-  Eigen::VectorXd of_rate(beam_.coordinates());
-  mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), of_rate.data());
+Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t) {
+  momentum_.resize(beam_.coordinates());
+  mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), momentum_.data());
   using Sum = Eigen::Matrix<double, rigid_modes, 1>;
   const auto turning = [&](Sum& sum, Eigen::Index vector) {  // moment about the origin
     for (int i = D; i < rigid_modes; ++i) {
       const auto [a, b] = axes_of(i);
-      sum[i] += y[vector + a] * of_rate[vector + b] - y[vector + b] * of_rate[vector + a];
+      sum[i] += y[vector + a] * momentum_[vector + b] - y[vector + b] * momentum_[vector + a];
     }
   };
   Eigen::VectorXd sum = sum_in_pieces<Sum>(beam_.layout().nodes, node_size<D>, [&](Eigen::Index first, Eigen::Index n) {
     Sum part = Sum::Zero();
     for (Eigen::Index vector = first * node_size<D>; vector < (first + n) * node_size<D>; vector += node_size<D>) {
-      part.template head<D>() += of_rate.segment<D>(vector);
+      part.template head<D>() += momentum_.segment<D>(vector);
       turning(part, vector);
       turning(part, vector + D);
     }

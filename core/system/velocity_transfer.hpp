@@ -23,14 +23,14 @@ class VelocityProjection {
   void project(const ChainState<D>& before, const ChainState<D>& after, int first, int last, Eigen::VectorXd& y,
                double t);
   /// Linear and angular momentum of beam and mass, by the model's own points.
-  Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t) const;
+  Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t);
   /// Gives the rates in `y` these momenta, by the least change, and takes the energy that they have `gained`, by
   /// scaling the velocity fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
   void restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
 
  private:
-  /// Momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
-  Eigen::VectorXd excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last) const;
+  /// Writes the momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
+  void find_excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last);
   static constexpr int rigid_modes = D == 2 ? 3 : 6;
   /// The axes in whose plane mode `mode` turns, the first towards the second.
   static std::array<int, 2> axes_of(int mode) {
@@ -52,6 +52,7 @@ class VelocityProjection {
 
   const CurrentBeam<D>& beam_;
   BeamMass<D>& mass_;
+  Eigen::VectorXd momentum_;  ///< an array like q'
 };
 
 extern template class VelocityProjection<2>;
