@@ -101,9 +101,14 @@ Eigen::VectorXd EventSearch::at(const WholeStep& step, double t) {
   }
 }
 
-LocatedEvent EventSearch::first(const WholeStep& step) {
+LocatedEvent EventSearch::first(const WholeStep& step, const Guards& at_end) {
+  if (std::ranges::none_of(at_end, [&](const Guard& guard) {
+        return is_due(guard) || guard.value > options_.largest_overshoot;
+      })) {
+    return {};
+  }
   const bool exactly = options_.locate_events;
-  const Guards at_start = ode_.guards(step.y0, step.t0), at_end = ode_.guards(step.y1, step.t1);
+  const Guards at_start = ode_.guards(step.y0, step.t0);
   for (std::size_t k = 0; k < at_end.size(); ++k) {  // what was due before the step makes no step too long
     if (is_due(at_end[k]) && at_start[k].value >= -std::max(guard_tolerance, at_start[k].rounding)) {
       return {static_cast<int>(k), step.t0, step.y0, LocatedEvent::Where::start};
@@ -120,7 +125,6 @@ LocatedEvent EventSearch::first(const WholeStep& step) {
   for (std::size_t k = 0; k < at_end.size(); ++k) {
     if (is_due(at_end[k])) candidates.push_back({step.t1 - step.t0, k});
   }
-  if (candidates.empty()) return {};
   if (!exactly) return {static_cast<int>(candidates.front().guard), step.t1, step.y1, LocatedEvent::Where::end};
 
   Interpolant interpolant(ode_, step);
@@ -154,7 +158,7 @@ bool EventAim::all_stay_behind(const Guards& now, double t, double dt) const {
 double EventAim::take(const Eigen::VectorXd& y, double t, double dt) {
   guard_ = -1;
   if (!takes_aim_ || t == missed_from_) return dt;
-  const Guards now = ode_.guards(y, t);
+  const Guards now = t == end_t_ ? at_end_ : ode_.guards(y, t);
   const bool behind = all_stay_behind(now, t, dt);
   known_ = now;
   known_t_ = t;
@@ -216,7 +220,9 @@ void EventAim::aim_at_what_has_passed(const Guards& then, double t, double lates
 EventAim::Shot EventAim::shoot(const Eigen::VectorXd& y0, double t0, double longest, Eigen::VectorXd& y, double& t) {
   double last_t = 0, last_value = 0;
   for (int i = 0; i < most_repetitions; ++i) {
-    const Guards guards = ode_.guards(y, t);
+    at_end_ = ode_.guards(y, t);
+    end_t_ = t;
+    const Guards& guards = at_end_;
     if (guard_ < 0) aim_at_what_has_passed(guards, t, t0 + longest);
     if (guard_ < 0) return Shot::none;
     const auto k = static_cast<std::size_t>(guard_);

@@ -29,9 +29,9 @@ class EventSearch {
   EventSearch(EventedOde& ode, const Stepper& main, SideStepper& side, const IntegrationOptions& options)
       : ode_(ode), main_(main), side_(side), options_(options) {}
 
-  /// The first event in the step, or index -1. Unless events are to be located its time is the end of the step. Throws
-  /// SideStepUnderflow where the step is too long to be looked into.
-  LocatedEvent first(const WholeStep& step);
+  /// The first event in the step, at whose end the guards are `at_end`, or index -1. Unless events are to be located its
+  /// time is the end of the step. Throws SideStepUnderflow where the step is too long to be looked into.
+  LocatedEvent first(const WholeStep& step, const Guards& at_end);
 
   /// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, an
   /// interpolant has to do: a sample must not change the way of the run.
@@ -68,12 +68,19 @@ class EventAim {
 
   /// The event that was hit.
   int guard() const { return guard_; }
+  /// Guards at the end of the step, where nothing was aimed at.
+  const Guards& at_end() const { return at_end_; }
   /// Guards are others from now on.
-  void forget() { known_.clear(); }
+  void forget() {
+    known_.clear();
+    end_t_ = never;
+  }
 
   void exchange(Memory& memory);
 
  private:
+  static constexpr double never = std::numeric_limits<double>::quiet_NaN();
+
   bool all_stay_behind(const Guards& now, double t, double dt) const;
   /// Or at what the step has all but reached, if a step until `latest` would.
   void aim_at_what_has_passed(const Guards& then, double t, double latest);
@@ -84,7 +91,9 @@ class EventAim {
   bool repeats_ = false;  ///< the method can, and knows accelerations
   Guards known_;          ///< at the start of the last step
   double known_t_ = 0;
-  double missed_from_ = std::numeric_limits<double>::quiet_NaN();  ///< [s], no time before the first one
+  Guards at_end_;  ///< of the last step, where it ended last:
+  double end_t_ = never;
+  double missed_from_ = never;  ///< [s]
   int guard_ = -1;
   double slope_ = 0;  ///< [1/s], of that guard where it turns
   Eigen::VectorXd ahead_;

@@ -203,7 +203,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       if (hit) {
         event = {aim.guard(), t, {}, LocatedEvent::Where::end};
       } else {
-        event = search.first({t_before, before, t, y});
+        event = search.first({t_before, before, t, y}, aim.at_end());
       }
     } catch (const SideStepUnderflow& stuck) {  // a step too long to be looked into
       y = before;

@@ -15,6 +15,20 @@ namespace {
 constexpr int cubic_points = 4, rational_points = 12;
 constexpr double largest_scaling = 1;  // of the fluctuation, more than it is
 
+/// What of a point's motion counts here.
+template <int D>
+struct CarriedPoint {
+  std::array<double, 4> s;
+  Vec<double, D> y_a, y_b, v;
+};
+
+/// Inlined, so that nothing else of the motion is computed.
+template <int D>
+[[gnu::flatten]] CarriedPoint<D> carried_at(const MovingKinematics<double, D>& element, double x) {
+  const PointMotion<double, D> at = motion_at(element, x);
+  return {at.s, at.y_a, at.y_b, at.v};
+}
+
 }  // namespace
 
 template <int D>
@@ -25,7 +39,7 @@ void VelocityProjection<D>::find_excess_momentum(const ChainState<D>& before, co
                end = after.mesh.x[static_cast<std::size_t>(last)];
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
   const ChainView<D> places = beam_.view(nullptr, nullptr);
-  const auto add = [&](int to, const PointMotion<double, D>& is, const Vector& excess) {
+  const auto add = [&](int to, const auto& is, const Vector& excess) {
     for (int i = 0; i < 4; ++i) {
       momentum_.segment<D>(places.vector(to, i)) += is.s[static_cast<std::size_t>(i)] * excess;
     }
@@ -40,8 +54,8 @@ void VelocityProjection<D>::find_excess_momentum(const ChainState<D>& before, co
     const bool cubic = was.weights() == unit_weights && is.weights() == unit_weights;
     for (const auto& [u, weight] : gauss_legendre(cubic ? cubic_points : rational_points)) {
       const double x = a + u * length;
-      const PointMotion<double, D> now = motion_at(is, x);
-      add(to, now, (motion_at(was, x).v - now.v) * (weight * length * beam_.model().section.rhoA));
+      const CarriedPoint<D> now = carried_at(is, x);
+      add(to, now, (carried_at(was, x).v - now.v) * (weight * length * beam_.model().section.rhoA));
     }
   }
   for (const PointMass& point : beam_.model().masses.points) {
