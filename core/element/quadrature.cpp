@@ -27,16 +27,23 @@ QuadratureRule rule() {
   return points;
 }
 
+/// Computed when it is asked for: those of many points take as long as a short run.
+template <std::size_t Points>
+const QuadratureRule& kept_rule() {
+  static const QuadratureRule points = rule<Points>();
+  return points;
+}
+
 template <std::size_t... I>
-std::array<QuadratureRule, sizeof...(I)> all_rules(std::index_sequence<I...> /*points - 1*/) {
-  return {rule<I + 1>()...};
+constexpr auto all_rules(std::index_sequence<I...> /*points - 1*/) {
+  return std::array{&kept_rule<I + 1>...};
 }
 
 }  // namespace
 
 const QuadratureRule& gauss_legendre(int points) {
-  static const auto rules = all_rules(std::make_index_sequence<max_quadrature_points>{});
-  return rules.at(static_cast<std::size_t>(points) - 1);
+  static constexpr auto rules = all_rules(std::make_index_sequence<max_quadrature_points>{});
+  return rules.at(static_cast<std::size_t>(points) - 1)();
 }
 
 }  // namespace vlbeam
