@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/beam/block_kernels.hpp"
+#include "core/element/instruction_set.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/pieces.hpp"
 
@@ -37,6 +39,18 @@ auto node_part(double* x, int k) {
 template <int B>
 auto node_part(const double* x, int k) {
   return Eigen::Map<const Eigen::Matrix<double, B, 1>>(x + std::ptrdiff_t{B} * k);
+}
+
+BlockKernels block_kernels([[maybe_unused]] InstructionSet set) {
+#ifdef VLBEAM_HAS_AVX2
+  if (set == InstructionSet::avx2) return avx2::block_kernels();
+#endif
+  return portable::block_kernels();
+}
+
+const BlockKernels& fastest_block_kernels() {
+  static const BlockKernels kernels = block_kernels(fastest_instruction_set());
+  return kernels;
 }
 
 /// Calls a(i) and b(i), each for i from 0 to its count, if any, both of which need nothing of each other: at once where
@@ -115,15 +129,21 @@ bool BorderedBlockTridiagonal<B>::factor_pivot(int k, const Block& pivot) {
 template <int B>
 void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
   const auto k = static_cast<std::size_t>(node), before = static_cast<std::size_t>(from);
-  Block& factor = from < node ? lower[k] : upper[k];  // takes the place of the block it eliminates
+  // what takes their places is what substitution multiplies with, there and back
+  Block& forth = from < node ? lower[k] : upper[k];
+  Block& back = from < node ? upper[before] : lower[before];
   if (solves_) {
     const Pivot& own = pivots_[before];
-    const Block scaled = own.scale.asDiagonal() * factor.transpose();
-    factor = (own.scale.asDiagonal() * own.scaled.transpose().partialPivLu().solve(scaled)).transpose();
+    const Block scaled = own.scale.asDiagonal() * forth.transpose();
+    forth = (own.scale.asDiagonal() * own.scaled.transpose().partialPivLu().solve(scaled)).transpose();
+    pivot.noalias() -= forth * back;
+  } else if constexpr (B == 4) {
+    fastest_block_kernels().eliminate(inverse_[before].data(), back.data(), forth.data(), pivot.data());
   } else {
-    factor = factor * inverse_[before];
+    back = inverse_[before] * back;
+    pivot.noalias() -= forth * back;
+    forth = forth * inverse_[before];
   }
-  pivot.noalias() -= factor * (from < node ? upper[before] : lower[before]);
 }
 
 template <int B>
@@ -256,16 +276,44 @@ void BorderedBlockTridiagonal<B>::apply_pivot(std::size_t k, Columns&& x) const 
   }
 }
 
+/// substitute() by inverse pivots.
+template <int B>
+void BorderedBlockTridiagonal<B>::substitute_by_kernels(double* x, int first) const {
+  const BlockKernels& kernels = fastest_block_kernels();
+  const double *const below = lower.front().data(), *const above = upper.front().data(),
+                      *const inverse = inverse_.front().data();
+  const auto at_once_or_by_turns = [&](const auto& sweep, const BlockRun& a, const BlockRun& b) {
+    if (!is_long()) return sweep(a, b);
+    at_once(2, [&](std::ptrdiff_t side) { sweep(side == 0 ? a : BlockRun{}, side == 0 ? BlockRun{} : b); });
+  };
+  const auto subtract = [&](const BlockRun& a, const BlockRun& b) { kernels.subtract(a, b, x); };
+  const auto finish = [&](const BlockRun& a, const BlockRun& b) { kernels.finish(a, b, inverse, x); };
+  const int last = nodes() - 1, start = first + 1;
+  at_once_or_by_turns(subtract, {below, start, 1, middle_ - start}, {above, last - 1, -1, last - middle_ - 1});
+  if (middle_ >= start) subtract({below, middle_, 1, 1}, {});
+  if (middle_ < last) subtract({above, middle_, -1, 1}, {});
+  apply_pivot(static_cast<std::size_t>(middle_), node_part<B>(x, middle_));
+  at_once_or_by_turns(finish, {above, middle_ - 1, -1, middle_}, {below, middle_ + 1, 1, last - middle_});
+}
+
 template <int B>
 void BorderedBlockTridiagonal<B>::substitute(double* x, std::size_t first) const {
+  if constexpr (B == 4) {
+    if (!solves_) return substitute_by_kernels(x, static_cast<int>(first));
+  }
   const int last = nodes() - 1, middle = middle_;
   const Block *const below = lower.data(), *const above = upper.data();
   const auto subtract = [x](const Block* by, int k, int from) {
     node_part<B>(x, k).noalias() -= by[k] * node_part<B>(x, from);
   };
   const auto finish = [=, this](const Block* by, int k, int from) {
-    subtract(by, k, from);
-    apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
+    if (solves_) {
+      subtract(by, k, from);
+      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
+    } else {
+      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
+      subtract(by, k, from);
+    }
   };
   const int start = static_cast<int>(first) + 1;
   side_by_side(

@@ -85,6 +85,7 @@ class BorderedBlockTridiagonal {
 
   /// Forward and back substitution of a right-hand side that is zero before node `first`.
   void substitute(double* x, std::size_t first) const;
+  void substitute_by_kernels(double* x, int first) const;
 
   struct Pivot {
     Vector scale;
