@@ -197,7 +197,10 @@ class GeneralizedAlpha final : public Stepper {
     step_.v = step_.base_v;
     if (crosses_event_) go_on(t, h);
     crosses_event_ = false;
-    const double dissipation = system_.residual(step_.base_q, step_.base_v, end_.true_acceleration, t, r_);
+    double dissipation = 0;
+    if (system_.tallies().dissipated) {
+      dissipation = system_.residual(step_.base_q, step_.base_v, end_.true_acceleration, t, r_);
+    }
     end_.power = system_.supplied_power(step_.q, step_.v, end_.true_acceleration, t);
     end_.power.dissipated = dissipation;
     stop_.set_fields(system_.fields());
