@@ -29,37 +29,42 @@ struct CubicRule {
   }
 };
 
-/// The change of the kinetic energy from an element of one chain to the same one of another, for mass 1 per length.
-template <int D>
+/// The change of the kinetic energy from an element of one chain to the same one of another, for mass 1 per length, by
+/// several rules.
+template <int D, std::size_t Rules>
 class KineticChange {
  public:
   KineticChange(const BeamModel<D>& model, const ChainState<D>& before, const ChainState<D>& after,
-                const SumTables& tables)
+                const std::array<const SumTables*, Rules>& tables)
       : model_(model), before_(before), after_(after), tables_(tables) {}
 
-  double of(int k_before, int k_after) const {
+  void add(int k_before, int k_after, std::array<double, Rules>& sums) const {
     const auto was = before_.rates(k_before), is = after_.rates(k_after);
     const NodalCubic<double, D> change = difference(is.e, was.e);
     const bool still = is.x_a == was.x_a && is.x_b == was.x_b;
-    if (still && change.r_a.isZero(0) && change.s_a.isZero(0) && change.r_b.isZero(0) && change.s_b.isZero(0)) return 0;
+    if (still && change.r_a.isZero(0) && change.s_a.isZero(0) && change.r_b.isZero(0) && change.s_b.isZero(0)) return;
     const Mesh& mesh = after_.mesh;
     const auto k = static_cast<std::size_t>(k_after);
-    const auto points = with_mass(tables_.of(mesh.weights[k].w).rule);
-    if (after_.moves(k_after) || mesh.weights[k].w != unit_weights || points.size() < exact_points) {
-      return by_points(k_before, k_after, points);
+    const Weights<double>& weights = mesh.weights[k].w;
+    const bool cubic = weights == unit_weights && !after_.moves(k_after);
+    const double exact = cubic ? of_cubics(was.e, change, mesh.x[k + 1] - mesh.x[k]) : 0;
+    for (std::size_t i = 0; i < Rules; ++i) {
+      const auto points = with_mass(tables_[i]->of(weights).rule);
+      sums[i] += cubic && points.size() >= exact_points ? exact : by_points(k_before, k_after, points);
     }
+  }
+
+ private:
+  static double of_cubics(const NodalCubic<double, D>& was, const NodalCubic<double, D>& change, double length) {
     static const CubicRule rule;
-    const double length = mesh.x[k + 1] - mesh.x[k];
     double sum = 0;
     for (const auto& [weight, shape] : rule.points) {
       const std::array<double, 4> s{shape[0], length * shape[1], shape[2], length * shape[3]};
-      const Vec<double, D> v_was = combine_nodes<double, D>(s, was.e), v_change = combine_nodes<double, D>(s, change);
+      const Vec<double, D> v_was = combine_nodes<double, D>(s, was), v_change = combine_nodes<double, D>(s, change);
       sum += weight * v_change.dot(2 * v_was + v_change);
     }
     return sum * length / 2;
   }
-
- private:
   static NodalCubic<double, D> difference(const NodalCubic<double, D>& a, const NodalCubic<double, D>& b) {
     return {a.r_a - b.r_a, a.s_a - b.s_a, a.r_b - b.r_b, a.s_b - b.s_b};
   }
@@ -77,7 +82,7 @@ class KineticChange {
 
   const BeamModel<D>& model_;
   const ChainState<D>&before_, &after_;
-  const SumTables& tables_;
+  std::array<const SumTables*, Rules> tables_;
 };
 
 /// The first element before `end` at whose nodes the rates differ; far from an event none does.
@@ -99,21 +104,21 @@ int last_to_differ(const ChainState<D>& before, const ChainState<D>& after, int 
 
 }  // namespace
 
-template <int D>
-Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, const ChainState<D>& after,
-                   const EventReach& reach, double t, int points) {
+template <int D, std::size_t Rules>
+std::array<Energy, Rules> energy_jumps(const CurrentBeam<D>& beam, const ChainState<D>& before,
+                                       const ChainState<D>& after, const EventReach& reach, double t,
+                                       const std::array<int, Rules>& points) {
   const int more = after.mesh.elements() - before.mesh.elements();
-  Energy jump = energies_of_elements(beam, after, reach.lowest, reach.highest + more, t, points) -
-                energies_of_elements(beam, before, reach.lowest, reach.highest, t, points);
-
   const BeamModel<D>& model = beam.model();
-  const KineticChange<D> change(model, before, after, beam.tables(points));
-  double outside = 0;
-  for (int k = first_to_differ<D>(before, after, reach.lowest); k < reach.lowest; ++k) outside += change.of(k, k);
+  std::array<const SumTables*, Rules> tables;
+  for (std::size_t i = 0; i < Rules; ++i) tables[i] = &beam.tables(points[i]);
+  const KineticChange<D, Rules> change(model, before, after, tables);
+  std::array<double, Rules> outside{};
+  for (int k = first_to_differ<D>(before, after, reach.lowest); k < reach.lowest; ++k) change.add(k, k, outside);
   for (int k = reach.highest, last = last_to_differ<D>(before, after, reach.highest); k <= last; ++k) {
-    outside += change.of(k, k + more);
+    change.add(k, k + more, outside);
   }
-  jump.kinetic += model.section.rhoA * outside;
+  Energy jump;  // of what is lumped
   const auto add_lumped = [&jump](double mass, const Vec<double, D>& v0, const Vec<double, D>& v1) {
     jump.kinetic += 0.5 * mass * (v1 - v0).dot(v1 + v0);
   };
@@ -139,12 +144,23 @@ Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, cons
     add_lumped(law.mass, position<D>(before.rate.data(), from.node), position<D>(after.rate.data(), to->node));
     jump.kinetic += 0.5 * law.turning * (to->rate - from.rate) * (to->rate + from.rate);
   }
-  return jump;
+  std::array<Energy, Rules> jumps;
+  for (std::size_t i = 0; i < Rules; ++i) {
+    jumps[i] = energies_of_elements(beam, after, reach.lowest, reach.highest + more, t, points[i]) -
+               energies_of_elements(beam, before, reach.lowest, reach.highest, t, points[i]);
+    jumps[i].kinetic += model.section.rhoA * outside[i];
+    jumps[i] += jump;
+  }
+  return jumps;
 }
 
-template Energy energy_jump(const CurrentBeam<2>&, const ChainState<2>&, const ChainState<2>&, const EventReach&,
-                            double, int);
-template Energy energy_jump(const CurrentBeam<3>&, const ChainState<3>&, const ChainState<3>&, const EventReach&,
-                            double, int);
+template std::array<Energy, 1> energy_jumps(const CurrentBeam<2>&, const ChainState<2>&, const ChainState<2>&,
+                                            const EventReach&, double, const std::array<int, 1>&);
+template std::array<Energy, 1> energy_jumps(const CurrentBeam<3>&, const ChainState<3>&, const ChainState<3>&,
+                                            const EventReach&, double, const std::array<int, 1>&);
+template std::array<Energy, 2> energy_jumps(const CurrentBeam<2>&, const ChainState<2>&, const ChainState<2>&,
+                                            const EventReach&, double, const std::array<int, 2>&);
+template std::array<Energy, 2> energy_jumps(const CurrentBeam<3>&, const ChainState<3>&, const ChainState<3>&,
+                                            const EventReach&, double, const std::array<int, 2>&);
 
 }  // namespace vlbeam

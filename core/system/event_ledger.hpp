@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "core/system/current_beam.hpp"
 #include "core/system/energy.hpp"
 
@@ -11,10 +14,17 @@ struct EventReach {
 };
 
 /// How energies change in an event of the mesh that may change velocities on the whole beam, but the shape of the
-/// elements in `reach` alone: summed there by `points` Gauss points an element, or own_points. On the others, only the
+/// elements in `reach` alone: summed there by so many Gauss points an element, or own_points. On the others, only the
 /// kinetic energy changes, by (v_1 - v_0) . (v_1 + v_0)/2: so a small change next to a large energy keeps its digits.
+template <int D, std::size_t Rules>
+std::array<Energy, Rules> energy_jumps(const CurrentBeam<D>& beam, const ChainState<D>& before,
+                                       const ChainState<D>& after, const EventReach& reach, double t,
+                                       const std::array<int, Rules>& points);
+
 template <int D>
 Energy energy_jump(const CurrentBeam<D>& beam, const ChainState<D>& before, const ChainState<D>& after,
-                   const EventReach& reach, double t, int points);
+                   const EventReach& reach, double t, int points) {
+  return energy_jumps(beam, before, after, reach, t, std::array{points}).front();
+}
 
 }  // namespace vlbeam

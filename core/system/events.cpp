@@ -1,5 +1,6 @@
 // What an event makes of a beam and its state.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -302,20 +303,24 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   } else if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
     velocities_.project(record.before, record.after, reach.lowest, reach.lowest, y, t);
   }
-  const auto jump = [&](const Energy& was, int points) {  // up to y, whose chain record.after is
-    if (looks_at_all) return observe(y, t, points).energy - was;
-    return energy_jump(*this, record.before, record.after, reach, t, points);
-  };
   if (conserves) {
     const auto gained = [&] {
       Beam::take_rates(y, record.after);
-      return jump(own_before, own_points).total();
+      if (looks_at_all) return (observe(y, t, own_points).energy - own_before).total();
+      return energy_jump(*this, record.before, record.after, reach, t, own_points).total();
     };
     velocities_.restore(momenta_before, gained, y, t);
   }
   if (transfers || type == EventType::end_merge) Beam::take_rates(y, record.after);
-  record.jump = jump(energy_before, ledger_points);
-  record.discrete_jump = jump(own_before, own_points).total();
+  if (looks_at_all) {
+    record.jump = observe(y, t, ledger_points).energy - energy_before;
+    record.discrete_jump = (observe(y, t, own_points).energy - own_before).total();
+  } else {
+    const auto jumps =
+        energy_jumps(*this, record.before, record.after, reach, t, std::array{ledger_points, own_points});
+    record.jump = jumps[0];
+    record.discrete_jump = jumps[1].total();
+  }
   if (conserves) {
     const double size =
         std::abs(own_before.kinetic) + own_before.axial + own_before.bending + std::abs(own_before.gravity);
