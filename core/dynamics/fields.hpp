@@ -49,17 +49,26 @@ void for_each_coordinate(const Runs& runs, const Function& f) {
   }
 }
 
-/// Largest magnitude of `count` groups of `width`, of finite entries.
+/// Largest magnitude of `count` groups of `width`, of finite entries. Four groups at a time: each waits for the one
+/// before it otherwise.
 template <int width>
 double largest_magnitude(const double* at, Eigen::Index stride, Eigen::Index count) {
-  std::array<double, width> largest{};
-  for (; count > 0; --count, at += stride) {
+  constexpr Eigen::Index at_a_time = 4;
+  std::array<std::array<double, width>, at_a_time> largest{};
+  const auto take = [&](std::size_t which) {
     for (std::size_t i = 0; i < width; ++i) {
       const double size = std::abs(at[i]);
-      largest[i] = size > largest[i] ? size : largest[i];
+      largest[which][i] = size > largest[which][i] ? size : largest[which][i];
     }
+    at += stride;
+  };
+  for (; count >= at_a_time; count -= at_a_time) {
+    for (std::size_t which = 0; which < at_a_time; ++which) take(which);
   }
-  return *std::max_element(largest.begin(), largest.end());
+  for (; count > 0; --count) take(0);
+  double all = 0;
+  for (const auto& group : largest) all = std::max(all, *std::max_element(group.begin(), group.end()));
+  return all;
 }
 
 /// The same of a run in x.
@@ -91,7 +100,7 @@ inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::Ve
 inline bool all_finite(const Eigen::VectorXd& x) {
   std::atomic<bool> finite = true;
   in_pieces(x.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
-    if (!x.segment(first, count).allFinite()) finite = false;
+    if (!((0 * x.segment(first, count)).sum() == 0)) finite = false;  // without a branch an entry
   });
   return finite;
 }
