@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/element/instruction_set.hpp"
+
 namespace vlbeam {
 
 /// Nodes of four unknowns, one behind the other: first, first + step, ... Each couples to the one before it by a block,
@@ -19,6 +21,9 @@ struct BlockKernels {
   /// back = inverse * back; pivot -= forth * back; forth = forth * inverse. All are single blocks.
   void (*eliminate)(const double* inverse, double* back, double* forth, double* pivot);
 };
+
+/// Those for an instruction set that is available().
+BlockKernels block_kernels(InstructionSet set);
 
 namespace portable {
 BlockKernels block_kernels();

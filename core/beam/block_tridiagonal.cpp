@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/beam/block_kernels.hpp"
-#include "core/element/instruction_set.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/pieces.hpp"
 
@@ -41,13 +40,6 @@ auto node_part(const double* x, int k) {
   return Eigen::Map<const Eigen::Matrix<double, B, 1>>(x + std::ptrdiff_t{B} * k);
 }
 
-BlockKernels block_kernels([[maybe_unused]] InstructionSet set) {
-#ifdef VLBEAM_HAS_AVX2
-  if (set == InstructionSet::avx2) return avx2::block_kernels();
-#endif
-  return portable::block_kernels();
-}
-
 const BlockKernels& fastest_block_kernels() {
   static const BlockKernels kernels = block_kernels(fastest_instruction_set());
   return kernels;
@@ -74,6 +66,13 @@ void side_by_side(bool by_threads, int count_a, const A& a, int count_b, const B
 }
 
 }  // namespace
+
+BlockKernels block_kernels([[maybe_unused]] InstructionSet set) {
+#ifdef VLBEAM_HAS_AVX2
+  if (set == InstructionSet::avx2) return avx2::block_kernels();
+#endif
+  return portable::block_kernels();
+}
 
 template <int B>
 void BorderedBlockTridiagonal<B>::reset(int nodes) {

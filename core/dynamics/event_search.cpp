@@ -102,9 +102,8 @@ Eigen::VectorXd EventSearch::at(const WholeStep& step, double t) {
 }
 
 LocatedEvent EventSearch::first(const WholeStep& step, const Guards& at_end) {
-  if (std::ranges::none_of(at_end, [&](const Guard& guard) {
-        return is_due(guard) || guard.value > options_.largest_overshoot;
-      })) {
+  if (std::ranges::none_of(
+          at_end, [&](const Guard& guard) { return is_due(guard) || guard.value > options_.largest_overshoot; })) {
     return {};
   }
   const bool exactly = options_.locate_events;

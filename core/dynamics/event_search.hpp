@@ -29,8 +29,8 @@ class EventSearch {
   EventSearch(EventedOde& ode, const Stepper& main, SideStepper& side, const IntegrationOptions& options)
       : ode_(ode), main_(main), side_(side), options_(options) {}
 
-  /// The first event in the step, at whose end the guards are `at_end`, or index -1. Unless events are to be located its
-  /// time is the end of the step. Throws SideStepUnderflow where the step is too long to be looked into.
+  /// The first event in the step, at whose end the guards are `at_end`, or index -1. Unless events are to be located
+  /// its time is the end of the step. Throws SideStepUnderflow where the step is too long to be looked into.
   LocatedEvent first(const WholeStep& step, const Guards& at_end);
 
   /// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, an

@@ -9,8 +9,9 @@ namespace vlbeam {
 
 inline constexpr int tangent_work = 4;  // iterations, that take as long as a tangent and its factor
 
-/// Whether a step of Newton's iteration starts with the tangent of the step before, or makes its own. Where a tangent that was kept proves useless in the very next step, tries
-/// become rare: stiff beams of fine meshes turn by more in a step than any tangent bears.
+/// Whether a step of Newton's iteration starts with the tangent of the step before, or makes its own. Where a tangent
+/// that was kept proves useless in the very next step, tries become rare: stiff beams of fine meshes turn by more in a
+/// step than any tangent bears.
 class KeptTangent {
  public:
   /// The next step makes its own.

@@ -62,9 +62,8 @@ MergedWeights by_rule(const MergeRule& rule, const MovingCoordinates<double, D>&
     std::copy(v.begin(), v.end(), p.begin());
     return p;
   };
-  const std::array<double, 3> k =
-      rule({q.x_a, q.x_b, point(q.e.r_a), point(q.e.s_a), point(q.e.r_b), point(q.e.s_b), lost.x, point(lost.r),
-            point(lost.r_x)});
+  const std::array<double, 3> k = rule({q.x_a, q.x_b, point(q.e.r_a), point(q.e.s_a), point(q.e.r_b), point(q.e.s_b),
+                                        lost.x, point(lost.r), point(lost.r_x)});
   for (const double weight : k) {
     if (weight > 0 && std::isfinite(weight)) continue;
     std::ostringstream what;

@@ -286,8 +286,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     const Energy stored = energy_jump(*this, record.before, record.after, reach, t, own_points);
     record.relaxation = relax_after(dues, record.after, t, stored.axial + stored.bending);
   }
-  const bool goes_on =
-      type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
+  const bool goes_on = type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
   const std::vector<JointPlace> places_before = places();
   const Layout<D> layout_before = layout();
   old_.swap(y);

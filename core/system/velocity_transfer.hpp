@@ -29,7 +29,8 @@ class VelocityProjection {
   void restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
 
  private:
-  /// Writes the momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to `last`.
+  /// Writes the momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to
+  /// `last`.
   void find_excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last);
   static constexpr int rigid_modes = D == 2 ? 3 : 6;
   /// The axes in whose plane mode `mode` turns, the first towards the second.

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "core/beam/block_kernels.hpp"
 #include "core/beam/span_kernels.hpp"
 #include "core/element/element_sums.hpp"
 #include "core/element/moving_kernels.hpp"
@@ -158,6 +159,27 @@ TEST(InstructionSets, GiveTheSameBits) {
       }
     }
   }
+}
+
+TEST(InstructionSets, GiveBlocksOfANodeTheSameBits) {
+  if (!available(InstructionSet::avx2)) GTEST_SKIP() << "this machine has one only";
+  Random random(17);
+  constexpr int nodes = 9, block = 16;
+  const Eigen::VectorXd start =
+      Eigen::VectorXd::NullaryExpr((3 * block + 4) * nodes, [&] { return random.uniform(-1, 1); });
+  const auto of = [&](InstructionSet set) {
+    const BlockKernels kernels = block_kernels(set);
+    Eigen::VectorXd numbers = start;
+    double *const up = numbers.data(), *const down = up + block * nodes, *const inverse = down + block * nodes,
+                  *const x = inverse + block * nodes;
+    kernels.eliminate(inverse, up, down + block, inverse + block);
+    kernels.subtract({up, 1, 1, 4}, {down, 7, -1, 2}, x);
+    kernels.finish({down, 4, -1, 5}, {up, 6, 1, 3}, inverse, x);
+    return numbers;
+  };
+  const Eigen::VectorXd portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
+  expect_same_bits(portable.data(), avx2.data(), static_cast<std::size_t>(portable.size()));
+  EXPECT_NE(portable, start);
 }
 
 }  // namespace

@@ -50,6 +50,23 @@ TEST(AimedSteps, EndAtTheEvent) {
   EXPECT_EQ(bouncing.counters.smallest_step, 0.05);
 }
 
+TEST(AimedSteps, AreAMillionthLongerWhereTheyAllButReachAnEvent) {
+  for (const double share : {1e-7, 5e-5}) {  // of a step, that the event is behind its end
+    Outcome run;
+    const double at = 0.05 * (10 + share);
+    run.ode.guard = [&](const Eigen::VectorXd&, double t) { return run.ode.events.empty() ? 20 * (t - at) : -1; };
+    run.run(0.05, 1);
+    ASSERT_EQ(run.ode.events.size(), 1U);
+    EXPECT_NEAR(run.ode.events.front().t, at, 1e-12);
+    EXPECT_EQ(run.counters.steps, share < 1e-6 ? 20U : 21U);  // no short one to an event that the tenth ends at
+    EXPECT_LE(run.state.norm(), 2);
+  }
+  Outcome end;  // but not beyond the end of the run
+  end.ode.guard = [&](const Eigen::VectorXd&, double t) { return 20 * (t - 0.5 * (1 + 1e-8)); };
+  end.run(0.05, 0.5);
+  EXPECT_TRUE(end.ode.events.empty());
+}
+
 TEST(AimedSteps, EndAtTheFirstOfTwo) {
   for (const auto& times : {std::pair{0.512, 0.537}, {0.537, 0.512}, {0.512, 0.5121}}) {
     const double first = times.first, second = times.second;

@@ -29,6 +29,29 @@ TEST(NewtonStop, JudgesTheErrorThatIsLeftNotTheCorrection) {
   EXPECT_EQ(stop.judge(entries(1e-17, 0), entries(1e-13, 0), 1.1e-6, slow), Verdict::done);  // 1e-4 times 1e-2
 }
 
+TEST(NewtonStop, ExpectsOfANearbyStepWhatItHasSeen) {
+  using Verdict = NewtonStop::Verdict;
+  for (const bool nearby : {true, false}) {
+    NewtonStop stop = two_fields();
+    stop.judge(entries(1, 0), entries(1, 0), 1e-9, slow);
+    stop.judge(entries(1e-2, 0), entries(1, 0), 1e-9, slow);
+    stop.judge(entries(1e-5, 0), entries(1, 0), 1e-9, slow);
+    EXPECT_DOUBLE_EQ(stop.slowest(), 1e-2);
+    stop.begin_step(nearby);
+    EXPECT_EQ(stop.judge(entries(1e-4, 0), entries(1, 0), 1.1e-6, slow), nearby ? Verdict::done : Verdict::go_on);
+    EXPECT_EQ(stop.slowest(), nearby ? 1e-2 : 0);
+    stop.begin_step(nearby);  // where it was not seen anew it is still known
+    EXPECT_EQ(stop.judge(entries(1e-4, 0), entries(1, 0), 0.9e-6, slow), Verdict::go_on);
+  }
+}
+
+TEST(NewtonStop, ForeseesTheErrorAfterMoreIterations) {
+  NewtonStop stop = two_fields();
+  stop.judge(entries(1, 0), entries(1, 0), 1e-9, slow);
+  stop.judge(entries(0.25, 0), entries(1, 0), 1e-9, slow);
+  EXPECT_DOUBLE_EQ(stop.error_after(3), 0.25 / 64);
+}
+
 TEST(NewtonStop, GivesEachFieldItsOwnNorm) {
   NewtonStop stop = two_fields();
   stop.judge(entries(1, 1e-9), entries(1, 1e-9), 1e-8, slow);

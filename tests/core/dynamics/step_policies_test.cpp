@@ -48,7 +48,7 @@ TEST(KeptTangent, IsTriedMoreAndMoreRarelyWhileItFailsAtOnce) {
   KeptTangent tangent;
   std::vector<int> own;  // steps that make their own between two that try
   for (int tries = 0; tries < 8; ++tries) {
-    tangent.kept(0.5, true);
+    tangent.kept(6, true);
     own.push_back(0);
     for (; tangent.is_old(); tangent.made(1e-4)) ++own.back();
   }
@@ -58,21 +58,22 @@ TEST(KeptTangent, IsTriedMoreAndMoreRarelyWhileItFailsAtOnce) {
 TEST(KeptTangent, IsKeptAgainWhereItServedForAStep) {
   KeptTangent tangent;
   for (int tries = 0; tries < 3; ++tries) {
-    tangent.kept(0.1, false);
+    tangent.kept(3, false);
     EXPECT_FALSE(tangent.is_old());
-    tangent.kept(0.15, true);
+    tangent.kept(6, true);
     EXPECT_FALSE(tangent.is_old()) << "the one that was made on the way is new";
   }
 }
 
-TEST(KeptTangent, IsOldWhereItsContractionIs) {
+TEST(KeptTangent, IsOldWhereItTakesAsLongAsANewOne) {
   KeptTangent tangent;
-  tangent.kept(0.1, false);
-  tangent.kept(0.3, false);
-  EXPECT_TRUE(tangent.is_old());
-  tangent.made(1e-4);
+  tangent.kept(tangent_work - 1, false);
   EXPECT_FALSE(tangent.is_old());
-  tangent.made(1e-2);  // the next step would not be fast with it
+  tangent.kept(tangent_work, false);
+  EXPECT_TRUE(tangent.is_old());
+  tangent.made(1e-3);
+  EXPECT_FALSE(tangent.is_old());
+  tangent.made(5e-2);  // the next step would not be fast with it
   EXPECT_TRUE(tangent.is_old());
 }
 

@@ -66,6 +66,26 @@ class LengthControlOf : public ::testing::Test {
 };
 TYPED_TEST_SUITE(LengthControlOf, Dimensions, DimensionNames);
 
+TYPED_TEST(LengthControlOf, ATradedNodeIsOneInsertedAndOneErased) {
+  constexpr int D = TypeParam::value;
+  const auto start = smooth_chain<D>({.elements = 8, .joint = 4, .rational = true}, 1.5, this->random_);
+  const auto expect_trade = [&](int at, int erased) {
+    ChainState<D> expected = start, traded = start;
+    expected.insert_node(at);
+    expected.erase_node(erased < at ? erased : erased + 1);
+    const int now = traded.trade_node(at, erased);
+    EXPECT_EQ(now, erased < at ? at - 1 : at);
+    for (ChainState<D>* chain : {&expected, &traded}) {  // what the new node holds is up to the caller
+      chain->copy_node(now, start, 0);
+    }
+    expect_same(traded, expected, 0);
+  };
+  expect_trade(4, 5);
+  expect_trade(4, 6);
+  expect_trade(5, 3);
+  expect_trade(5, 2);
+}
+
 TYPED_TEST(LengthControlOf, AForwardEventPutsANodeBehindTheJointAndTakesOneAheadAway) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {

@@ -63,6 +63,33 @@ TEST(SpinChain, CubicAngleFollowsLagrangesEquationsOfTheMovingElement) {
   }
 }
 
+TEST(SpinChain, ResidualIsThatOfTheEquations) {
+  Random random(7);
+  constexpr int elements = 3;
+  for (const AngleField field : {AngleField::linear, AngleField::hermite}) {
+    SpinChain chain(spinning, field, Formulation::variational, elements, 5, {});
+    SpinChain::Nodes nodes;
+    for (int k = 0; k <= elements; ++k) {
+      nodes.push_back({k + random.uniform(-0.2, 0.2), random.uniform(-1, 1), random.uniform(-1, 1)});
+    }
+    const Eigen::Index n = chain.coordinates();
+    const auto any = [&] { return Eigen::VectorXd::NullaryExpr(n, [&] { return random.uniform(-1, 1); }).eval(); };
+    const Eigen::VectorXd q = any(), rate = any(), a = any();
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(n), residual = Eigen::VectorXd::Zero(n);
+    chain.evaluate(q.data(), rate.data(), nodes);
+    chain.add_residual(a.data(), nodes, expected.data());
+    const double lost = chain.residual(q.data(), rate.data(), a.data(), nodes, residual.data());
+    EXPECT_NEAR(lost, chain.dissipation(), 1e-14);
+    EXPECT_LE((residual - expected).norm(), 1e-13 * expected.norm());
+    for (int k = 0; k < elements; ++k) {
+      const auto at = chain.local(q.data(), nodes, &Prescribed::value, k);
+      const auto guiding = guiding_forces(chain.equations(at, chain.local(rate.data(), nodes, &Prescribed::rate, k)),
+                                          chain.local(a.data(), nodes, &Prescribed::acceleration, k));
+      for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(chain.guiding_forces(k)[i], guiding[i], 1e-13);
+    }
+  }
+}
+
 TEST(SpinChain, CubicAngleThatIsLinearHasTheTwistOfTheClosedForm) {
   const SpinChain linear(spinning, AngleField::linear, Formulation::variational, 1, 5, {});
   const SpinChain cubic(spinning, AngleField::hermite, Formulation::variational, 1, 5, {});

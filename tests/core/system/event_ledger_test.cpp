@@ -48,6 +48,9 @@ TYPED_TEST(EnergyJump, IsTheDifferenceOfTheWholeBeamsEnergies) {
       const double size = whole(beam, after, points).kinetic;
       EXPECT_NEAR(jump.kinetic, expected.kinetic, 1e-13 * size);
       EXPECT_NEAR(jump.total(), expected.total(), 1e-12 * std::abs(whole(beam, after, points).total()));
+      const auto both = energy_jumps(beam, before, after, {4, 8}, 0, std::array{25, points});
+      EXPECT_EQ(both[1].total(), jump.total()) << "whatever else is asked for";
+      EXPECT_EQ(both[0].kinetic, energy_jump(beam, before, after, {4, 8}, 0, 25).kinetic);
     }
   }
 }
