@@ -34,10 +34,10 @@ constexpr double implicit_share = 0.05, explicit_share = 0.05;
 constexpr double share_with_events =
     0.032;  // where joints pass freely from element to element: a whip multiplies errors
 constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
-constexpr double relative_share = 1e-3;
+constexpr double newton_share = 0.1, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
 constexpr double whole_motion = 0.1;       // of the beam's length: displacement from which tolerances hold in full
-constexpr double least_tolerance = 1e-11, rounding = 1e-14;
+constexpr double least_tolerance = 1e-11, least_newton_tolerance = 1e-10, rounding = 1e-14;
 
 // The trial, in evaluations of the equations.
 constexpr double tangent_work = 6;
@@ -89,6 +89,7 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.error_estimate = ErrorEstimate::filtered;
   spec.step = std::min(two_digits(longest_implicit_step(scene) * std::sqrt(accuracy / usual_accuracy)), scene.duration);
   spec.rho_inf = automatic_rho_inf;
+  spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   // what errors of steps add up to falls with the power 2/3 of their tolerance
   const auto joints = sliding_joints(scene);
   const bool events = scene.length_control.enabled &&

@@ -359,13 +359,11 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     choice("/integrator/newton", "a new tangent at every iteration (full) or when one converges too slowly (modified)",
            scene.integrator.newton,
            in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
-    number(
-        "/integrator/newton_tolerance", "-", {.low = 0, .high = 1e-2},
-        "where Newton's iteration ends: its estimated error over the step's own increment, field by field; 0 for "
-        "1e-3 of what the method itself errs in a step (1e-2 where it adapts), from 1e-10 to 1e-4; rounding ends it, "
-        "too",
-        scene.integrator.newton_tolerance,
-        in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
+    number("/integrator/newton_tolerance", "-", {.low = 0, .high = 1e-2},
+           "where Newton's iteration ends: its estimated error over the step's own increment, field by field; 0 for "
+           "3e-4 of what the method itself errs in a step, from 1e-10 to 1e-5; rounding ends it, too",
+           scene.integrator.newton_tolerance,
+           in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));
     choice("/integrator/adaptive", "the step follows rtol and atol of the positions, up to the length given",
            scene.integrator.adaptive,
            in_motion({.when = only_if(integrator_type, scene.integrator.type, IntegratorType::generalized_alpha)}));

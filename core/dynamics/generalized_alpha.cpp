@@ -14,9 +14,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr double newton_share = 1e-3;    // of a step's own error, that Newton's iteration may leave
-constexpr double adaptive_share = 1e-2;  // the same, where steps are only as short as their error asks for
-constexpr double first_newton = 1e-8, least_newton = 1e-10, most_newton = 1e-4;  // of an increment
+constexpr double newton_share = 3e-4;  // of a step's own error, that Newton's iteration may leave
+constexpr double first_newton = 1e-8, least_newton = 1e-10, most_newton = 1e-5;  // of an increment
 constexpr double same_step = 0.05;  // relative difference of by_a: the tangent of nearly the same step
 constexpr double stagnation = 0.5;  // contraction with tangents of the same step: rounding, or far from a solution
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
@@ -288,7 +287,7 @@ class GeneralizedAlpha final : public Stepper {
     bool fresh = false;         // the tangent is of this step
     int with_this_tangent = 0;  // iterations of this step
     history_.clear();
-    stop_.begin_step(nearby && !starts_fresh);
+    stop_.begin_step(nearby && !starts_fresh ? stop_.slowest() + std::abs(rule_.by_a(h) / tangent_by_a_ - 1) : 0);
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(step_.q, step_.v, step_.a, t, r_);
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
@@ -375,8 +374,7 @@ class GeneralizedAlpha final : public Stepper {
       const auto f = static_cast<std::size_t>(field);
       if (errors[f] > 0 && increments[f] > 0) least = std::min(least, errors[f] / increments[f]);
     }
-    const double share = options_.adaptive ? adaptive_share : newton_share;
-    tolerance_ = std::clamp(share * least, least_newton, most_newton);
+    tolerance_ = std::clamp(newton_share * least, least_newton, most_newton);
   }
 
   /// r is linear in the accelerations, and next to 0 at the end of the step: with more acceleration it is that of this.

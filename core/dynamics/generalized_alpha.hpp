@@ -13,8 +13,8 @@ struct GeneralizedAlphaOptions {
   double step = 1e-3;    ///< [s]; the longest, and the first, where the step adapts
   double rho_inf = 0.9;  ///< spectral radius at infinity, 0 (strongest damping) to 1 (none)
   NewtonKind newton = NewtonKind::modified;
-  /// Of the estimated error relative to the step's own increment (NewtonStop); 0: a share of the error that the
-  /// method itself makes in a step, 1e-3 of it or, where the step adapts, 1e-2.
+  /// Of the estimated error relative to the step's own increment (NewtonStop); 0: 3e-4 of the error that the
+  /// method itself makes in a step, and 1e-5 at most.
   double newton_tolerance = 0;
   int newton_iterations = 15;                         ///< beyond which the step is halved
   bool adaptive = false;                              ///< the step follows the tolerances

@@ -43,7 +43,7 @@ class KeptTangent {
   }
 
  private:
-  static constexpr double fast_contraction = 1e-2;  // with the step's own: the next step may keep it
+  static constexpr double fast_contraction = 1e-3;  // with the step's own: the next step may keep it
   static constexpr int longest_wait = 32;           // steps
 
   bool old_ = false;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -38,13 +37,13 @@ class NewtonStop {
   }
   const std::vector<FieldRun>& fields() const { return fields_; }
 
-  /// Before the first iteration of a step. `nearby`: with the tangent and nearly the length of the step before, so that
-  /// corrections will fall at least as fast as there.
-  void begin_step(bool nearby = false) {
+  /// Before the first iteration of a step. Where that goes on with the tangent of the step before, from its end, the
+  /// contraction of that one, slowest(), is expected, and what the tangent is wrong by in the length of the step.
+  void begin_step(double expected_contraction = 0) {
     error_ = 0;
     corrections_ = 0;
-    expected_ = nearby ? slowest_ : 0;
-    slowest_ = expected_;
+    expected_ = expected_contraction;
+    slowest_ = expected_contraction;
     if (++noise_age_ > noise_lifetime) forget_noise();
   }
   /// The length of the step, or the equations, are other ones.
@@ -87,7 +86,11 @@ class NewtonStop {
   double contraction() const { return contraction_; }  ///< from the correction before; 0 after the first
   double slowest() const { return slowest_; }          ///< contraction of this step
   /// What error() will be after so many more iterations, if corrections go on falling as they do.
-  double error_after(int iterations) const { return error_ * std::pow(contraction_, iterations); }
+  double error_after(int iterations) const {
+    double error = error_;
+    for (int i = 0; i < iterations; ++i) error *= contraction_;
+    return error;
+  }
 
  private:
   static constexpr double settled = 4;  // times the noise: corrections that do not fall are not exactly alike

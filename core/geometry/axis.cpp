@@ -12,7 +12,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr int length_pieces = 64;  // of a span; 7 points on each leave rounding alone
+constexpr int length_pieces = 64;  // of a span; 10 points on each leave rounding alone
 
 template <int D>
 double speed_at(const RationalCubic<double, D>& curve, double u) {
@@ -22,7 +22,7 @@ double speed_at(const RationalCubic<double, D>& curve, double u) {
 /// Arc length of `curve` between two values of its parameter.
 template <int D>
 double arc_length(const RationalCubic<double, D>& curve, double from, double to) {
-  return boost::math::quadrature::gauss<double, 7>::integrate([&](double u) { return speed_at(curve, u); }, from, to);
+  return boost::math::quadrature::gauss<double, 10>::integrate([&](double u) { return speed_at(curve, u); }, from, to);
 }
 
 /// The parameter at `length` from the start of `curve`: Newton's iteration inside the piece that holds it.

@@ -71,9 +71,9 @@ TEST(KeptTangent, IsOldWhereItTakesAsLongAsANewOne) {
   EXPECT_FALSE(tangent.is_old());
   tangent.kept(tangent_work, false);
   EXPECT_TRUE(tangent.is_old());
-  tangent.made(1e-3);
+  tangent.made(1e-4);
   EXPECT_FALSE(tangent.is_old());
-  tangent.made(5e-2);  // the next step would not be fast with it
+  tangent.made(1e-2);  // the next step would not be fast with it
   EXPECT_TRUE(tangent.is_old());
 }
 
