@@ -82,16 +82,16 @@ void subtract(const BlockRun& a, const BlockRun& b, double* x) {
 void finish(const BlockRun& a, const BlockRun& b, const double* inverse, double* x) {
   by_turns(a, b, [=](const BlockRun& run, std::ptrdiff_t k) {
     double* const own = x + size * k;
-    store(difference(times(inverse + block_size * k, own), coupled(run, k, x)), own);
+    store(difference(load(own), coupled(run, k, x)), own);
+    store(times(inverse + block_size * k, own), own);
   });
 }
 
-void eliminate(const double* inverse, double* back, double* forth, double* pivot) {
-  multiply(inverse, back, back);
+void eliminate(const double* inverse, const double* back, double* forth, double* pivot) {
+  multiply(forth, inverse, forth);
   for (std::ptrdiff_t j = 0; j < block_size; j += size) {
     store(difference(load(pivot + j), times(forth, back + j)), pivot + j);
   }
-  multiply(forth, inverse, forth);
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ struct BlockRun {
 struct BlockKernels {
   /// x_k -= C_k x_(k - step), with the couplings C.
   void (*subtract)(const BlockRun& a, const BlockRun& b, double* x);
-  /// x_k = P_k x_k - C_k x_(k - step), with the inverse pivots P of all nodes.
+  /// x_k = P_k (x_k - C_k x_(k - step)), with the inverse pivots P of all nodes.
   void (*finish)(const BlockRun& a, const BlockRun& b, const double* inverse, double* x);
-  /// back = inverse * back; pivot -= forth * back; forth = forth * inverse. All are single blocks.
-  void (*eliminate)(const double* inverse, double* back, double* forth, double* pivot);
+  /// forth = forth * inverse; pivot -= forth * back. All are single blocks.
+  void (*eliminate)(const double* inverse, const double* back, double* forth, double* pivot);
 };
 
 /// Those for an instruction set that is available().

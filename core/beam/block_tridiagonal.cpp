@@ -128,9 +128,8 @@ bool BorderedBlockTridiagonal<B>::factor_pivot(int k, const Block& pivot) {
 template <int B>
 void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
   const auto k = static_cast<std::size_t>(node), before = static_cast<std::size_t>(from);
-  // what takes their places is what substitution multiplies with, there and back
-  Block& forth = from < node ? lower[k] : upper[k];
-  Block& back = from < node ? upper[before] : lower[before];
+  Block& forth = from < node ? lower[k] : upper[k];  // what eliminates it takes its place
+  const Block& back = from < node ? upper[before] : lower[before];
   if (solves_) {
     const Pivot& own = pivots_[before];
     const Block scaled = own.scale.asDiagonal() * forth.transpose();
@@ -139,9 +138,8 @@ void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
   } else if constexpr (B == 4) {
     fastest_block_kernels().eliminate(inverse_[before].data(), back.data(), forth.data(), pivot.data());
   } else {
-    back = inverse_[before] * back;
-    pivot.noalias() -= forth * back;
     forth = forth * inverse_[before];
+    pivot.noalias() -= forth * back;
   }
 }
 
@@ -306,13 +304,8 @@ void BorderedBlockTridiagonal<B>::substitute(double* x, std::size_t first) const
     node_part<B>(x, k).noalias() -= by[k] * node_part<B>(x, from);
   };
   const auto finish = [=, this](const Block* by, int k, int from) {
-    if (solves_) {
-      subtract(by, k, from);
-      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
-    } else {
-      apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
-      subtract(by, k, from);
-    }
+    subtract(by, k, from);
+    apply_pivot(static_cast<std::size_t>(k), node_part<B>(x, k));
   };
   const int start = static_cast<int>(first) + 1;
   side_by_side(

@@ -9,7 +9,7 @@
 
 namespace vlbeam {
 
-inline constexpr double slow_contraction = 0.1;  // an iteration that gains less: a new tangent is worth its cost
+inline constexpr double slow_contraction = 0.1;  // of an iteration that gains little
 inline constexpr double newton_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// The largest of all fields, |x| over |q|: of dimensionless fields over 1, of others over a length, if those are
@@ -27,7 +27,7 @@ class NewtonStop {
   enum class Verdict {
     go_on,
     done,
-    slow,       ///< a new tangent is worth its cost
+    slow,       ///< a new tangent may be worth its cost
     stagnates,  ///< slow, and perhaps by rounding alone: where negligible(), measure it (set_noise()) and settle()
   };
 
