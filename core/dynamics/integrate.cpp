@@ -191,7 +191,9 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     }
     if (last && !beyond && !aim.aims()) t = t_end;
 
-    const EventAim::Shot shot = aim.shoot(before, t_before, last ? whole : whole * (1 + slightly_longer), y, t);
+    const double longest = whole * (1 + slightly_longer);
+    const EventAim::Shot shot =
+        aim.shoot(before, t_before, beyond ? longest : std::min(longest, t_end - t_before), y, t);
     if (shot == EventAim::Shot::missed) {
       dt = whole;
       if (beyond) ++looks_beyond;

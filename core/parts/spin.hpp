@@ -78,7 +78,8 @@ class Spin {
   /// Adds the torques; returns their power [W]. What they do along the beam [N] is added to `on_marks`, one entry a
   /// node, unless that is null.
   double add_torques(const double* q, const double* rate, double t, double* f, double* on_marks = nullptr) const;
-  /// Forces along the beam [N] that move the ends of element k as their marks move, after a residual.
+  /// Forces along the beam [N] that move the ends of element k as their marks move, at the accelerations of the last
+  /// residual() or inner_residual().
   const std::array<double, 2>& guiding_forces(int k) const { return chain_.guiding_forces(k); }
   /// The tangent of residual(), before driven angles.
   void assemble(const TangentWeights& by, SpinTangent& tangent) const;

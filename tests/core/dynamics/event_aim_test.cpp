@@ -61,10 +61,13 @@ TEST(AimedSteps, AreAMillionthLongerWhereTheyAllButReachAnEvent) {
     EXPECT_EQ(run.counters.steps, share < 1e-6 ? 20U : 21U);  // no short one to an event that the tenth ends at
     EXPECT_LE(run.state.norm(), 2);
   }
-  Outcome end;  // but not beyond the end of the run
-  end.ode.guard = [&](const Eigen::VectorXd&, double t) { return 20 * (t - 0.5 * (1 + 1e-8)); };
-  end.run(0.05, 0.5);
-  EXPECT_TRUE(end.ode.events.empty());
+  for (const double rest : {0.0, 2e-9, 5e-7}) {  // of a step, that is left behind the last whole one
+    const double t_end = 0.05 * (10 + rest);
+    Outcome end;  // but not beyond the end of the run
+    end.ode.guard = [&](const Eigen::VectorXd&, double t) { return 20 * (t - t_end - 0.05 * 1e-7); };
+    end.run(0.05, t_end);
+    EXPECT_TRUE(end.ode.events.empty()) << rest;
+  }
 }
 
 TEST(AimedSteps, EndAtTheFirstOfTwo) {
