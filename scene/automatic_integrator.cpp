@@ -32,7 +32,7 @@ constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drive
 // Tolerances of a step over the accuracy asked: errors of many steps add up.
 constexpr double implicit_share = 0.05, explicit_share = 0.05;
 constexpr double share_with_events =
-    0.032;  // where joints pass freely from element to element: a whip multiplies errors
+    0.025;  // where joints pass freely from element to element: a whip multiplies errors
 constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
 constexpr double newton_share = 0.1, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out

@@ -295,6 +295,7 @@ class GeneralizedAlpha final : public Stepper {
         if (!linearize()) return false;
         if (counters_) ++counters_->tangents;
         tangent_by_a_ = rule_.by_a(h);
+        stop_.new_tangent();
         fresh = true;
         with_this_tangent = 0;
       }

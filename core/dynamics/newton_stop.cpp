@@ -66,11 +66,12 @@ NewtonStop::Verdict NewtonStop::judge(const Eigen::VectorXd& r, const Eigen::Vec
   if (std::isnan(contraction_)) contraction_ = 1;  // corrections of a field that does not move at all
   slowest_ = std::max(slowest_, contraction_);
   if (error_ == 0) return Verdict::done;
-  const auto leaves_little = [&](double contraction) {
-    return contraction < 1 && contraction / (1 - contraction) * error_ <= tolerance;
-  };
-  if (previous == 0) return expected_ > 0 && leaves_little(expected_) ? Verdict::done : Verdict::go_on;
-  if (leaves_little(contraction_)) return Verdict::done;
+  if (!first_of_tangent_) of_tangent_ = contraction_ < 1 ? std::max(of_tangent_, contraction_) : 0;
+  first_of_tangent_ = false;
+  const double theta = std::max(of_tangent_, contraction_);
+  const bool known = previous > 0 || theta > 0;
+  if (known && theta < 1 && theta / (1 - theta) * error_ <= tolerance) return Verdict::done;
+  if (previous == 0) return Verdict::go_on;
   if (contraction_ <= slow) return Verdict::go_on;
   return !noise_known_ && (error_ < far_below || contraction_ > stagnant) ? Verdict::stagnates : Verdict::slow;
 }

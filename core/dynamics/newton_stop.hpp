@@ -17,7 +17,8 @@ inline constexpr double newton_rounding = 4 * std::numeric_limits<double>::epsil
 double relative_to_coordinates(const std::vector<FieldRun>& fields, const Eigen::VectorXd& x, const Eigen::VectorXd& q);
 
 /// When the Newton iteration of a step ends, and when it is worth a new tangent. The error that is left is estimated by
-/// theta/(1 - theta) times the last correction, theta the contraction from one correction to the next. It is compared
+/// theta/(1 - theta) times the last correction, theta the slowest contraction from one correction to the next with the
+/// same tangent: where stiff directions converge faster than soft ones, the last one tells of the stiff. It is compared
 /// with the step's own increment, what the iteration had to find: so it does not matter in which units the coordinates
 /// are, nor how short the step is, and what is left cannot add up to more than its share over many steps. Each field
 /// has its own norm. A correction as small as what rounding of the coordinates does to the solution says nothing any
@@ -42,9 +43,14 @@ class NewtonStop {
   void begin_step(double expected_contraction = 0) {
     error_ = 0;
     corrections_ = 0;
-    expected_ = expected_contraction;
-    slowest_ = expected_contraction;
+    of_tangent_ = slowest_ = expected_contraction;
+    first_of_tangent_ = false;
     if (++noise_age_ > noise_lifetime) forget_noise();
+  }
+  /// The next correction is the first one of a new tangent.
+  void new_tangent() {
+    of_tangent_ = 0;
+    first_of_tangent_ = true;
   }
   /// The length of the step, or the equations, are other ones.
   void forget_noise() { noise_known_ = false; }
@@ -107,7 +113,8 @@ class NewtonStop {
   bool noise_known_ = false;
   int noise_age_ = 0;  ///< [steps]
   double error_ = 0, contraction_ = 0, slowest_ = 0;
-  double expected_ = 0;  ///< contraction, before there is one; 0 where it is not known
+  double of_tangent_ = 0;  ///< slowest contraction with this tangent, since corrections last grew
+  bool first_of_tangent_ = false;
   int corrections_ = 0;  ///< in this step
 };
 

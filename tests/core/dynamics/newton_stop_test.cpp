@@ -29,6 +29,23 @@ TEST(NewtonStop, JudgesTheErrorThatIsLeftNotTheCorrection) {
   EXPECT_EQ(stop.judge(entries(1e-17, 0), entries(1e-13, 0), 1.1e-6, slow), Verdict::done);  // 1e-4 times 1e-2
 }
 
+TEST(NewtonStop, CountsWithTheSlowestContractionOfItsTangent) {
+  using Verdict = NewtonStop::Verdict;
+  NewtonStop stop = two_fields();
+  const auto judge = [&](double correction) { return stop.judge(entries(correction, 0), entries(1, 0), 2e-8, slow); };
+  judge(1);
+  judge(0.1);
+  EXPECT_EQ(judge(1e-6), Verdict::go_on) << "1e-6 times 1/9, not times 1e-5";
+  stop.new_tangent();
+  EXPECT_EQ(judge(1.5e-7), Verdict::go_on);  // from another tangent's correction to its first: that is not its own
+  EXPECT_EQ(judge(1e-8), Verdict::done);
+  stop.begin_step();
+  judge(1);
+  judge(2);  // what has grown says nothing of what follows
+  judge(1e-3);
+  EXPECT_EQ(judge(1e-6), Verdict::done);
+}
+
 TEST(NewtonStop, MayExpectAContractionOfTheFirstCorrection) {
   using Verdict = NewtonStop::Verdict;
   for (const bool nearby : {true, false}) {
