@@ -84,10 +84,10 @@ void VelocityProjection<D>::project(const ChainState<D>& before, const ChainStat
 template <int D>
 void VelocityProjection<D>::rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const {
   rigid.setZero(beam_.coordinates());
-  const auto [a, b] = axes_of(mode);
+  const std::array<int, 2> axes = axes_of(mode);
   auto rotate = [&](Eigen::Index vector) {
-    rigid[vector + a] = -y[vector + b];
-    rigid[vector + b] = y[vector + a];
+    rigid[vector + axes[0]] = -y[vector + axes[1]];
+    rigid[vector + axes[1]] = y[vector + axes[0]];
   };
   for (Eigen::Index node = 0; node < beam_.layout().mark(); node += node_size<D>) {
     if (mode < D) {

@@ -20,7 +20,7 @@
 namespace vlbeam::defaults {
 namespace {
 
-constexpr double tangent_work = 6;  // evaluations, as measured
+constexpr double tangent_work = 5;  // evaluations, as measured
 constexpr double stability = 1.6;   // mean step of dopri5 times the largest frequency
 
 enum class Role { reference, other_reference, automatic, setting };
