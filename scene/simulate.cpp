@@ -57,9 +57,8 @@ template Configuration configuration_of(const ChainState<3>&, double, WeightTran
 
 namespace {
 
-constexpr int steps_unjudged = 10;       // of a motion from rest: all energy there is may be the method's error
-constexpr int most_whole_shapes = 2000;  // elements of a beam whose whole shape is kept at events
-constexpr int nodes_beside_event = 8;    // on either side, of a longer one
+constexpr int steps_unjudged = 10;     // of a motion from rest: all energy there is may be the method's error
+constexpr int nodes_beside_event = 8;  // on either side, of a longer one
 
 /// Runs one scene of a known dimension, and fills in its result.
 template <int D>
@@ -221,7 +220,9 @@ class Run {
   /// The whole shape, or of a long beam what an event may have changed of it: a run may have thousands of events.
   Configuration shape_beside(const ChainState<D>& chain, const EventRecord<D>& record) const {
     NodeRange nodes;
-    if (chain.mesh.elements() > most_whole_shapes && chain.joints.size() <= 1) {  // events of several may be one
+    const int elements = chain.part.before + chain.mesh.elements() + chain.part.behind;
+    if (elements > system_.model().length_control.most_whole &&
+        chain.joints.size() <= 1) {  // events of several may be one
       const int k = chain.mesh.element_at(record.joint_position);
       nodes = {k - nodes_beside_event, k + 1 + nodes_beside_event};
     }

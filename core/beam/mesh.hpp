@@ -14,6 +14,11 @@ inline double lost_weight(const Weights<double>& w) {
   return smallest_weight - *std::min_element(w.begin(), w.end()) / *std::max_element(w.begin(), w.end());
 }
 
+/// A part of a beam: all of its nodes but so many before it, and so many behind it.
+struct BeamPart {
+  int before = 0, behind = 0;
+};
+
 /// A chain of elements: n + 1 nodes at increasing material coordinates, and the weights of the n elements between
 /// them. Neighbours share a node's position and slope. Where a node moves, its entry of `x` is only the last known one.
 struct Mesh {

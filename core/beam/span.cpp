@@ -106,41 +106,51 @@ const SpanKernels<D>& span_kernels() {
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses, Span* before)
+              const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses, Span* before, int same)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
       support_(support),
       section_(section),
       curved_at_rest_(rest != nullptr) {
-  const int known = before != nullptr ? take_over(*before, mesh) : 0;
+  const int known = before != nullptr ? take_over(*before, mesh, same) : 0;
   build_packs(mesh, rules, rest, masses);
   factor(known);
 }
 
-/// Tables of a curved rest shape are made anew: they depend on its nodes, too.
+/// Tables of a curved rest shape depend on its nodes, too, which only those that are known to be the same share.
 template <int D>
-int Span<D>::take_over(Span& before, const Mesh& mesh) {
+int Span<D>::take_over(Span& before, const Mesh& mesh, int same) {
   if (step_ != before.step_ || (support_.free_position != before.support_.free_position).any() ||
       (support_.free_slope != before.support_.free_slope).any()) {
     return 0;
   }
   const int common = std::min(count(), before.count());
-  int known = 0;
+  int known = std::min(same, common);
   while (known < common && before.elements_[static_cast<std::size_t>(known)] == as_tabulated(mesh, element(known)))
     ++known;
   elements_ = std::move(before.elements_);
   elements_.resize(static_cast<std::size_t>(known));
-  if (!curved_at_rest_) {
-    packs_ = std::move(before.packs_);
-    packs_.resize(static_cast<std::size_t>(known / Pack::width));
-    for (std::size_t p = 0; p < packs_.size(); ++p) packs_[p].first = first_of(static_cast<int>(p), Pack::width);
+  const int tabulated = curved_at_rest_ ? std::min(same, known) : known;
+  packs_ = std::move(before.packs_);
+  packs_.resize(static_cast<std::size_t>(tabulated / Pack::width));
+  for (std::size_t p = 0; outer_ != before.outer_ && p < packs_.size(); ++p) {
+    packs_[p].first = first_of(static_cast<int>(p), Pack::width);
   }
   pivots_ = std::move(before.pivots_);
   pivots_.resize(static_cast<std::size_t>(known));
   load_ = std::move(before.load_);
   load_.resize(static_cast<std::size_t>(known));
   return known;
+}
+
+template <int D>
+void Span<D>::reserve(int elements) {
+  const auto count = static_cast<std::size_t>(elements);
+  elements_.reserve(count);
+  packs_.reserve(count / Pack::width + 1);
+  pivots_.reserve(count);
+  load_.reserve(count + 1);
 }
 
 template <int D>
@@ -277,9 +287,10 @@ double Span<D>::add_forces(const double* q, const double* rate, const Vector& gr
 }
 
 template <int D>
-void Span<D>::add_inertia(const double* a, double* out) const {
-  in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [=, this](std::ptrdiff_t first, std::ptrdiff_t n) {
-    add_pack_inertia<D>(some_packs(first, n), a, out);
+void Span<D>::add_inertia(const double* a, double* out, int left_out) const {
+  const std::ptrdiff_t from = left_out / Pack::width;
+  in_meeting_pieces(std::ssize(packs_) - from, numbers_in_pack, [=, this](std::ptrdiff_t first, std::ptrdiff_t n) {
+    add_pack_inertia<D>(some_packs(from + first, n), a, out);
   });
 }
 
@@ -321,10 +332,10 @@ typename Span<D>::Vector Span<D>::first_moment(const double* q) const {
 }
 
 template <int D>
-void Span<D>::reduce(double* force) const {
+void Span<D>::reduce(double* force, int left_out) const {
   Components carry_r = Components::Zero(), carry_s = Components::Zero();
-  int node = outer_;
-  for (const Pivot& pivot : pivots_) {
+  int node = this->node(left_out);
+  for (const Pivot& pivot : std::span(pivots_).subspan(static_cast<std::size_t>(left_out))) {
     auto f_r = position<D>(force, node);
     auto f_s = slope<D>(force, node);
     const Components y_r = support_.into_frame(f_r).array() - carry_r;
@@ -340,11 +351,11 @@ void Span<D>::reduce(double* force) const {
 }
 
 template <int D>
-void Span<D>::substitute(double* force) const {
+void Span<D>::substitute(double* force, int left_out) const {
   Components a_r = support_.into_frame(position<D>(force, open_)).array();
   Components a_s = support_.into_frame(slope<D>(force, open_)).array();
   int node = open_ - step_;
-  for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend(); ++pivot, node -= step_) {
+  for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend() - left_out; ++pivot, node -= step_) {
     auto f_r = position<D>(force, node);
     auto f_s = slope<D>(force, node);
     const Components y_r = f_r.array(), y_s = f_s.array();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
@@ -23,9 +24,10 @@ class Span {
   /// rest shape, null for a straight, unstrained one; `masses` sit on the whole beam. Throws std::invalid_argument for
   /// a mass matrix that is not positive definite (too few quadrature points).
   /// `before`, a span of the same beam on another mesh, gives away what holds for elements that both have next to the
-  /// outer node: the cost is that of the others.
+  /// outer node, of which `same` are known to be the same: the cost is that of the others.
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-       const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr);
+       const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr,
+       int same = 0);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -33,8 +35,9 @@ class Span {
   /// First moment of mass, the integral of rhoA r [kg m], by nodal positions; by their rates, the momentum.
   Vector first_moment(const double* q) const;
 
-  /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`.
-  void add_inertia(const double* a, double* out) const;
+  /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`: of all elements but so many next to
+  /// the outer node, a multiple of Pack::width.
+  void add_inertia(const double* a, double* out, int left_out = 0) const;
 
   /// Adds the tangent of M a minus the elastic and viscous forces to the node blocks of a block tridiagonal matrix:
   /// upper[k] couples node k to k + 1, lower[k] to k - 1.
@@ -42,11 +45,16 @@ class Span {
                    NodeTangent<D>* upper, NodeTangent<D>* lower) const;
 
   /// Eliminates all nodes but the open one from M a = force: `force` then holds, in the support's frame, what
-  /// `substitute` needs, and at the open node the reduced force, in global components.
-  void reduce(double* force) const;
+  /// `substitute` needs, and at the open node the reduced force, in global components. So many outer nodes, on which no
+  /// force acts, are not looked at.
+  void reduce(double* force, int left_out = 0) const;
 
-  /// Accelerations of the span's nodes, given that of the open node (global components), in place of the forces.
-  void substitute(double* force) const;
+  /// Accelerations of the span's nodes, given that of the open node (global components), in place of the forces; of all
+  /// but so many outer ones.
+  void substitute(double* force, int left_out = 0) const;
+
+  /// Takes memory for as many elements: one more does not copy them all then.
+  void reserve(int elements);
 
   int open() const { return open_; }
   const Support<D>& support() const { return support_; }
@@ -89,8 +97,8 @@ class Span {
   Packs some_packs(std::ptrdiff_t first, std::ptrdiff_t n) const {
     return Packs(packs_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(n));
   }
-  /// Takes from `before` what goes on to hold; returns for how many elements.
-  int take_over(Span& before, const Mesh& mesh);
+  /// Takes from `before` what goes on to hold; returns for how many elements. It does for `same`.
+  int take_over(Span& before, const Mesh& mesh, int same);
   void build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses);
   void factor(int known);
 

@@ -390,9 +390,10 @@ std::optional<double> JointChain<D>::add_friction(const std::vector<JointMotion<
 
 template <int D>
 std::optional<JointPower> JointChain<D>::solve(const std::vector<MovingEquations<double, D>>& equations,
-                                               const std::vector<JointMotion<D>>& motion, double* force) {
-  first_->reduce(force);
-  last_->reduce(force);
+                                               const std::vector<JointMotion<D>>& motion, double* force,
+                                               const BeamPart& part) {
+  first_->reduce(force, part.before);
+  last_->reduce(force, part.behind);
   for (const SpanBetween<D>& span : *between_) span.reduce(force);
   assemble(equations, motion, force);
   bool rubs = false;
@@ -440,8 +441,8 @@ std::optional<JointPower> JointChain<D>::solve(const std::vector<MovingEquations
     last_side_->substitute(joint, force);
   }
   for (const SpanBetween<D>& span : *between_) span.substitute(force);
-  first_->substitute(force);
-  last_->substitute(force);
+  first_->substitute(force, part.before);
+  last_->substitute(force, part.behind);
   return power;
 }
 

@@ -47,9 +47,10 @@ class JointChain {
 
   /// Accelerations in place of the forces, of an array like q; friction included. `motion` holds an entry a joint; with
   /// nothing moving in it, the same solves M v = p. Material coordinates whose acceleration is given there take it,
-  /// whatever acts on them. Nothing is returned where the mass matrix is not positive definite or friction jams.
+  /// whatever acts on them. Nothing is returned where the mass matrix is not positive definite or friction jams. Where
+  /// nothing acts on the nodes outside a part, they are left out of it all.
   std::optional<JointPower> solve(const std::vector<MovingEquations<double, D>>& equations,
-                                  const std::vector<JointMotion<D>>& motion, double* force);
+                                  const std::vector<JointMotion<D>>& motion, double* force, const BeamPart& part = {});
 
  private:
   /// Of one side of a joint: r, the slope there, x.

@@ -76,13 +76,14 @@ void hold(const Support<D>& held, Eigen::Matrix<double, Unknowns, Unknowns>& mas
 template <int D, bool Kinked>
 std::optional<double> solve(const Span<D>& left, const Span<D>& right, const MovingEquations<double, D>& left_element,
                             const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
-                            const JointMotion<D>& motion, const Support<D>* held, double* force, double* joint_force) {
+                            const JointMotion<D>& motion, const Support<D>* held, double* force, double* joint_force,
+                            const BeamPart& part) {
   constexpr int unknowns = (Kinked ? 3 : 2) * D + 1, behind = (Kinked ? 2 : 1) * D, x = unknowns - 1;
   using Equations = JointEquations<D, unknowns>;
   using Column = typename Equations::Column;
   const int node = left.open() + 1;
-  left.reduce(force);
-  right.reduce(force);
+  left.reduce(force, part.before);
+  right.reduce(force, part.behind);
   typename Equations::Matrix mass = Equations::Matrix::Zero();
   Column rhs;
   rhs.template segment<D>(0) = position<D>(force, node);
@@ -125,8 +126,8 @@ std::optional<double> solve(const Span<D>& left, const Span<D>& right, const Mov
   slope<D>(force, node) = a.template segment<D>(D);
   if constexpr (Kinked) Eigen::Map<Vec<double, D>>(joint_force + 1) = a.template segment<D>(behind);
   *joint_force = a[x];
-  left.substitute(force);
-  right.substitute(force);
+  left.substitute(force, part.before);
+  right.substitute(force, part.behind);
   return dissipation;
 }
 
@@ -137,9 +138,9 @@ std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right
                                        const MovingEquations<double, D>& left_element,
                                        const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
                                        const JointMotion<D>& motion, const Support<D>* held, double* force,
-                                       double* joint_force) {
+                                       double* joint_force, const BeamPart& part) {
   const auto solution = joint.kinked() ? solve<D, true> : solve<D, false>;
-  return solution(left, right, left_element, right_element, joint, motion, held, force, joint_force);
+  return solution(left, right, left_element, right_element, joint, motion, held, force, joint_force, part);
 }
 
 template <int D>
@@ -163,11 +164,13 @@ void solve_without_joint(const Span<D>& left, const Span<D>& right, double* forc
 
 template std::optional<double> solve_with_joint(const Span<2>&, const Span<2>&, const MovingEquations<double, 2>&,
                                                 const MovingEquations<double, 2>&, const SlidingJoint&,
-                                                const JointMotion<2>&, const Support<2>*, double*, double*);
+                                                const JointMotion<2>&, const Support<2>*, double*, double*,
+                                                const BeamPart&);
 template void solve_without_joint(const Span<2>&, const Span<2>&, double*);
 template std::optional<double> solve_with_joint(const Span<3>&, const Span<3>&, const MovingEquations<double, 3>&,
                                                 const MovingEquations<double, 3>&, const SlidingJoint&,
-                                                const JointMotion<3>&, const Support<3>*, double*, double*);
+                                                const JointMotion<3>&, const Support<3>*, double*, double*,
+                                                const BeamPart&);
 template void solve_without_joint(const Span<3>&, const Span<3>&, double*);
 
 }  // namespace vlbeam

@@ -42,17 +42,17 @@ struct JointMotion {
 /// is the nodal array of forces and `joint_force` those on the joint's material coordinate and, where the joint is
 /// kinked, on the slope behind it (that of the node is the one before it); on return they are the accelerations. With
 /// nothing moving in `motion`, the same solves M v = p for velocities that agree with the conditions on the slopes.
-/// `held`, unless null, is what holds the joint's node in space: a ring its place, a sleeve its direction, too; what it
-/// holds does not accelerate.
-/// Cost: one sweep over each span and a dense system of 2 D + 1 unknowns, 3 D + 1 where the joint is kinked.
-/// Returns the power lost to friction [W]; nothing where the joint's mass matrix is not positive definite (a massless
-/// joint where curvature is continuous) or friction jams.
+/// Where nothing acts on the nodes outside a part, they are left out of it all. `held`, unless null, is what holds the
+/// joint's node in space: a ring its place, a sleeve its direction, too; what it holds does not accelerate. Cost: one
+/// sweep over each span and a dense system of 2 D + 1 unknowns, 3 D + 1 where the joint is kinked. Returns the power
+/// lost to friction [W]; nothing where the joint's mass matrix is not positive definite (a massless joint where
+/// curvature is continuous) or friction jams.
 template <int D>
 std::optional<double> solve_with_joint(const Span<D>& left, const Span<D>& right,
                                        const MovingEquations<double, D>& left_element,
                                        const MovingEquations<double, D>& right_element, const SlidingJoint& joint,
                                        const JointMotion<D>& motion, const Support<D>* held, double* force,
-                                       double* joint_force);
+                                       double* joint_force, const BeamPart& part = {});
 
 /// Solves M a = f of two spans that share their open node, in place.
 template <int D>

@@ -24,6 +24,8 @@ struct LengthControl {
   double end_merge = 0;
   /// An element beside a joint, shorter than this share of L_std, is merged with the next one; 0: never by itself.
   double lower = 0;
+  /// Of a beam of more elements than this, with one joint, events look at the part around it, and hand over that.
+  int most_whole = 2000;
 
   /// Where what rides inside the last element gets a node again, so that no other event is due at once.
   double end_cut() const { return std::max(end_merge, 2 - upper) + 0.01; }

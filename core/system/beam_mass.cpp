@@ -42,10 +42,11 @@ JointMotion<D> BeamMass<D>::joint_motion(std::size_t which, const double* q, con
 
 template <int D>
 std::optional<JointPower> BeamMass<D>::solve_chain(const JointElements& elements,
-                                                   const std::vector<JointMotion<D>>& motions, double* force) {
-  if (chained()) return joint_chain_.solve(elements, motions, force);
+                                                   const std::vector<JointMotion<D>>& motions, double* force,
+                                                   const BeamPart& part) {
+  if (chained()) return joint_chain_.solve(elements, motions, force, part);
   const auto lost = solve_with_joint(beam_.left(), beam_.right(), elements[0], elements[1], beam_.joint(0).law,
-                                     motions[0], beam_.held(0), force, force + beam_.places()[0].mark);
+                                     motions[0], beam_.held(0), force, force + beam_.places()[0].mark, part);
   return lost ? std::optional(JointPower{.dissipated = *lost}) : std::nullopt;
 }
 
@@ -99,14 +100,14 @@ std::optional<RiderSolution<D>> BeamMass<D>::solve_rider(const RiderMotion<doubl
 }
 
 template <int D>
-bool BeamMass<D>::solve(const JointElements& elements, const double* q, double* p) {
-  if (!solve_apart(elements, q, p)) return false;
+bool BeamMass<D>::solve(const JointElements& elements, const double* q, double* p, const BeamPart& part) {
+  if (!solve_apart(elements, q, p, part)) return false;
   const auto count = static_cast<Eigen::Index>(links_.all().size());
   return count == 0 || press(links_.all(), elements, q, Eigen::VectorXd::Zero(count), p);
 }
 
 template <int D>
-bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, double* p) {
+bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, double* p, const BeamPart& part) {
   if (elements.empty()) {
     solve_without_joint(beam_.left(), beam_.right(), p);
     if (!beam_.rider()) return true;
@@ -123,7 +124,7 @@ bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, do
     const auto kept = beam_.guides(i) || beam_.joint(i).pitch != 0 ? std::optional(0.0) : std::nullopt;
     at_rest.push_back({beam_.joint_slopes(i, q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero(), kept});
   }
-  return solve_chain(elements, at_rest, p).has_value();
+  return solve_chain(elements, at_rest, p, part).has_value();
 }
 
 template <int D>
@@ -163,24 +164,25 @@ double BeamMass<D>::work_of_prescribed(const std::vector<NodeLink<D>>& links, co
 }
 
 template <int D>
-void BeamMass<D>::multiply(const JointElements& elements, const double* q, const double* rate, double* out) const {
-  std::fill(out, out + beam_.coordinates(), 0.0);
-  beam_.left().add_inertia(rate, out);
-  beam_.right().add_inertia(rate, out);
+void BeamMass<D>::multiply(const JointElements& elements, const double* q, const double* rate, double* out,
+                           const BeamPart& part) const {
+  beam_.clear(out, part);
+  beam_.left().add_inertia(rate, out, part.before);
+  beam_.right().add_inertia(rate, out, part.behind);
   for (const SpanBetween<D>& span : beam_.between()) span.span().add_inertia(rate, out);
   if (beam_.rider()) {
     const auto at = beam_.rider_motion(q, rate);
     push_rider(at, beam_.rider_law().mass * at.v, out);
   }
   for (std::size_t p = 0; p < beam_.moving_parts().size(); ++p) {
-    const MovingPart& part = beam_.moving_parts()[p];
+    const MovingPart& moving = beam_.moving_parts()[p];
     const auto& eq = elements[p];
-    const auto e = beam_.view(rate, rate).coordinates(part.element).e;
+    const auto e = beam_.view(rate, rate).coordinates(moving.element).e;
     const std::array<Vector, 4> nodal{e.r_a, e.s_a, e.r_b, e.s_b};
-    const Eigen::Index a = part.a < 0 ? -1 : beam_.places()[static_cast<std::size_t>(part.a)].mark,
-                       b = part.b < 0 ? -1 : beam_.places()[static_cast<std::size_t>(part.b)].mark;
+    const Eigen::Index a = moving.a < 0 ? -1 : beam_.places()[static_cast<std::size_t>(moving.a)].mark,
+                       b = moving.b < 0 ? -1 : beam_.places()[static_cast<std::size_t>(moving.b)].mark;
     const double x_a = a < 0 ? 0 : rate[a], x_b = b < 0 ? 0 : rate[b];
-    const auto to = beam_.vectors_of(out, part.element);
+    const auto to = beam_.vectors_of(out, moving.element);
     double on_a = eq.mass_aa * x_a + eq.mass_ab * x_b, on_b = eq.mass_ab * x_a + eq.mass_bb * x_b;
     for (std::size_t i = 0; i < 4; ++i) {
       Vector sum = eq.mass_a[i] * x_a + eq.mass_b[i] * x_b;

@@ -42,8 +42,9 @@ class BeamMass {
   std::optional<RiderSolution<D>> solve_rider(const RiderMotion<double, D>& at, const Vector& gravity, double* a) const;
 
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
-  /// matrix is singular.
-  bool solve(const JointElements& elements, const double* q, double* p);
+  /// matrix is singular. Of a beam with a joint and without links, nodes outside `part` may be left out: p acts on none
+  /// of them, and v is too small to count there.
+  bool solve(const JointElements& elements, const double* q, double* p, const BeamPart& part = {});
   /// Adds what forces (or momenta) along the lines of links do to the accelerations (or velocities) `a` of a beam
   /// without them, so that L . (a_ahead - a_behind) is as `wanted` on each line L. Returns them, positive where they
   /// push; nothing where the mass matrix is singular.
@@ -54,8 +55,10 @@ class BeamMass {
   double work_of_prescribed(const std::vector<NodeLink<D>>& links, const Eigen::VectorXd& forces,
                             const JointElements& elements, const double* q, const double* rate,
                             const Eigen::VectorXd& change) const;
-  /// Writes M times the velocities `rate`.
-  void multiply(const JointElements& elements, const double* q, const double* rate, double* out) const;
+  /// Writes M times the velocities `rate`; of the nodes of a part, as if the beam ended there, `before` and `behind` of
+  /// which are multiples of Pack::width.
+  void multiply(const JointElements& elements, const double* q, const double* rate, double* out,
+                const BeamPart& part = {}) const;
   /// Adds what a force (or momentum) on the rider is of its element's nodes and of x.
   void push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const;
 
@@ -63,9 +66,9 @@ class BeamMass {
   /// The joints are solved for as a chain.
   bool chained() const;
   std::optional<JointPower> solve_chain(const JointElements& elements, const std::vector<JointMotion<D>>& motions,
-                                        double* force);
+                                        double* force, const BeamPart& part = {});
   /// As if nothing rested against anything.
-  bool solve_apart(const JointElements& elements, const double* q, double* p);
+  bool solve_apart(const JointElements& elements, const double* q, double* p, const BeamPart& part = {});
 
   CurrentBeam<D>& beam_;
   const BeamLinks<D>& links_;

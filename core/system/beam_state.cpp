@@ -1,4 +1,6 @@
 // A state as a chain, and a chain as a state.
+#include <span>
+
 #include "core/system/current_beam.hpp"
 
 namespace vlbeam {
@@ -8,15 +10,7 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
   y.setZero(layout_.state());
   y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
   y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const JointPlace& place = places_[i];
-    const auto& joint = chain.joints[i];
-    y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
-    y[coordinates() + place.mark] = joint.rate;
-    if (place.behind < 0) continue;
-    y.segment<D>(place.behind) = joint.kink->slope;
-    y.segment<D>(coordinates() + place.behind) = joint.kink->rate;
-  }
+  write_joints(chain, y);
   for (std::size_t i = 0; i < departed_.size(); ++i) {
     y.segment<D>(departed_at(i)) = chain.departed[i].r;
     y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
@@ -40,8 +34,47 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
 }
 
 template <int D>
-void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, ChainState<D>& result) const {
-  result.mesh = mesh_;
+void CurrentBeam<D>::write_nodes(const ChainState<D>& chain, Eigen::VectorXd& y) const {
+  const Eigen::Index first = Eigen::Index{node_size<D>} * chain.part.before, nodal = std::ssize(chain.q);
+  const Eigen::Index count = coordinates(), before = (y.size() - layout_.tallies.count()) / 2;
+  if (count != before) {  // what stands behind these nodes stands elsewhere now
+    const Eigen::Index behind = count - first - nodal;
+    Eigen::VectorXd moved(layout_.state());
+    for (const Eigen::Index half : {0, 1}) {
+      moved.segment(half * count, first) = y.segment(half * before, first);
+      moved.segment((half + 1) * count - behind, behind) = y.segment((half + 1) * before - behind, behind);
+    }
+    moved.tail(layout_.tallies.count()) = y.tail(layout_.tallies.count());
+    y.swap(moved);
+  }
+  y.segment(first, nodal) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal);
+  y.segment(count + first, nodal) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), nodal);
+  write_joints(chain, y);
+}
+
+template <int D>
+void CurrentBeam<D>::write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    const auto& joint = chain.joints[i];
+    y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
+    y[coordinates() + place.mark] = joint.rate;
+    if (place.behind < 0) continue;
+    y.segment<D>(place.behind) = joint.kink->slope;
+    y.segment<D>(coordinates() + place.behind) = joint.kink->rate;
+  }
+}
+
+template <int D>
+void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamPart& part,
+                                 ChainState<D>& result) const {
+  const int first = part.before, last = mesh_.last() - part.behind;
+  const auto take = [&](const auto& entries, std::ptrdiff_t size, int from, int to, auto& taken) {
+    taken.assign(entries.begin() + size * from, entries.begin() + size * to);
+  };
+  result.part = part;
+  take(mesh_.x, 1, first, last + 1, result.mesh.x);
+  take(mesh_.weights, 1, first, last, result.mesh.weights);
   result.mark_rates.clear();
   if (moving_) {
     travel(t);
@@ -50,9 +83,11 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, ChainState<
       result.mark_rates.push_back(moving_->marks()[k].rate);
     }
   }
-  result.q.assign(y.data(), y.data() + layout_.mark());
-  result.rate.assign(y.data() + coordinates(), y.data() + coordinates() + layout_.mark());
-  result.rest = rest_;
+  take(std::span(y.data(), y.data() + layout_.mark()), node_size<D>, first, last + 1, result.q);
+  take(std::span(y.data() + coordinates(), y.data() + coordinates() + layout_.mark()), node_size<D>, first, last + 1,
+       result.rate);
+  result.rest.clear();
+  if (!rest_.empty()) take(rest_, node_size<D>, first, last + 1, result.rest);
   result.rest_curve = model_.rest.get();
   if (sections_.frames) {
     result.sections = sections_.frames->sections(y.data(), y.data() + coordinates());
@@ -62,20 +97,19 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, ChainState<
   result.joints.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
-    result.mesh.x[static_cast<std::size_t>(place.node)] = y[place.mark];
+    const int node = place.node - first;
+    result.mesh.x[static_cast<std::size_t>(node)] = y[place.mark];
     auto& joint = result.joints.emplace_back();
-    joint = {.node = place.node,
-             .rate = y[coordinates() + place.mark],
-             .index = joints_[i].index,
-             .touches = joints_[i].touches};
+    joint = {
+        .node = node, .rate = y[coordinates() + place.mark], .index = joints_[i].index, .touches = joints_[i].touches};
     if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates() + place.behind)};
     if (!result.curved_at_rest()) continue;
     const auto at_joint = model_.rest->derivatives(y[place.mark]);
-    position<D>(result.rest.data(), place.node) = at_joint[0];
-    slope<D>(result.rest.data(), place.node) = at_joint[1];
+    position<D>(result.rest.data(), node) = at_joint[0];
+    slope<D>(result.rest.data(), node) = at_joint[1];
     if constexpr (D == 3) {
       if (!sections_.frames) continue;
-      result.rest_sections[static_cast<std::size_t>(place.node)].direction =
+      result.rest_sections[static_cast<std::size_t>(node)].direction =
           sections_.rest_triads->template direction<double>(y[place.mark], at_joint[1]);
     }
   }
@@ -96,7 +130,8 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, ChainState<
 template <int D>
 void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) const {
   const double* const rate = y.data() + coordinates();
-  chain.rate.assign(rate, rate + layout_.mark());
+  const double* const first = rate + Eigen::Index{node_size<D>} * chain.part.before;
+  chain.rate.assign(first, first + std::ssize(chain.q));
   for (std::size_t i = 0; i < places_.size(); ++i) {
     chain.joints[i].rate = rate[places_[i].mark];
     if (places_[i].behind >= 0) chain.joints[i].kink->rate = y.segment<D>(coordinates() + places_[i].behind);
@@ -128,11 +163,15 @@ std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(c
 }
 
 template void CurrentBeam<2>::write_state(const ChainState<2>&, const Eigen::VectorXd&, Eigen::VectorXd&) const;
-template void CurrentBeam<2>::write_chain(const Eigen::VectorXd&, double, ChainState<2>&) const;
+template void CurrentBeam<2>::write_joints(const ChainState<2>&, Eigen::VectorXd&) const;
+template void CurrentBeam<2>::write_nodes(const ChainState<2>&, Eigen::VectorXd&) const;
+template void CurrentBeam<2>::write_chain(const Eigen::VectorXd&, double, const BeamPart&, ChainState<2>&) const;
 template void CurrentBeam<2>::take_rates(const Eigen::VectorXd&, ChainState<2>&) const;
 template std::optional<CurrentBeam<2>::MassMotion> CurrentBeam<2>::mass_motion(const Eigen::VectorXd&, int) const;
 template void CurrentBeam<3>::write_state(const ChainState<3>&, const Eigen::VectorXd&, Eigen::VectorXd&) const;
-template void CurrentBeam<3>::write_chain(const Eigen::VectorXd&, double, ChainState<3>&) const;
+template void CurrentBeam<3>::write_joints(const ChainState<3>&, Eigen::VectorXd&) const;
+template void CurrentBeam<3>::write_nodes(const ChainState<3>&, Eigen::VectorXd&) const;
+template void CurrentBeam<3>::write_chain(const Eigen::VectorXd&, double, const BeamPart&, ChainState<3>&) const;
 template void CurrentBeam<3>::take_rates(const Eigen::VectorXd&, ChainState<3>&) const;
 template std::optional<CurrentBeam<3>::MassMotion> CurrentBeam<3>::mass_motion(const Eigen::VectorXd&, int) const;
 

@@ -30,10 +30,10 @@ struct EventRecord {
   double discrete_jump;  ///< of the total, by the model's own rule
   bool restored;         ///< false: energy and momenta were to be as before, and the energy is not
   Eigen::VectorXd
-      momentum_jump;  ///< linear, then angular about the origin, by the model's own rule; not of a separation
-  ChainState<D> before, after;
-  int relaxation = 0;  ///< iterations until nodes had given way
-  double seconds;      ///< wall time spent
+      momentum_jump;            ///< linear, then angular about the origin, by the model's own rule; not of a separation
+  ChainState<D> before, after;  ///< beyond LengthControl::most_whole elements the part around the joint
+  int relaxation = 0;           ///< iterations until nodes had given way
+  double seconds;               ///< wall time spent
 };
 
 template <int D>
@@ -111,9 +111,12 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   MergedWeights change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
   /// What events of the mesh that are due at once make of it.
   void change_mesh(const std::vector<PendingEvent>& dues, std::vector<EventRecord<D>>& records, double t) const;
-  std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y, double t);
+  /// What events of the mesh may change of a beam with one joint.
+  BeamPart part_around_joint() const;
+  std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const BeamPart& part,
+                                         const Eigen::VectorXd& y, double t);
   /// The two elements on either side, or, where slopes change too, one more.
-  EventReach reach_of(const std::vector<PendingEvent>& dues) const;
+  EventReach reach_of(const std::vector<PendingEvent>& dues, const BeamPart& part) const;
   /// Gives the new mesh in `y` the velocities of the beam before, of the state old_.
   void transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
                            const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t);

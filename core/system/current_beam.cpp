@@ -5,6 +5,23 @@
 #include "core/error.hpp"
 
 namespace vlbeam {
+namespace {
+
+/// Puts the entries of a part, so many a node or an element, in the place of those that the whole has there.
+template <class Entry>
+void replace_part(const std::vector<Entry>& part, const BeamPart& where, std::ptrdiff_t size,
+                  std::vector<Entry>& whole) {
+  const auto first = whole.begin() + size * where.before, end = whole.end() - size * where.behind;
+  const auto common = std::min(end - first, std::ssize(part));
+  const auto next = std::copy_n(part.begin(), common, first);
+  if (next == end) {
+    whole.insert(next, part.begin() + common, part.end());
+  } else {
+    whole.erase(next, end);
+  }
+}
+
+}  // namespace
 
 template <int D>
 CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chain)
@@ -43,8 +60,9 @@ Eigen::VectorXd CurrentBeam<D>::start(const ChainState<D>& chain) {
 template <int D>
 void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
-  mesh_ = chain.mesh;
-  rest_ = chain.rest;
+  replace_part(chain.mesh.x, chain.part, 1, mesh_.x);
+  replace_part(chain.mesh.weights, chain.part, 1, mesh_.weights);
+  if (chain.curved_at_rest()) replace_part(chain.rest, chain.part, node_size<D>, rest_);
   if (model_.frames) take_frames(chain);
   departed_.clear();
   for (const auto& mass : chain.departed) departed_.push_back(mass.index);
@@ -53,7 +71,7 @@ void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   for (const Joint& joint : joints_) index.push_back(joint.index);
   held_.adopt(model_, mesh_.last(), places_, index, sections_.frames ? layout_.angle() : -1);
   if (sections_.frames) adopt_frames();
-  adopt_elements();
+  adopt_elements(chain.part);
   rider_.reset();
   if (chain.rider) {
     const auto k = static_cast<std::size_t>(chain.rider->element);
@@ -77,12 +95,13 @@ void CurrentBeam<D>::adopt_joints(const ChainState<D>& chain) {
   std::vector<JointPlace> places;
   std::vector<Joint> joints;
   for (const auto& joint : chain.joints) {
-    const double x = mesh_.x[static_cast<std::size_t>(joint.node)];
+    const int node = chain.part.before + joint.node;
+    const double x = mesh_.x[static_cast<std::size_t>(node)];
     const auto passes = [x](const PointMass& mass) { return mass.x < x; };
     const int passed = find(joint.index) >= 0  // later on it is passages that count
                            ? place_of(joint.index).passed
                            : static_cast<int>(std::ranges::count_if(model_.masses.points, passes));
-    places.push_back({.node = joint.node, .mark = layout_.mark(static_cast<int>(places.size())), .passed = passed});
+    places.push_back({.node = node, .mark = layout_.mark(static_cast<int>(places.size())), .passed = passed});
     joints.push_back({joint.index, joint.touches});
   }
   places_ = std::move(places);
@@ -111,7 +130,7 @@ const SumTables& CurrentBeam<D>::tables(int points) const {
 }
 
 template <int D>
-void CurrentBeam<D>::adopt_elements() {
+void CurrentBeam<D>::adopt_elements(const BeamPart& changed) {
   const BeamSection section = model_.axis_section();
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
@@ -120,12 +139,13 @@ void CurrentBeam<D>::adopt_elements() {
                                        : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   const auto& masses = model_.masses.points;
-  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support) {
-    Span<D> next(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr);
+  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int same) {
+    Span<D> next(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, same);
+    if (!span) next.reserve(mesh_.elements());
     span = std::move(next);
   };
-  renew(spans_.left, 0, left_open, model_.start);
-  renew(spans_.right, mesh_.last(), right_open, model_.end);
+  renew(spans_.left, 0, left_open, model_.start, changed.before);
+  renew(spans_.right, mesh_.last(), right_open, model_.end, changed.behind);
   spans_.between.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;
@@ -138,7 +158,7 @@ void CurrentBeam<D>::adopt_elements() {
     }
     return -1;
   };
-  for (int k = 0; (has_joint() || moving_) && k < mesh_.elements(); ++k) {
+  for (int k = left_open; (has_joint() || moving_) && k < right_open; ++k) {
     const int a = joint_at(k), b = joint_at(k + 1);
     if (a < 0 && b < 0 && !moving_) continue;
     const MovingEnds ends = moving_ || (a >= 0 && b >= 0) ? MovingEnds::both : a < 0 ? MovingEnds::b : MovingEnds::a;

@@ -83,22 +83,32 @@ class CurrentBeam {
   }
   /// Where the four nodal vectors of element k are in an array like q.
   std::array<double*, 4> vectors_of(double* q, int k) const;
+  /// Sets an array of coordinates to zero, but for nodes outside of a part.
+  void clear(double* q, const BeamPart& part) const {
+    std::fill(q + Eigen::Index{node_size<D>} * part.before,
+              q + layout_.mark() - Eigen::Index{node_size<D>} * part.behind, 0.0);
+    std::fill(q + layout_.mark(), q + coordinates(), 0.0);
+  }
   /// What acts on the beam, but for its elements and what slides on it.
   const std::vector<std::shared_ptr<const Part<D>>>& acting() const { return acting_; }
 
   /// Mesh and motion at state y, at time t.
   ChainState<D> chain(const Eigen::VectorXd& y, double t) const {
     ChainState<D> result;
-    write_chain(y, t, result);
+    write_chain(y, t, {}, result);
     return result;
   }
-  /// The same into the memory of another chain of the beam.
-  void write_chain(const Eigen::VectorXd& y, double t, ChainState<D>& result) const;
+  /// The same of a part of the beam, into the memory of another chain; frames, travelling nodes and riders are of the
+  /// whole.
+  void write_chain(const Eigen::VectorXd& y, double t, const BeamPart& part, ChainState<D>& result) const;
   /// Brings that chain up to date with a state that differs in rates and angles alone.
   void take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) const;
   /// Writes the state of a chain whose mesh is this one; tallies, and angles of a section that spins, are those of
   /// `old`, if there is one.
   void write_state(const ChainState<D>& chain, const Eigen::VectorXd& old, Eigen::VectorXd& y) const;
+  /// Brings a state of the beam before up to date with what an event has made of nodes and joints: a chain, of which
+  /// the mesh has a part, without frames or masses that ride.
+  void write_nodes(const ChainState<D>& chain, Eigen::VectorXd& y) const;
   /// The state at t = 0 of that chain, from which nuts and supports count.
   Eigen::VectorXd start(const ChainState<D>& chain);
   /// Becomes the beam of a chain that an event has made.
@@ -285,8 +295,11 @@ class CurrentBeam {
   }
   const RestEnd<D>& rest_end(double x) const;
   void adopt_joints(const ChainState<D>& chain);
+  /// Puts where the joints are, and how they move, into a state.
+  void write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const;
   void adopt_frames();
-  void adopt_elements();
+  /// The same; outside of what has `changed` they are as they were.
+  void adopt_elements(const BeamPart& changed);
   /// The frames of a chain, in the place of those there were.
   void take_frames(const ChainState<D>& chain);
 

@@ -123,6 +123,7 @@ std::array<Energy, Rules> energy_jumps(const CurrentBeam<D>& beam, const ChainSt
     jump.kinetic += 0.5 * mass * (v1 - v0).dot(v1 + v0);
   };
   for (const PointMass& point : model.masses.points) {
+    if (point.x < before.mesh.x.front() || point.x > before.mesh.x.back()) continue;  // it goes on outside the part
     const int k = before.mesh.element_at(point.x);
     if (k >= reach.lowest && k < reach.highest) continue;
     const int k_after = k < reach.lowest ? k : k + more;

@@ -8,7 +8,7 @@
 
 namespace vlbeam {
 
-/// The elements whose shape an event changes, from `lowest` to before `highest`, of the mesh before it.
+/// The elements whose shape an event changes, from `lowest` to before `highest`, of the chain before it.
 struct EventReach {
   int lowest, highest;
 };

@@ -15,9 +15,39 @@ template <int D>
 Vec<double, D> EventMap<D>::at(double x, WeightTransport transport, const Eigen::VectorXd& a) const {
   const ChainState<D>& chain = before_->chain;
   const int k = chain.mesh.element_at(x);
-  const auto nodes = ChainView<D>{chain.mesh, transport, chain.q.data(), a.data(), before_->places}.rates(k);
+  const auto nodes =
+      ChainView<D>{chain.mesh, transport, nullptr, a.data(), before_->places}.rates(chain.part.before + k);
   const auto point = motion_at(chain, k, x, transport);
   return combine_nodes<double, D>(point.s, nodes.e) + point.y_a * nodes.x_a + point.y_b * nodes.x_b + point.remainder;
+}
+
+template <int D>
+void EventMap<D>::carry_node(const CurrentBeam<D>& beam, int node, const Eigen::VectorXd& a,
+                             Eigen::VectorXd& to) const {
+  const auto joint_of = [](const std::vector<JointPlace>& places, int of) {
+    const auto at = std::ranges::find(places, of, &JointPlace::node);
+    return at == places.end() ? -1 : static_cast<int>(at - places.begin());
+  };
+  const auto& [chain, places, was] = *before_;
+  const std::vector<double>&x_now = beam.mesh().x, &x_before = chain.mesh.x;
+  const auto i = static_cast<std::size_t>(node);
+  int from = -1;  // the same node before
+  if (const int joint = joint_of(beam.places(), node); joint >= 0) {
+    from = places[static_cast<std::size_t>(joint)].node;
+  } else if (const auto at = std::ranges::lower_bound(x_before, x_now[i]); at != x_before.end() && *at == x_now[i]) {
+    from = chain.part.before + static_cast<int>(at - x_before.begin());
+    if (joint_of(places, from) >= 0) from = -1;
+  }
+  if (from >= 0) {
+    to.segment<node_size<D>>(Eigen::Index{node_size<D>} * node) =
+        a.segment<node_size<D>>(Eigen::Index{node_size<D>} * from);
+    if (beam.frames() != nullptr) to[beam.layout().angle() + node] = a[was.angle() + from];
+    return;
+  }
+  const WeightTransport transport = beam.model().transport;
+  const double x = x_now[i], step = small_way * std::min(x - x_now[i - 1], x_now[i + 1] - x);
+  position<D>(to.data(), node) = at(x, transport, a);
+  slope<D>(to.data(), node) = (at(x + step, transport, a) - at(x - step, transport, a)) / (2 * step);
 }
 
 template <int D>
@@ -25,37 +55,13 @@ bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Ei
   if (!before_ || before_->places.size() != beam.places().size()) return false;
   const Layout<D>&was = before_->layout, &is = beam.layout();
   if (was.departed != is.departed || was.kinks != is.kinks || a.size() < was.coordinates()) return false;
-  const WeightTransport transport = beam.model().transport;
-  const std::vector<double>& x_before = before_->chain.mesh.x;
-  const bool frames = beam.frames() != nullptr;
 
-  const auto joint_of = [](const std::vector<JointPlace>& places, int node) {
-    const auto at = std::ranges::find(places, node, &JointPlace::node);
-    return at == places.end() ? -1 : static_cast<int>(at - places.begin());
-  };
-  auto at_or_behind = x_before.begin();
-  for (int node = 0; node < is.nodes; ++node) {
-    const double x = beam.mesh().x[static_cast<std::size_t>(node)];
-    while (at_or_behind != x_before.end() && *at_or_behind < x) ++at_or_behind;
-    int from = -1;  // the same node before
-    if (const int joint = joint_of(beam.places(), node); joint >= 0) {
-      from = before_->places[static_cast<std::size_t>(joint)].node;
-    } else if (at_or_behind != x_before.end() && *at_or_behind == x) {
-      from = static_cast<int>(at_or_behind - x_before.begin());
-      if (joint_of(before_->places, from) >= 0) from = -1;
-    }
-    if (from >= 0) {
-      to.segment<node_size<D>>(Eigen::Index{node_size<D>} * node) =
-          a.segment<node_size<D>>(Eigen::Index{node_size<D>} * from);
-      if (frames) to[is.angle() + node] = a[was.angle() + from];
-      continue;
-    }
-    const auto& [low, high] =
-        std::pair(beam.mesh().x[static_cast<std::size_t>(node) - 1], beam.mesh().x[static_cast<std::size_t>(node) + 1]);
-    const double step = small_way * std::min(x - low, high - x);
-    position<D>(to.data(), node) = at(x, transport, a);
-    slope<D>(to.data(), node) = (at(x + step, transport, a) - at(x - step, transport, a)) / (2 * step);
-  }
+  const BeamPart& part = before_->chain.part;
+  const Eigen::Index before = Eigen::Index{node_size<D>} * part.before,
+                     behind = Eigen::Index{node_size<D>} * part.behind;
+  to.head(before) = a.head(before);
+  to.segment(is.mark() - behind, behind) = a.segment(was.mark() - behind, behind);
+  for (int node = part.before; node < is.nodes - part.behind; ++node) carry_node(beam, node, a, to);
   for (std::size_t i = 0; i < beam.places().size(); ++i) {
     const JointPlace &from = before_->places[i], &place = beam.places()[i];
     to[place.mark] = a[from.mark];

@@ -12,7 +12,7 @@ namespace vlbeam {
 template <int D>
 class EventMap {
  public:
-  /// A beam, with where its state has what.
+  /// A beam, or the part of it that an event has changed, with where its state has what.
   struct Beam {
     ChainState<D> chain;
     std::vector<JointPlace> places;
@@ -35,6 +35,8 @@ class EventMap {
   bool carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Eigen::VectorXd& to) const;
 
  private:
+  /// Puts the accelerations of node `node` of the beam, one of those that the event may have changed, in its place.
+  void carry_node(const CurrentBeam<D>& beam, int node, const Eigen::VectorXd& a, Eigen::VectorXd& to) const;
   /// Acceleration of the material point x.
   Vec<double, D> at(double x, WeightTransport transport, const Eigen::VectorXd& a) const;
 

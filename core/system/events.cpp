@@ -33,7 +33,7 @@ bool remeshes(EventType type) {
 template <int D>
 MergedWeights BeamSystem<D>::renew_weights(ChainState<D>& chain, std::size_t which, double t) const {
   const ChainState<D> before = chain;
-  const int node = places()[which].node;
+  const int node = chain.joints[which].node;
   MergedWeights renewed;
   for (const int k : {node - 1, node}) {
     if (k < 0 || k == chain.mesh.elements()) continue;
@@ -202,9 +202,19 @@ void BeamSystem<D>::change_mesh(const std::vector<PendingEvent>& dues, std::vect
   }
 }
 
+/// Its bounds are those of packs of elements, as sums over a part need them.
 template <int D>
-std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingEvent>& dues, const Eigen::VectorXd& y,
-                                                      double t) {
+BeamPart BeamSystem<D>::part_around_joint() const {
+  const auto left_out = [](int elements) {
+    return std::max(0, elements - event_limits::elements_beside) / Pack::width * Pack::width;
+  };
+  const int node = places().front().node;
+  return {left_out(node - 1), left_out(mesh().last() - (node + 1))};
+}
+
+template <int D>
+std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingEvent>& dues, const BeamPart& part,
+                                                      const Eigen::VectorXd& y, double t) {
   std::vector<EventRecord<D>> records(dues.size());
   for (std::size_t i = 0; i < dues.size(); ++i) {
     records[i].t = t;
@@ -216,22 +226,23 @@ std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingE
   EventRecord<D>& first = records.front();
   first.before = accelerations_.last_event().release();
   first.after = std::move(spare_chain_);
-  Beam::write_chain(y, t, first.before);
+  Beam::write_chain(y, t, part, first.before);
   first.after = first.before;
   return records;
 }
 
 template <int D>
-EventReach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues) const {
+EventReach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues, const BeamPart& part) const {
   const LengthControl& control = model().length_control;
   const bool reshapes =
       dues.front().type == EventType::reweighting || control.merge == MergePolicy::least_change || relaxes(control);
   const int reach = reshapes ? 3 : 2;
-  EventReach result{mesh().elements(), 0};
+  const int elements = mesh().elements() - part.before - part.behind;
+  EventReach result{elements, 0};
   for (const PendingEvent& due : dues) {
-    const int middle = rider() ? rider()->element : places()[due.which].node;
+    const int middle = (rider() ? rider()->element : places()[due.which].node) - part.before;
     result.lowest = std::min(result.lowest, std::max(0, middle - reach));
-    result.highest = std::max(result.highest, std::min(mesh().elements(), middle + reach));
+    result.highest = std::max(result.highest, std::min(elements, middle + reach));
   }
   return result;
 }
@@ -262,18 +273,22 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const bool leaving = type == EventType::separation;
   if (leaving && has_joint()) check_leaving(dues.front(), t);
 
-  std::vector<EventRecord<D>> records = records_of(dues, y, t);
-  EventRecord<D>& record = records.front();
   const LengthControl& control = model().length_control;
-  const EventReach reach = reach_of(dues);
   // an impact, or a mass that gets a node or loses it, changes more than a mesh; frames have energies of their own
   const bool looks_at_all =
       type == EventType::contact || type == EventType::end_merge || rider().has_value() || Beam::frames() != nullptr;
   const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
   const bool conserves = transfers && control.velocities == VelocityTransfer::conservative;
+  const bool changes_nodes_alone = (remeshes(type) || type == EventType::passage) && !looks_at_all;
+  const bool is_local = changes_nodes_alone && !conserves && places().size() == 1 && links_.all().empty() &&
+                        mesh().elements() > control.most_whole;
+  const BeamPart part = is_local ? part_around_joint() : BeamPart{};
+  const EventReach reach = reach_of(dues, part);
+  std::vector<EventRecord<D>> records = records_of(dues, part, y, t);
+  EventRecord<D>& record = records.front();
   const Energy energy_before = looks_at_all ? observe(y, t, ledger_points).energy : Energy{};
   const Energy own_before = looks_at_all || conserves ? observe(y, t, own_points).energy : Energy{};
-  const Eigen::VectorXd momenta_before = velocities_.momenta(y, t);
+  const Eigen::VectorXd momenta_before = velocities_.momenta(y, t, part);
   const double work_before = layout().tallies.of(y).supports;
 
   if (dues.size() == 1) {
@@ -289,11 +304,15 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const bool goes_on = type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
   const std::vector<JointPlace> places_before = places();
   const Layout<D> layout_before = layout();
-  old_.swap(y);
   const std::shared_ptr<Frames> old_frames = Beam::shared_frames();
   take(record.after);
   Beam::orient(t);
-  Beam::write_state(record.after, old_, y);
+  if (changes_nodes_alone) {
+    Beam::write_nodes(record.after, y);
+  } else {
+    old_.swap(y);
+    Beam::write_state(record.after, old_, y);
+  }
 
   if (transfers) {
     EventReach after = reach;
@@ -331,7 +350,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     record.jump.supplied -= work;
     record.discrete_jump -= work;
   }
-  if (!leaving) record.momentum_jump = velocities_.momenta(y, t) - momenta_before;
+  if (!leaving) record.momentum_jump = velocities_.momenta(y, t, part) - momenta_before;
   if (ramped) ramp_.restart(t, moment(y, t));
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (on_event) {
@@ -352,9 +371,10 @@ template void BeamSystem<2>::check_leaving(const PendingEvent&, double) const;
 template MergedWeights BeamSystem<2>::change(const PendingEvent&, ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<2>>&, double) const;
 template int BeamSystem<2>::relax_after(const std::vector<PendingEvent>&, ChainState<2>&, double, double) const;
-template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
-                                                               double);
-template EventReach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&) const;
+template BeamPart BeamSystem<2>::part_around_joint() const;
+template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector<PendingEvent>&, const BeamPart&,
+                                                               const Eigen::VectorXd&, double);
+template EventReach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&, const BeamPart&) const;
 template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
@@ -364,9 +384,10 @@ template void BeamSystem<3>::check_leaving(const PendingEvent&, double) const;
 template MergedWeights BeamSystem<3>::change(const PendingEvent&, ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<3>>&, double) const;
 template int BeamSystem<3>::relax_after(const std::vector<PendingEvent>&, ChainState<3>&, double, double) const;
-template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector<PendingEvent>&, const Eigen::VectorXd&,
-                                                               double);
-template EventReach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&) const;
+template BeamPart BeamSystem<3>::part_around_joint() const;
+template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector<PendingEvent>&, const BeamPart&,
+                                                               const Eigen::VectorXd&, double);
+template EventReach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&, const BeamPart&) const;
 template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);

@@ -34,12 +34,14 @@ template <int D>
 template <int D>
 void VelocityProjection<D>::find_excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first,
                                                  int last) {
-  momentum_.setZero(beam_.coordinates());
+  momentum_.resize(beam_.coordinates());
+  beam_.clear(momentum_.data(), after.part);
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
   const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
   const ChainView<D> places = beam_.view(nullptr, nullptr);
-  const auto add = [&](int to, const auto& is, const Vector& excess) {
+  const auto add = [&](int element, const auto& is, const Vector& excess) {
+    const int to = after.part.before + element;
     for (int i = 0; i < 4; ++i) {
       momentum_.segment<D>(places.vector(to, i)) += is.s[static_cast<std::size_t>(i)] * excess;
     }
@@ -76,9 +78,12 @@ void VelocityProjection<D>::project(const ChainState<D>& before, const ChainStat
     const Vector was = position<D>(before.rate.data(), before.joints.front().node);
     mass_.push_rider(at, beam_.rider_law().mass * (was - at.v), momentum_.data());
   }
-  if (mass_.solve(beam_.elements_at(y, t), y.data(), momentum_.data())) {
-    y.segment(beam_.coordinates(), beam_.coordinates()) += momentum_;
-  }
+  if (!mass_.solve(beam_.elements_at(y, t), y.data(), momentum_.data(), after.part)) return;
+  auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
+  const Eigen::Index nodes = Eigen::Index{node_size<D>} * after.part.before, count = std::ssize(after.q);
+  const Eigen::Index others = beam_.layout().mark(), of_them = beam_.coordinates() - others;
+  rate.segment(nodes, count) += momentum_.segment(nodes, count);
+  rate.segment(others, of_them) += momentum_.segment(others, of_them);
 }
 
 template <int D>
@@ -114,9 +119,9 @@ Eigen::MatrixXd VelocityProjection<D>::rigid_momenta(const JointElements& elemen
 }
 
 template <int D>
-Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t) {
+Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t, const BeamPart& part) {
   momentum_.resize(beam_.coordinates());
-  mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), momentum_.data());
+  mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), momentum_.data(), part);
   using Sum = Eigen::Matrix<double, rigid_modes, 1>;
   const auto turning = [&](Sum& sum, Eigen::Index vector) {  // moment about the origin
     for (int i = D; i < rigid_modes; ++i) {
@@ -124,14 +129,16 @@ Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double 
       sum[i] += y[vector + a] * momentum_[vector + b] - y[vector + b] * momentum_[vector + a];
     }
   };
-  Eigen::VectorXd sum = sum_in_pieces<Sum>(beam_.layout().nodes, node_size<D>, [&](Eigen::Index first, Eigen::Index n) {
-    Sum part = Sum::Zero();
-    for (Eigen::Index vector = first * node_size<D>; vector < (first + n) * node_size<D>; vector += node_size<D>) {
-      part.template head<D>() += momentum_.segment<D>(vector);
-      turning(part, vector);
-      turning(part, vector + D);
+  const Eigen::Index nodes = beam_.layout().nodes - part.before - part.behind;
+  Eigen::VectorXd sum = sum_in_pieces<Sum>(nodes, node_size<D>, [&](Eigen::Index first, Eigen::Index n) {
+    Sum of_some = Sum::Zero();
+    for (Eigen::Index node = part.before + first; node < part.before + first + n; ++node) {
+      const Eigen::Index vector = node * node_size<D>;
+      of_some.template head<D>() += momentum_.segment<D>(vector);
+      turning(of_some, vector);
+      turning(of_some, vector + D);
     }
-    return part;
+    return of_some;
   });
   Sum behind = Sum::Zero();
   for (const JointPlace& place : beam_.places()) {

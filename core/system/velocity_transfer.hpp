@@ -19,11 +19,12 @@ class VelocityProjection {
   VelocityProjection(const CurrentBeam<D>& beam, BeamMass<D>& mass) : beam_(beam), mass_(mass) {}
 
   /// Replaces the rates in `y`, the state of the chain `after` that was made from `before`, by the projection of the
-  /// old velocity field, which differs on the elements `first` to `last`.
+  /// old velocity field, which differs on its elements `first` to `last`: those of the nodes that the chain holds.
   void project(const ChainState<D>& before, const ChainState<D>& after, int first, int last, Eigen::VectorXd& y,
                double t);
-  /// Linear and angular momentum of beam and mass, by the model's own points.
-  Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t);
+  /// Linear and angular momentum of beam and mass, by the model's own points; of a part of it, as of
+  /// BeamMass::multiply().
+  Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t, const BeamPart& part = {});
   /// Gives the rates in `y` these momenta, by the least change, and takes the energy that they have `gained`, by
   /// scaling the velocity fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
   void restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
