@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "core/dynamics/assign.hpp"
 #include "core/dynamics/memory.hpp"
 #include "core/dynamics/tallies.hpp"
 #include "core/pieces.hpp"
@@ -81,6 +82,12 @@ struct StepEnd {
   double h = 0;                       ///< [s], length of the step that `a` belongs to
   Tally power;                        ///< [W]
 
+  void take(const StepEnd& other) {
+    assign(true_acceleration, other.true_acceleration);
+    assign(a, other.a);
+    h = other.h;
+    power = other.power;
+  }
   void exchange(Memory& memory) {
     memory(true_acceleration);
     memory(a);
@@ -98,9 +105,9 @@ struct TangentPoint {
   /// Allocates nothing once the sizes are known.
   void set(const Eigen::VectorXd& q_, const Eigen::VectorXd& v_, const Eigen::VectorXd& a_, double t_,
            const TangentWeights& by_) {
-    q = q_;
-    v = v_;
-    a = a_;
+    assign(q, q_);
+    assign(v, v_);
+    assign(a, a_);
     t = t_;
     by = by_;
   }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "core/dynamics/alpha_step.hpp"
+#include "core/dynamics/assign.hpp"
 #include "core/dynamics/kept_tangent.hpp"
 #include "core/dynamics/newton_stop.hpp"
 #include "core/dynamics/shorter_steps.hpp"
@@ -39,7 +41,7 @@ class GeneralizedAlpha final : public Stepper {
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const double h = length(dt);
     begin(y, t, h);
-    start_ = end_;
+    start_.take(end_);
     const bool prescribed = system_.multipliers() > 0 || system_.driven();
     if (h < shortest_share * options_.step && !stalled_ && prescribed) {
       drift(y, t, h);
@@ -49,7 +51,7 @@ class GeneralizedAlpha final : public Stepper {
       return true;
     }
     if (start_.h > 0 && h != start_.h) {
-      start_.a = start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration);
+      assign(start_.a, start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration));
       start_.h = h;
     }
 
@@ -68,7 +70,7 @@ class GeneralizedAlpha final : public Stepper {
       shorter_.failed(dt);
       return false;
     }
-    next_a_ = rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d;
+    assign(next_a_, rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d);
     stalled_ = false;
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
@@ -96,10 +98,10 @@ class GeneralizedAlpha final : public Stepper {
 
   bool extrapolate(const Eigen::VectorXd& y, double t, double dt, double tau, Eigen::VectorXd& there) override {
     begin(y, t, length(dt));
-    there = y;
+    assign(there, y);
     const Eigen::VectorXd& a = end_.true_acceleration;
-    other_q_ = step_.base_q + tau * (step_.base_v + (tau / 2) * a);
-    other_v_ = step_.base_v + tau * a;
+    assign(other_q_, step_.base_q + tau * (step_.base_v + (tau / 2) * a));
+    assign(other_v_, step_.base_v + tau * a);
     system_.contract(other_q_, other_v_, there);
     return true;
   }
@@ -113,9 +115,9 @@ class GeneralizedAlpha final : public Stepper {
   void keep_for_event(const Stepper& other, bool at_start) override {
     const auto& to_event = dynamic_cast<const GeneralizedAlpha&>(other);
     const StepEnd& last = at_start ? to_event.start_ : to_event.end_;
-    before_event_.true_acceleration = last.true_acceleration;
+    assign(before_event_.true_acceleration, last.true_acceleration);
     // the step to the event may have been a short one: what `a` is ahead of that is taken from the whole one
-    before_event_.a = before_event_.true_acceleration + (start_.a - start_.true_acceleration);
+    assign(before_event_.a, before_event_.true_acceleration + (start_.a - start_.true_acceleration));
     before_event_.h = start_.h;
     crosses_event_ = true;
   }
@@ -189,11 +191,11 @@ class GeneralizedAlpha final : public Stepper {
   void start(double t, double h, Eigen::Index n) {
     end_.true_acceleration.resize(n);
     system_.acceleration(step_.base_q, step_.base_v, t, end_.true_acceleration);
-    end_.a = end_.true_acceleration;
+    assign(end_.a, end_.true_acceleration);
     end_.h = 0;
     tangent_by_a_ = 0;
-    step_.q = step_.base_q;
-    step_.v = step_.base_v;
+    assign(step_.q, step_.base_q);
+    assign(step_.v, step_.base_v);
     if (crosses_event_) go_on(t, h);
     crosses_event_ = false;
     double dissipation = 0;
@@ -210,7 +212,7 @@ class GeneralizedAlpha final : public Stepper {
       });
     }
     for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(n);
-    from_q_ = step_.base_q;
+    assign(from_q_, step_.base_q);
     motion_until_event_ = motion_;
     started_ = true;
   }
@@ -221,22 +223,23 @@ class GeneralizedAlpha final : public Stepper {
   /// where events are as frequent, gives such modes energy. Of that change the method takes what its step can follow,
   /// by its own tangent S = K + by_v C + by_a M: in slow modes all but a share of (frequency x step)^2.
   void go_on(double t, double h) {
-    other_a_ = next_a_ = end_.true_acceleration;
+    assign(other_a_, end_.true_acceleration);
+    assign(next_a_, end_.true_acceleration);
     if (!system_.carry(before_event_.true_acceleration, t, other_a_)) return;
     system_.carry(before_event_.a, t, next_a_);
-    next_a_ -= other_a_;
+    assign(next_a_, next_a_ - other_a_);
     system_.residual(step_.base_q, step_.base_v, other_a_, t, r_);
     tangent_.set(step_.base_q, step_.base_v, other_a_, t, {1, rule_.by_v(h), rule_.by_a(h)});
     if (!linearize()) return;
     if (counters_) ++counters_->tangents;
     tangent_by_a_ = rule_.by_a(h);
     system_.solve(r_);
-    if (!r_.allFinite()) return;
-    end_.true_acceleration = other_a_ - rule_.by_a(h) * r_;
-    end_.a = end_.true_acceleration + next_a_;
+    if (!all_finite(r_)) return;
+    assign(end_.true_acceleration, other_a_ - rule_.by_a(h) * r_);
+    assign(end_.a, end_.true_acceleration + next_a_);
     end_.h = before_event_.h;
-    step_.q -= r_;  // with these accelerations forces balance there, those of supports among them
-    step_.v -= rule_.by_v(h) * r_;
+    assign(step_.q, step_.q - r_);  // with these accelerations forces balance there, those of supports among them
+    assign(step_.v, step_.v - rule_.by_v(h) * r_);
   }
 
   /// The velocity goes on, and the acceleration, too, where that is smooth: else it would throw stiff modes, whose
@@ -247,9 +250,9 @@ class GeneralizedAlpha final : public Stepper {
       const double ratio = h / solved_h_;
       step_.d *= ratio * ratio;
     } else if (is_smooth_) {
-      step_.d = (0.5 * h * h) * start_.a;
+      assign(step_.d, (0.5 * h * h) * start_.a);
     } else {
-      step_.d.setZero(step_.base_q.size());
+      assign(step_.d, Eigen::VectorXd::Zero(step_.base_q.size()));
     }
     nearby_ = false;
     step_.complete(rule_, h);
@@ -353,22 +356,25 @@ class GeneralizedAlpha final : public Stepper {
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
   double error_ratio(double t, double h) {
     const Eigen::Index count = step_.q.size() - system_.multipliers();
-    error_ = rule_.error_constant(h) * (next_a_ - start_.a);
+    assign(error_, rule_.error_constant(h) * (next_a_ - start_.a));
     if (options_.error_estimate == ErrorEstimate::filtered) filter_error(t + h, h, count);
     const double scale = share_of_motion();
-    double largest = 0;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const double allowed =
-          scale * allowed_[i] + options_.tolerances.rtol * std::max(std::abs(step_.base_q[i]), std::abs(step_.q[i]));
-      largest = std::max(largest, std::abs(error_[i]) / allowed);
-    }
+    std::atomic<double> largest = 0;
+    in_pieces(count, 1, [&](Eigen::Index first, Eigen::Index n) {
+      double most = 0;
+      for (Eigen::Index i = first; i < first + n; ++i) {
+        const double size = std::max(std::abs(step_.base_q[i]), std::abs(step_.q[i]));
+        most = std::max(most, std::abs(error_[i]) / (scale * allowed_[i] + options_.tolerances.rtol * size));
+      }
+      raise(largest, most);
+    });
     return largest;
   }
 
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
   void choose_tolerance(double h) {
-    error_ = rule_.error_constant(h) * (next_a_ - start_.a);
+    assign(error_, rule_.error_constant(h) * (next_a_ - start_.a));
     const FieldNorms errors = field_norms(stop_.fields(), error_), increments = field_norms(stop_.fields(), step_.d);
     double least = std::numeric_limits<double>::infinity();
     for (const Field field : {Field::position, Field::slope, Field::mark, Field::mass, Field::angle}) {
@@ -393,7 +399,7 @@ class GeneralizedAlpha final : public Stepper {
   double share_of_motion() {
     const double whole = options_.tolerances.motion;
     if (whole == 0) return 1;
-    other_q_ = step_.q - from_q_;
+    assign(other_q_, step_.q - from_q_);
     const FieldNorms moved = field_norms(stop_.fields(), other_q_);
     for (const Field field : {Field::position, Field::mark, Field::mass}) {
       motion_ = std::max(motion_, motion_until_event_ + moved[static_cast<std::size_t>(field)]);
@@ -419,8 +425,8 @@ class GeneralizedAlpha final : public Stepper {
       given.dissipated = h * *lost;
     }
     system_.tallies().add(given, y);
-    end_.true_acceleration = step_.a;
-    end_.a = next_a_;
+    assign(end_.true_acceleration, step_.a);
+    assign(end_.a, next_a_);
     end_.h = h;
     if (counters_) {
       const ConstraintResidual residual = system_.constraint_residual(step_.q, step_.v, t + h);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/dynamics/assign.hpp"
 #include "core/dynamics/event_search.hpp"
 #include "core/error.hpp"
 
@@ -166,7 +167,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   Eigen::VectorXd before = y;
 
   while (t < t_end) {
-    before = y;
+    assign(before, y);
     const double t_before = t;
     const bool last = t_end - t <= dt * (1 + whole_step), beyond = last && looks_beyond > 0;
     if (beyond) --looks_beyond;
@@ -180,7 +181,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
     }
-    if (!y.allFinite()) {  // a trial state outside the domain of the equations: not an error estimate, so not rejected
+    if (!all_finite(y)) {  // a trial state outside the domain of the equations: not an error estimate, so not rejected
       y = before;
       t = t_before;
       dt = tried / 10;

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "core/dynamics/assign.hpp"
+
 namespace vlbeam {
 
 template <int D>
@@ -56,8 +58,8 @@ void Accelerations<D>::rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, do
   }
   const Eigen::Index count = beam_.coordinates();
   const double *const q = imposes ? imposed_.data() : y.data(), *const rate = q + count;
-  dydt.head(count) = Eigen::Map<const Eigen::VectorXd>(rate, count);
-  dydt.tail(dydt.size() - count).setZero();
+  assign_to(dydt.head(count), Eigen::Map<const Eigen::VectorXd>(rate, count));
+  assign_to(dydt.tail(dydt.size() - count), Eigen::VectorXd::Zero(dydt.size() - count));
   const auto power = solve(q, rate, t, dydt.data() + count);
   if (power) {
     beam_.layout().tallies.add(*power, dydt);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dynamics/assign.hpp"
 #include "core/length_control/chain_motion.hpp"
 
 namespace vlbeam {
@@ -59,8 +60,8 @@ bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Ei
   const BeamPart& part = before_->chain.part;
   const Eigen::Index before = Eigen::Index{node_size<D>} * part.before,
                      behind = Eigen::Index{node_size<D>} * part.behind;
-  to.head(before) = a.head(before);
-  to.segment(is.mark() - behind, behind) = a.segment(was.mark() - behind, behind);
+  assign_to(to.head(before), a.head(before));
+  assign_to(to.segment(is.mark() - behind, behind), a.segment(was.mark() - behind, behind));
   for (int node = part.before; node < is.nodes - part.behind; ++node) carry_node(beam, node, a, to);
   for (std::size_t i = 0; i < beam.places().size(); ++i) {
     const JointPlace &from = before_->places[i], &place = beam.places()[i];

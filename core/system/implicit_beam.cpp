@@ -32,21 +32,25 @@ std::vector<FieldRun> ImplicitBeam<D>::fields() const {
 template <int D>
 void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
   const Eigen::Index n = coordinates(), own = beam_.coordinates();
-  q.setZero(n);
-  v.setZero(n);
-  q.head(own) = y.head(own);
-  v.head(own) = y.segment(own, own);
+  q.resize(n);
+  v.resize(n);
+  assign_to(q.head(own), y.head(own));
+  assign_to(v.head(own), y.segment(own, own));
+  q.tail(n - own).setZero();  // multipliers
+  v.tail(n - own).setZero();
 }
 
 template <int D>
 void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
   const Eigen::Index own = beam_.coordinates();
-  y_.setZero(beam_.layout().state());
+  y_.resize(beam_.layout().state());
+  y_.tail(beam_.layout().tallies.count()).setZero();
   dydt_.resize(beam_.layout().state());
   contract(q, v, y_);
   accelerations_.rates(y_, dydt_, t);
-  a.setZero(q.size());
-  a.head(own) = dydt_.segment(own, own);
+  a.resize(q.size());
+  assign_to(a.head(own), dydt_.segment(own, own));
+  a.tail(q.size() - own).setZero();
   if (multipliers() == 0) return;
   a.tail(links_.count()) = -accelerations_.link_forces() / reference_mass_;
   // what the equations of motion lack is what the constraints give
@@ -61,13 +65,13 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
 /// What is held or given in time is as it is now.
 template <int D>
 bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const {
-  Eigen::VectorXd carried = a;
-  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
-  carried -= a;
+  assign(carried_, a);
+  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried_)) return false;
+  assign(carried_, carried_ - a);
   holding().at(t);
-  holding().project(carried.data());
-  at_guides([&](std::size_t i) { carried[places()[i].mark] = 0; });
-  a += carried;
+  holding().project(carried_.data());
+  at_guides([&](std::size_t i) { carried_[places()[i].mark] = 0; });
+  assign(a, a + carried_);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/beam/beam_matrix.hpp"
+#include "core/dynamics/assign.hpp"
 #include "core/dynamics/second_order.hpp"
 #include "core/joint/kinks.hpp"
 #include "core/system/accelerations.hpp"
@@ -37,8 +38,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
   void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override {
     const Eigen::Index own = beam_.coordinates();
-    y.head(own) = q.head(own);
-    y.segment(own, own) = v.head(own);
+    assign_to(y.head(own), q.head(own));
+    assign_to(y.segment(own, own), v.head(own));
   }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const override;
@@ -160,6 +161,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   };
   NutTangent nut_;
   Eigen::VectorXd y_, dydt_, free_;
+  mutable Eigen::VectorXd carried_;          ///< memory of carry()
   Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian
   Eigen::MatrixXd stiffness_, damping_;
 };

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/pieces.hpp"
+
+namespace vlbeam {
+
+/// Writes an expression of vectors, entry by entry, in pieces, to one of its size.
+template <class Expression>
+void assign_to(Eigen::Ref<Eigen::VectorXd> to, const Expression& expression) {
+  in_pieces(to.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
+    to.segment(first, count) = expression.segment(first, count);
+  });
+}
+
+/// The same to one that gets its size.
+template <class Expression>
+void assign(Eigen::VectorXd& to, const Expression& expression) {
+  to.resize(expression.size());
+  assign_to(to, expression);
+}
+
+}  // namespace vlbeam
