@@ -284,7 +284,8 @@ template <int D>
 RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
   if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
   if (starts_in_equilibrium(scene)) return simulate_from_equilibrium<D>(scene, progress, checkpoints);
-  return Run<D>(scene, progress, checkpoints, build_chain<D>(scene))();
+  Run<D> run(scene, progress, checkpoints, build_chain<D>(scene));  // the chain is not kept
+  return run();
 }
 
 }  // namespace
