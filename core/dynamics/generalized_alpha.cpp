@@ -384,14 +384,19 @@ class GeneralizedAlpha final : public Stepper {
     tolerance_ = std::clamp(newton_share * least, least_newton, most_newton);
   }
 
-  /// r is linear in the accelerations, and next to 0 at the end of the step: with more acceleration it is that of this.
+  /// By the tangent: of fast modes, which the step does not follow, it counts next to nothing. The residual is linear
+  /// in the accelerations, and next to 0 at the end of the step: with more acceleration it is the inertia of this.
   void filter_error(double t, double h, Eigen::Index count) {
+    other_a_.resize(step_.q.size());
+    assign_to(other_a_.head(count), rule_.by_a(h) * error_.head(count));
+    other_a_.tail(system_.multipliers()).setZero();
     other_r_.resize(step_.q.size());
-    other_a_ = step_.a;
-    other_a_.head(count) += rule_.by_a(h) * error_.head(count);
-    system_.residual(step_.q, step_.v, other_a_, t, other_r_);
+    if (!system_.inertia(step_.q, other_a_, t, other_r_)) {
+      assign(other_a_, step_.a + other_a_);
+      system_.residual(step_.q, step_.v, other_a_, t, other_r_);
+    }
     system_.solve(other_r_);
-    error_ = other_r_;
+    assign(error_, other_r_);
   }
 
   /// Of the tolerances, by the largest displacement so far. At an event nodes become others: what they move from then

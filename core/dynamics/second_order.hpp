@@ -43,6 +43,12 @@ class SecondOrderSystem {
   /// r = M(q) a - Q(q, v, t); returns the power lost to damping [W].
   virtual double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                           Eigen::VectorXd& r) = 0;
+  /// Writes M a at (q, t), with zeros where something is held or constrained, if that costs less than a residual;
+  /// false where it does not.
+  virtual bool inertia(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*a*/, double /*t*/,
+                       Eigen::VectorXd& /*r*/) {
+    return false;
+  }
   virtual ConstraintResidual constraint_residual(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
                                                  double /*t*/) const {
     return {};

@@ -37,6 +37,13 @@ MovingEquations<double, D> MovingElement<double, D, Ends>::forces(const Coordina
   return fastest_moving_kernels<D, Ends>().forces(q, rate, a, weights, table, law);
 }
 
+template <int D, MovingEnds Ends>
+MovingEquations<double, D> MovingElement<double, D, Ends>::masses(const Coordinates& q, const WeightFunction& weights,
+                                                                  const ShapeTabulation& table,
+                                                                  const MovingLaw<D>& law) {
+  return fastest_moving_kernels<D, Ends>().masses(q, weights, table, law);
+}
+
 template struct MovingElement<double, 1, MovingEnds::both>;
 template struct MovingElement<double, 2, MovingEnds::a>;
 template struct MovingElement<double, 2, MovingEnds::b>;

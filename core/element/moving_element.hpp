@@ -19,6 +19,16 @@ struct MovingEquations {
   std::array<Vec<Real, D>, 4> force;
   Real force_a, force_b;
   Real dissipation;  ///< power lost to Kelvin-Voigt damping [W]
+
+  void set_zero() {
+    for (std::size_t i = 0; i < 4; ++i) {
+      mass[i].fill(Real(0));
+      mass_a[i].setZero();
+      mass_b[i].setZero();
+      force[i].setZero();
+    }
+    mass_aa = mass_ab = mass_bb = force_a = force_b = dissipation = Real(0);
+  }
 };
 
 /// What the equations of a variable-length element are made of.
@@ -70,14 +80,7 @@ MovingEquations<Real, D> moving_sums(const MovingCoordinates<Real, D>& q, const 
   using Vector = Vec<Real, D>;
   using Kinematics = MovingKinematics<Real, D, Ends>;
   MovingEquations<Real, D> eq;
-  for (std::size_t i = 0; i < 4; ++i) {
-    eq.mass[i].fill(Real(0));
-    eq.mass_a[i].setZero();
-    eq.mass_b[i].setZero();
-    eq.force[i].setZero();
-  }
-  eq.mass_aa = eq.mass_ab = eq.mass_bb = eq.force_a = eq.force_b = eq.dissipation = Real(0);
-
+  eq.set_zero();
   const Kinematics kinematics(q, rate, law.transport, weights);
   const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
   const FeltSections sections(law.section);
@@ -154,6 +157,24 @@ MovingEquations<Real, D> moving_sums(const MovingCoordinates<Real, D>& q, const 
   return eq;
 }
 
+/// The mass matrix alone, without forces: its upper triangle.
+template <class Real, int D, MovingEnds Ends>
+MovingEquations<Real, D> mass_sums(const MovingCoordinates<Real, D>& q, const WeightFunction& weights,
+                                   const ShapeTabulation& table, const MovingLaw<D>& law) {
+  using Kinematics = MovingKinematics<Real, D, Ends>;
+  MovingEquations<Real, D> eq;
+  eq.set_zero();
+  const Kinematics kinematics(q, q, law.transport, weights);  // rates do not count
+  const bool reshaped = law.transport == WeightTransport::transported && weights.w != unit_weights;
+  const FeltSections sections(law.section);
+  const auto motion = [&](const auto& u, const auto& shape) { return kinematics.at(u, shape); };
+  for_each_point(kinematics, table, reshaped, static_cast<const RestKinematics<double, D, Ends>*>(nullptr), motion,
+                 [&](const auto& point, const auto& at, const auto* /*rest*/) {
+                   add_mass<Ends>(point.weight * Real(sections[point.feels].rhoA), at, eq);
+                 });
+  return eq;
+}
+
 /// What a variable-length element does, without and with given accelerations: point by point.
 template <class Real, int D, MovingEnds Ends>
 struct MovingElement {
@@ -171,7 +192,8 @@ struct MovingElement {
   }
 };
 
-/// The same, where there is no rest shape four points at once (`element/moving_kernels.cpp`).
+/// The same, where there is no rest shape four points at once (`element/moving_kernels.cpp`), and the mass matrix
+/// alone, which a rest shape does not change.
 template <int D, MovingEnds Ends>
 struct MovingElement<double, D, Ends> {
   using Coordinates = MovingCoordinates<double, D>;
@@ -182,6 +204,8 @@ struct MovingElement<double, D, Ends> {
   static MovingEquations<double, D> forces(const Coordinates& q, const Coordinates& rate, const Coordinates& a,
                                            const WeightFunction& weights, const ShapeTabulation& table,
                                            const MovingLaw<D>& law);
+  static MovingEquations<double, D> masses(const Coordinates& q, const WeightFunction& weights,
+                                           const ShapeTabulation& table, const MovingLaw<D>& law);
 };
 
 template <class Real, int D, MovingEnds Ends = MovingEnds::both>

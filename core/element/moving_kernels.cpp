@@ -15,14 +15,8 @@ void add_force(const MovingEquations<Pack, D>& lanes, MovingEquations<double, D>
   eq.dissipation = total(lanes.dissipation);
 }
 
-template <int D, MovingEnds Ends>
-[[gnu::flatten]] MovingEquations<double, D> equations(const MovingCoordinates<double, D>& q,
-                                                      const MovingCoordinates<double, D>& rate,
-                                                      const WeightFunction& weights, const ShapeTabulation& table,
-                                                      const MovingLaw<D>& law) {
-  const auto lanes =
-      moving_sums<Pack, D, Ends>(in_all_lanes<D>(q), in_all_lanes<D>(rate), AtAnyAcceleration{}, weights, table, law);
-  MovingEquations<double, D> eq;
+template <int D>
+void add_mass(const MovingEquations<Pack, D>& lanes, MovingEquations<double, D>& eq) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i; j < 4; ++j) eq.mass[i][j] = eq.mass[j][i] = total(lanes.mass[i][j]);
     eq.mass_a[i] = total<D>(lanes.mass_a[i]);
@@ -31,7 +25,27 @@ template <int D, MovingEnds Ends>
   eq.mass_aa = total(lanes.mass_aa);
   eq.mass_ab = total(lanes.mass_ab);
   eq.mass_bb = total(lanes.mass_bb);
+}
+
+template <int D, MovingEnds Ends>
+[[gnu::flatten]] MovingEquations<double, D> equations(const MovingCoordinates<double, D>& q,
+                                                      const MovingCoordinates<double, D>& rate,
+                                                      const WeightFunction& weights, const ShapeTabulation& table,
+                                                      const MovingLaw<D>& law) {
+  const auto lanes =
+      moving_sums<Pack, D, Ends>(in_all_lanes<D>(q), in_all_lanes<D>(rate), AtAnyAcceleration{}, weights, table, law);
+  MovingEquations<double, D> eq;
+  add_mass<D>(lanes, eq);
   add_force<D>(lanes, eq);
+  return eq;
+}
+
+template <int D, MovingEnds Ends>
+[[gnu::flatten]] MovingEquations<double, D> masses(const MovingCoordinates<double, D>& q, const WeightFunction& weights,
+                                                   const ShapeTabulation& table, const MovingLaw<D>& law) {
+  MovingEquations<double, D> eq;
+  eq.set_zero();
+  add_mass<D>(mass_sums<Pack, D, Ends>(in_all_lanes<D>(q), weights, table, law), eq);
   return eq;
 }
 
@@ -52,11 +66,11 @@ template <int D, MovingEnds Ends>
 template <int D, MovingEnds Ends>
 MovingKernels<D, Ends> moving_kernels() {
   if constexpr (D == 1) {
-    return {&equations<D, Ends>, &forces<D, Ends>, nullptr, nullptr};
+    return {&equations<D, Ends>, &forces<D, Ends>, &masses<D, Ends>, nullptr, nullptr};
   } else if constexpr (Ends == MovingEnds::both) {
-    return {&equations<D, Ends>, &forces<D, Ends>, nullptr, &moving_tangent<D, Ends, 0>};
+    return {&equations<D, Ends>, &forces<D, Ends>, &masses<D, Ends>, nullptr, &moving_tangent<D, Ends, 0>};
   } else {
-    return {&equations<D, Ends>, &forces<D, Ends>, &moving_tangent<D, Ends, 1>, nullptr};
+    return {&equations<D, Ends>, &forces<D, Ends>, &masses<D, Ends>, &moving_tangent<D, Ends, 1>, nullptr};
   }
 }
 template MovingKernels<1, MovingEnds::both> moving_kernels();

@@ -5,7 +5,7 @@
 
 namespace vlbeam {
 
-/// MovingElement<double, D, Ends> without a rest shape, compiled for one instruction set.
+/// MovingElement<double, D, Ends>, all but masses without a rest shape, compiled for one instruction set.
 template <int D, MovingEnds Ends>
 struct MovingKernels {
   using Coordinates = MovingCoordinates<double, D>;
@@ -15,6 +15,8 @@ struct MovingKernels {
   MovingEquations<double, D> (*forces)(const Coordinates& q, const Coordinates& rate, const Coordinates& a,
                                        const WeightFunction& weights, const ShapeTabulation& table,
                                        const MovingLaw<D>& law);
+  MovingEquations<double, D> (*masses)(const Coordinates& q, const WeightFunction& weights,
+                                       const ShapeTabulation& table, const MovingLaw<D>& law);
   /// moving_tangent() without rest shape and damping: of one unknown end, or of two whose motion is given. Else null.
   MovingTangent<Ends, D> (*tangent)(const Coordinates& q, const Coordinates& rate, const Coordinates& a,
                                     const TangentWeights& by, const WeightFunction& weights,

@@ -23,6 +23,7 @@ class Accelerations {
 
   CurrentBeam<D>& beam() const { return beam_; }
   const BeamLinks<D>& links() const { return links_; }
+  const BeamMass<D>& mass() const { return mass_; }
   /// The beam before its last event.
   EventMap<D>& last_event() { return last_event_; }
 

@@ -10,7 +10,8 @@
 namespace vlbeam {
 
 /// M of a beam: solves M a = f for accelerations, friction at joints included, or M v = p for velocities, and
-/// multiplies by it. Elements at joints are those of CurrentBeam::fill_elements() at the coordinates `q`.
+/// multiplies by it. Elements at joints are those of CurrentBeam::fill_elements(), or fill_masses() where forces do not
+/// count, at the coordinates `q`.
 template <int D>
 class BeamMass {
  public:

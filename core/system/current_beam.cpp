@@ -214,30 +214,46 @@ std::optional<RestElement<D>> CurrentBeam<D>::rest_of(const MovingPart& part, co
 }
 
 template <int D>
-void CurrentBeam<D>::fill_elements(const double* q, const double* rate, double t, JointElements& elements) const {
+template <class Equations>
+void CurrentBeam<D>::fill(const ChainView<D>& beam, double t, JointElements& elements,
+                          const Equations& equations_of) const {
   elements.clear();
-  const ChainView<D> beam = view(q, rate);
   MovingLaw<D> law = moving_law(t);
   for (const MovingPart& part : parts_) {
+    switch (part.ends) {
+      case MovingEnds::a:
+        elements.push_back(equations_of.template operator()<MovingEnds::a>(part, law));
+        break;
+      case MovingEnds::b:
+        elements.push_back(equations_of.template operator()<MovingEnds::b>(part, law));
+        break;
+      case MovingEnds::both:
+        elements.push_back(equations_of.template operator()<MovingEnds::both>(part, law));
+        break;
+    }
+    if (model_.masses.present()) model_.masses.add_to(beam, part.element, gravity(t), elements.back());
+  }
+}
+
+template <int D>
+void CurrentBeam<D>::fill_elements(const double* q, const double* rate, double t, JointElements& elements) const {
+  const ChainView<D> beam = view(q, rate);
+  fill(beam, t, elements, [&]<MovingEnds Ends>(const MovingPart& part, MovingLaw<D>& law) {
     const int k = part.element;
     const auto rest = rest_of(part, q);
     law.rest = rest ? &*rest : nullptr;
-    const auto at = beam.coordinates(k), rates = beam.rates(k);
-    const WeightFunction& weights = beam.weights(k);
-    switch (part.ends) {
-      case MovingEnds::a:
-        elements.push_back(moving_equations<double, D, MovingEnds::a>(at, rates, weights, part.table, law));
-        break;
-      case MovingEnds::b:
-        elements.push_back(moving_equations<double, D, MovingEnds::b>(at, rates, weights, part.table, law));
-        break;
-      case MovingEnds::both:
-        elements.push_back(moving_equations<double, D, MovingEnds::both>(at, rates, weights, part.table, law));
-        break;
-    }
-    if (model_.masses.present()) model_.masses.add_to(beam, k, gravity(t), elements.back());
-  }
+    return moving_equations<double, D, Ends>(beam.coordinates(k), beam.rates(k), beam.weights(k), part.table, law);
+  });
   if (moving_) moving_->take_inertia(beam, parts_, elements);
+}
+
+template <int D>
+void CurrentBeam<D>::fill_masses(const double* q, double t, JointElements& elements) const {
+  const ChainView<D> beam = view(q, q);  // rates do not count
+  fill(beam, t, elements, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
+    const int k = part.element;
+    return MovingElement<double, D, Ends>::masses(beam.coordinates(k), beam.weights(k), part.table, law);
+  });
 }
 
 template <int D>

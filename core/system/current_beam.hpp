@@ -246,9 +246,11 @@ class CurrentBeam {
   std::optional<RestElement<D>> rest_of(const MovingPart& part, const double* q) const;
   /// Mass matrix and forces of the elements at joints.
   void fill_elements(const double* q, const double* rate, double t, JointElements& elements) const;
-  JointElements elements_at(const Eigen::VectorXd& y, double t) const {
+  /// Their mass matrices alone; not of a beam whose nodes travel.
+  void fill_masses(const double* q, double t, JointElements& elements) const;
+  JointElements masses_at(const Eigen::VectorXd& y, double t) const {
     JointElements elements;
-    fill_elements(y.data(), y.data() + coordinates(), t, elements);
+    fill_masses(y.data(), t, elements);
     return elements;
   }
   /// The fixed elements before the first and behind the last joint, or before and behind the middle of the beam.
@@ -294,6 +296,9 @@ class CurrentBeam {
     return at == joints_.end() ? -1 : static_cast<int>(at - joints_.begin());
   }
   const RestEnd<D>& rest_end(double x) const;
+  /// Calls equations_of(part, law) with the ends of each part.
+  template <class Equations>
+  void fill(const ChainView<D>& beam, double t, JointElements& elements, const Equations& equations_of) const;
   void adopt_joints(const ChainState<D>& chain);
   /// Puts where the joints are, and how they move, into a state.
   void write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const;

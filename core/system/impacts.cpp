@@ -21,7 +21,7 @@ ComputationFailed ran_into_support(bool held, Direction direction, double t) {
 
 template <int D>
 void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t) {
-  const auto elements = beam_.elements_at(y, t);
+  const auto elements = beam_.masses_at(y, t);
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
   std::vector<Contact> bearing = contacts;                     // what rests pushes, but does not pull
   const std::vector<NodeLink<D>> blocks = links_.of_blocks();  // they push and pull

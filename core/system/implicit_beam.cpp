@@ -115,6 +115,23 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 }
 
 template <int D>
+bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
+  if (beam_.moving_mesh() != nullptr || beam_.spin() != nullptr || beam_.frames() != nullptr) return false;
+  refresh();
+  beam_.fill_masses(q.data(), t, elements_);
+  accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
+  r.tail(r.size() - beam_.coordinates()).setZero();
+  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
+    const Eigen::Index at = beam_.departed_at(i);
+    r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);
+  }
+  holding().at(t);
+  if (!with_multipliers()) holding().project(r.data());
+  at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
+  return true;
+}
+
+template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
   refresh();

@@ -45,6 +45,8 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
+  /// Of a beam that does not turn about its axis.
+  bool inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) override;
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
   void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                         Eigen::VectorXd& rates) const override;
@@ -161,8 +163,9 @@ class ImplicitBeam final : public SecondOrderSystem {
   };
   NutTangent nut_;
   Eigen::VectorXd y_, dydt_, free_;
-  mutable Eigen::VectorXd carried_;          ///< memory of carry()
-  Eigen::VectorXd a_, column_, weightless_;  // of the Jacobian
+  typename CurrentBeam<D>::JointElements elements_;  ///< of inertia()
+  mutable Eigen::VectorXd carried_;                  ///< memory of carry()
+  Eigen::VectorXd a_, column_, weightless_;          // of the Jacobian
   Eigen::MatrixXd stiffness_, damping_;
 };
 

@@ -78,7 +78,7 @@ void VelocityProjection<D>::project(const ChainState<D>& before, const ChainStat
     const Vector was = position<D>(before.rate.data(), before.joints.front().node);
     mass_.push_rider(at, beam_.rider_law().mass * (was - at.v), momentum_.data());
   }
-  if (!mass_.solve(beam_.elements_at(y, t), y.data(), momentum_.data(), after.part)) return;
+  if (!mass_.solve(beam_.masses_at(y, t), y.data(), momentum_.data(), after.part)) return;
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
   const Eigen::Index nodes = Eigen::Index{node_size<D>} * after.part.before, count = std::ssize(after.q);
   const Eigen::Index others = beam_.layout().mark(), of_them = beam_.coordinates() - others;
@@ -121,7 +121,7 @@ Eigen::MatrixXd VelocityProjection<D>::rigid_momenta(const JointElements& elemen
 template <int D>
 Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double t, const BeamPart& part) {
   momentum_.resize(beam_.coordinates());
-  mass_.multiply(beam_.elements_at(y, t), y.data(), y.data() + beam_.coordinates(), momentum_.data(), part);
+  mass_.multiply(beam_.masses_at(y, t), y.data(), y.data() + beam_.coordinates(), momentum_.data(), part);
   using Sum = Eigen::Matrix<double, rigid_modes, 1>;
   const auto turning = [&](Sum& sum, Eigen::Index vector) {  // moment about the origin
     for (int i = D; i < rigid_modes; ++i) {
@@ -162,7 +162,7 @@ void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const Energ
   Eigen::VectorXd momenta;
   momenta = all;
   if constexpr (D == 3) momenta.tail<3>() -= spin_momentum(y);
-  const JointElements elements = beam_.elements_at(y, t);
+  const JointElements elements = beam_.masses_at(y, t);
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
   // momenta of the rigid motions, and of these motions what the supports leave
   const Eigen::MatrixXd rigid = rigid_momenta(elements, y);

@@ -40,6 +40,14 @@ void expect_same_bits(Random& random, const BeamSection& section, AxialStrain ax
     for (const auto& row : eq.mass) all.insert(all.end(), row.begin(), row.end());
     for (std::size_t i = 0; i < 4; ++i) keep(eq.mass_a[i]), keep(eq.mass_b[i]);
     all.insert(all.end(), {eq.mass_aa, eq.mass_ab, eq.mass_bb});
+    const auto alone = kernels.masses(q, weights, table, law);
+    EXPECT_EQ(alone.mass, eq.mass);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(alone.mass_a[i], eq.mass_a[i]);
+      EXPECT_EQ(alone.mass_b[i], eq.mass_b[i]);
+    }
+    EXPECT_EQ((std::array{alone.mass_aa, alone.mass_ab, alone.mass_bb}),
+              (std::array{eq.mass_aa, eq.mass_ab, eq.mass_bb}));
     if (!section.damped()) {
       const auto keep_all = [&](const auto& tangent) {
         all.insert(all.end(), tangent.data(), tangent.data() + tangent.size());

@@ -133,6 +133,29 @@ TYPED_TEST(ImplicitBeamTest, ResidualVanishesAtTheExplicitAcceleration) {
   }
 }
 
+TYPED_TEST(ImplicitBeamTest, InertiaIsWhatMoreAccelerationAddsToTheResidual) {
+  constexpr int D = TypeParam::value;
+  unsigned seed = 5;
+  int seen = 0;
+  for (const auto& [shape, constraints, friction, held, nut] : cases()) {
+    Case<D> c(shape, seed++, constraints, friction, held, nut);
+    auto& implicit = *c.system->second_order();
+    Eigen::VectorXd more =
+        Eigen::VectorXd::NullaryExpr(c.q.size(), [&] { return static_cast<double>(c.random.uniform(-2, 2)); });
+    more.tail(implicit.multipliers()).setZero();
+    if (shape.held) more[c.system->layout().mark()] = 0;
+    Eigen::VectorXd inertia(c.q.size()), r(c.q.size()), r_of_more(c.q.size());
+    const bool known = implicit.inertia(c.q, more, 0, inertia);
+    EXPECT_EQ(known, !nut) << "of shafts it is not";
+    if (!known || friction) continue;  // which changes with the force that presses
+    implicit.residual(c.q, c.v, c.a, 0, r);
+    implicit.residual(c.q, c.v, c.a + more, 0, r_of_more);
+    EXPECT_LE((r_of_more - r - inertia).norm(), 1e-12 * r.norm()) << "joint " << shape.joint;
+    ++seen;
+  }
+  EXPECT_GE(seen, 30);
+}
+
 /// Along the direction of an implicit step (d, by.v d, by.a d) the solve must undo the residual's change.
 TYPED_TEST(ImplicitBeamTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
