@@ -220,7 +220,8 @@ class Run {
   /// The whole shape, or of a long beam what an event may have changed of it: a run may have thousands of events.
   Configuration shape_beside(const ChainState<D>& chain, const EventRecord<D>& record) const {
     NodeRange nodes;
-    const int elements = chain.part.before + chain.mesh.elements() + chain.part.behind;
+    const ChainState<D>& before = record.before;  // it was that beam which decided what is in both
+    const int elements = before.part.before + before.mesh.elements() + before.part.behind;
     if (elements > system_.model().length_control.most_whole &&
         chain.joints.size() <= 1) {  // events of several may be one
       const int k = chain.mesh.element_at(record.joint_position);

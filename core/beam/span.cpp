@@ -106,32 +106,33 @@ const SpanKernels<D>& span_kernels() {
 
 template <int D>
 Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
-              const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses, Span* before, int same)
+              const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses, Span* before,
+              int unchanged)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
       support_(support),
       section_(section),
       curved_at_rest_(rest != nullptr) {
-  const int known = before != nullptr ? take_over(*before, mesh, same) : 0;
+  const int known = before != nullptr ? take_over(*before, mesh, unchanged) : 0;
   build_packs(mesh, rules, rest, masses);
   factor(known);
 }
 
-/// Tables of a curved rest shape depend on its nodes, too, which only those that are known to be the same share.
+/// Tables of a curved rest shape depend on its nodes, too, which only unchanged elements share.
 template <int D>
-int Span<D>::take_over(Span& before, const Mesh& mesh, int same) {
+int Span<D>::take_over(Span& before, const Mesh& mesh, int unchanged) {
   if (step_ != before.step_ || (support_.free_position != before.support_.free_position).any() ||
       (support_.free_slope != before.support_.free_slope).any()) {
     return 0;
   }
   const int common = std::min(count(), before.count());
-  int known = std::min(same, common);
+  int known = std::min(unchanged, common);
   while (known < common && before.elements_[static_cast<std::size_t>(known)] == as_tabulated(mesh, element(known)))
     ++known;
   elements_ = std::move(before.elements_);
   elements_.resize(static_cast<std::size_t>(known));
-  const int tabulated = curved_at_rest_ ? std::min(same, known) : known;
+  const int tabulated = curved_at_rest_ ? std::min(unchanged, known) : known;
   packs_ = std::move(before.packs_);
   packs_.resize(static_cast<std::size_t>(tabulated / Pack::width));
   for (std::size_t p = 0; outer_ != before.outer_ && p < packs_.size(); ++p) {

@@ -24,10 +24,10 @@ class Span {
   /// rest shape, null for a straight, unstrained one; `masses` sit on the whole beam. Throws std::invalid_argument for
   /// a mass matrix that is not positive definite (too few quadrature points).
   /// `before`, a span of the same beam on another mesh, gives away what holds for elements that both have next to the
-  /// outer node, of which `same` are known to be the same: the cost is that of the others.
+  /// outer node: the cost is that of the others. The first `unchanged` of them are taken without being compared.
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
        const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr,
-       int same = 0);
+       int unchanged = 0);
 
   /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
   double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
@@ -97,8 +97,8 @@ class Span {
   Packs some_packs(std::ptrdiff_t first, std::ptrdiff_t n) const {
     return Packs(packs_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(n));
   }
-  /// Takes from `before` what goes on to hold; returns for how many elements. It does for `same`.
-  int take_over(Span& before, const Mesh& mesh, int same);
+  /// Takes from `before` what goes on to hold; returns for how many elements.
+  int take_over(Span& before, const Mesh& mesh, int unchanged);
   void build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses);
   void factor(int known);
 

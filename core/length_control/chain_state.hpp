@@ -20,7 +20,8 @@ namespace vlbeam {
 template <int D>
 struct ChainState {
   Mesh mesh;
-  BeamPart part = {};              ///< of a beam whose other nodes it does not hold: it counts from its own first one
+  /// Of a beam whose other nodes the chain does not hold: its node 0 is the beam's node part.before, and so on.
+  BeamPart part = {};
   std::vector<double> q, rate;     ///< nodal arrays
   std::vector<double> mark_rates;  ///< of the nodes' material coordinates, where all of them travel [m/s]
   std::vector<double> rest;        ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained

@@ -139,8 +139,8 @@ void CurrentBeam<D>::adopt_elements(const BeamPart& changed) {
                                        : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   const auto& masses = model_.masses.points;
-  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int same) {
-    Span<D> next(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, same);
+  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int unchanged) {
+    Span<D> next(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, unchanged);
     if (!span) next.reserve(mesh_.elements());
     span = std::move(next);
   };

@@ -106,8 +106,8 @@ class CurrentBeam {
   /// Writes the state of a chain whose mesh is this one; tallies, and angles of a section that spins, are those of
   /// `old`, if there is one.
   void write_state(const ChainState<D>& chain, const Eigen::VectorXd& old, Eigen::VectorXd& y) const;
-  /// Brings a state of the beam before up to date with what an event has made of nodes and joints: a chain, of which
-  /// the mesh has a part, without frames or masses that ride.
+  /// Brings a state of the beam before an event up to date with what the event has made of nodes and joints: the chain,
+  /// which may hold a part of the mesh, and no frames or masses that ride.
   void write_nodes(const ChainState<D>& chain, Eigen::VectorXd& y) const;
   /// The state at t = 0 of that chain, from which nuts and supports count.
   Eigen::VectorXd start(const ChainState<D>& chain);

@@ -275,19 +275,19 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
 
   const LengthControl& control = model().length_control;
   // an impact, or a mass that gets a node or loses it, changes more than a mesh; frames have energies of their own
-  const bool looks_at_all =
+  const bool observes_all =
       type == EventType::contact || type == EventType::end_merge || rider().has_value() || Beam::frames() != nullptr;
   const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
   const bool conserves = transfers && control.velocities == VelocityTransfer::conservative;
-  const bool changes_nodes_alone = (remeshes(type) || type == EventType::passage) && !looks_at_all;
+  const bool changes_nodes_alone = (remeshes(type) || type == EventType::passage) && !observes_all;
   const bool is_local = changes_nodes_alone && !conserves && places().size() == 1 && links_.all().empty() &&
                         mesh().elements() > control.most_whole;
   const BeamPart part = is_local ? part_around_joint() : BeamPart{};
   const EventReach reach = reach_of(dues, part);
   std::vector<EventRecord<D>> records = records_of(dues, part, y, t);
   EventRecord<D>& record = records.front();
-  const Energy energy_before = looks_at_all ? observe(y, t, ledger_points).energy : Energy{};
-  const Energy own_before = looks_at_all || conserves ? observe(y, t, own_points).energy : Energy{};
+  const Energy energy_before = observes_all ? observe(y, t, ledger_points).energy : Energy{};
+  const Energy own_before = observes_all || conserves ? observe(y, t, own_points).energy : Energy{};
   const Eigen::VectorXd momenta_before = velocities_.momenta(y, t, part);
   const double work_before = layout().tallies.of(y).supports;
 
@@ -324,13 +324,13 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   if (conserves) {
     const auto gained = [&] {
       Beam::take_rates(y, record.after);
-      if (looks_at_all) return (observe(y, t, own_points).energy - own_before).total();
+      if (observes_all) return (observe(y, t, own_points).energy - own_before).total();
       return energy_jump(*this, record.before, record.after, reach, t, own_points).total();
     };
     velocities_.restore(momenta_before, gained, y, t);
   }
   if (transfers || type == EventType::end_merge) Beam::take_rates(y, record.after);
-  if (looks_at_all) {
+  if (observes_all) {
     record.jump = observe(y, t, ledger_points).energy - energy_before;
     record.discrete_jump = (observe(y, t, own_points).energy - own_before).total();
   } else {
