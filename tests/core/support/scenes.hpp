@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "scene/derived.hpp"
 #include "scene/simulate.hpp"
 
 namespace vlbeam::test {
@@ -110,6 +111,22 @@ inline Scene rope(const std::vector<SlidingJointSpec>& joints, ElementKind eleme
   set_tolerance(scene, IntegratorType::fehlberg78, 1e-12);
   scene.duration = 0.3;
   scene.output.interval = 0.01;
+  return scene;
+}
+
+/// Example 3 of Ding & Ouyang (2022): a mass slides along a semicircle suspended at both ends.
+inline Scene semicircle(int elements) {
+  Scene scene;
+  scene.beam.curve = {.type = CurveType::arc, .radius = 2, .from_degrees = 180, .to_degrees = 360};
+  scene.beam.section.radius = 0.02;
+  scene.beam.material.youngs_modulus = 2e8;
+  scene.beam.elements = elements;
+  scene.start.type = scene.end.type = SupportType::pin;
+  scene.sliding_mass = SlidingMassSpec{};
+  scene.sliding_mass->position = beam_length(scene) / 16;
+  set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
+  scene.duration = 0.4;
+  scene.output.interval = 0.05;
   return scene;
 }
 

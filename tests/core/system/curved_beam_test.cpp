@@ -11,22 +11,6 @@
 namespace vlbeam::test {
 namespace {
 
-/// Example 3 of Ding & Ouyang (2022): a mass slides along a semicircle suspended at both ends.
-Scene semicircle(int elements) {
-  Scene scene;
-  scene.beam.curve = {.type = CurveType::arc, .radius = 2, .from_degrees = 180, .to_degrees = 360};
-  scene.beam.section.radius = 0.02;
-  scene.beam.material.youngs_modulus = 2e8;
-  scene.beam.elements = elements;
-  scene.start.type = scene.end.type = SupportType::pin;
-  scene.sliding_mass = SlidingMassSpec{};
-  scene.sliding_mass->position = beam_length(scene) / 16;
-  set_tolerance(scene, IntegratorType::fehlberg78, 1e-11);
-  scene.duration = 0.4;
-  scene.output.interval = 0.05;
-  return scene;
-}
-
 Scene without_gravity(Scene scene) {
   scene.gravity = {0, 0, 0};
   return scene;

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "scene/build.hpp"
-#include "scene/scene.hpp"
 #include "tests/core/support/chain_models.hpp"
+#include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -131,13 +131,7 @@ TYPED_TEST(LocalEvent, GivesGuidedJointsTheSameVelocities) {
 
 TEST(LocalEventOfCurvedBeam, DoesAsOneOfTheWholeBeam) {
   for (const auto merge : {MergePolicy::rest_arc, MergePolicy::point_fit, MergePolicy::relaxed}) {
-    Scene scene;
-    scene.beam.curve = {.type = CurveType::arc, .radius = 2, .from_degrees = 180, .to_degrees = 360};
-    scene.beam.section.radius = 0.02;
-    scene.beam.material.youngs_modulus = 2e8;
-    scene.beam.elements = elements;
-    scene.start.type = scene.end.type = SupportType::pin;
-    scene.sliding_mass = SlidingMassSpec{};
+    Scene scene = semicircle(elements);
     scene.sliding_mass->position = std::numbers::pi;
     auto model = build_model<2>(scene);
     model.length_control.merge = merge;
