@@ -5,7 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/beam/chord_tangent.hpp"
 #include "core/element/fixed_rest.hpp"
 #include "core/pieces.hpp"
 
@@ -265,18 +264,20 @@ void Span<D>::factor(int known) {
 }
 
 template <int D>
-double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
+double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force, int most) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
+  const std::ptrdiff_t packs = packs_of(most);
   const double dissipation =
-      sum_in_meeting_pieces<double>(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+      sum_in_meeting_pieces<double>(packs, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
         return kernels.forces(some_packs(first, n), section_, q, rate, force);
       });
   if (curved_at_rest_) {
-    in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    in_meeting_pieces(packs, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
       kernels.rest_forces(some_packs(first, n), section_, q, force);
     });
   }
-  in_pieces(std::ssize(load_), node_size<D>, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+  const std::ptrdiff_t nodes = std::min(std::ssize(load_), packs * Pack::width + 1);
+  in_pieces(nodes, node_size<D>, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     for (std::ptrdiff_t i = first; i < first + n; ++i) {
       const int at = node(static_cast<int>(i));
       const auto& load = load_[static_cast<std::size_t>(i)];
@@ -288,27 +289,11 @@ double Span<D>::add_forces(const double* q, const double* rate, const Vector& gr
 }
 
 template <int D>
-void Span<D>::add_inertia(const double* a, double* out, int left_out) const {
+void Span<D>::add_inertia(const double* a, double* out, int left_out, int most) const {
   const std::ptrdiff_t from = left_out / Pack::width;
-  in_meeting_pieces(std::ssize(packs_) - from, numbers_in_pack, [=, this](std::ptrdiff_t first, std::ptrdiff_t n) {
+  in_meeting_pieces(packs_of(most) - from, numbers_in_pack, [=, this](std::ptrdiff_t first, std::ptrdiff_t n) {
     add_pack_inertia<D>(some_packs(from + first, n), a, out);
   });
-}
-
-template <int D>
-void Span<D>::rest_tangents(Packs packs, const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
-                            NodeTangent<D>* lower) const {
-  for (const auto& pack : packs) {
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      const auto tangent = rest_tangent<D>(pack.tables->basis, pack.tables->rest, i, element_nodes<D>(q, k), section_);
-      add_chord_tangent<D>(
-          [&](std::size_t row, std::size_t column) -> Eigen::Matrix<double, D, D> {
-            return by_q * tangent[row][column];
-          },
-          diagonal + k, upper + k, lower + k);
-    }
-  }
 }
 
 template <int D>
@@ -318,7 +303,7 @@ void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeig
   in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     const Packs packs = some_packs(first, n);
     kernels.tangents(packs, section_, q, rate, by, diagonal, upper, lower);
-    if (curved_at_rest_) rest_tangents(packs, q, by.q, diagonal, upper, lower);
+    if (curved_at_rest_) kernels.rest_tangents(packs, section_, q, by.q, diagonal, upper, lower);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,15 +30,18 @@ class Span {
        const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr,
        int unchanged = 0);
 
-  /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
-  double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
+  static constexpr int all = std::numeric_limits<int>::max();
+
+  /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W]. Of at least
+  /// so many elements next to the outer node: whole packs are computed.
+  double add_forces(const double* q, const double* rate, const Vector& gravity, double* force, int most = all) const;
 
   /// First moment of mass, the integral of rhoA r [kg m], by nodal positions; by their rates, the momentum.
   Vector first_moment(const double* q) const;
 
   /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`: of all elements but so many next to
-  /// the outer node, a multiple of Pack::width.
-  void add_inertia(const double* a, double* out, int left_out = 0) const;
+  /// the outer node, a multiple of Pack::width; of at least `most`.
+  void add_inertia(const double* a, double* out, int left_out = 0, int most = all) const;
 
   /// Adds the tangent of M a minus the elastic and viscous forces to the node blocks of a block tridiagonal matrix:
   /// upper[k] couples node k to k + 1, lower[k] to k - 1.
@@ -73,8 +77,6 @@ class Span {
     NodeBlock<D> inverse;
     CouplingBlock<Components> next;
   };
-  void rest_tangents(Packs packs, const double* q, double by_q, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
-                     NodeTangent<D>* lower) const;
   /// What an element's tables were made for.
   struct Element {
     double x_a, x_b;
@@ -94,6 +96,10 @@ class Span {
     return step_ > 0 ? element(p * Pack::width) : element(p * Pack::width + count - 1);
   }
   const FixedInertia& inertia(int i) const;
+  /// How many packs hold `elements`.
+  std::ptrdiff_t packs_of(int elements) const {
+    return elements < count() ? (elements + Pack::width - 1) / Pack::width : std::ssize(packs_);
+  }
   Packs some_packs(std::ptrdiff_t first, std::ptrdiff_t n) const {
     return Packs(packs_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(n));
   }

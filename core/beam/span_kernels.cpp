@@ -49,6 +49,16 @@ void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
   }
 }
 
+/// `scale` times one lane of a block.
+template <int D>
+Eigen::Matrix<double, D, D> lane(const Eigen::Matrix<Pack, D, D>& block, int i, double scale) {
+  Eigen::Matrix<double, D, D> result;
+  for (int c = 0; c < D; ++c) {
+    for (int d = 0; d < D; ++d) result(c, d) = scale * block(c, d)[i];
+  }
+  return result;
+}
+
 #ifdef VLBEAM_GENERAL_KERNELS
 constexpr bool has_general = true;
 #else
@@ -141,10 +151,7 @@ template <int D, Kernel K>
         }
       }
       auto stiffness = [&](std::size_t row, std::size_t column) {
-        Matrix result;
-        for (int c = 0; c < D; ++c) {
-          for (int d = 0; d < D; ++d) result(c, d) = by.q * elastic[row][column](c, d)[i];
-        }
+        Matrix result = lane<D>(elastic[row][column], i, by.q);
         if (section.damped()) result += viscous[row][column];
         return result;
       };
@@ -184,6 +191,22 @@ template <int D>
 }
 
 template <int D>
+[[gnu::flatten]] void rest_tangents(Packs packs, const BeamSection& section, const double* q, double by_q,
+                                    NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) {
+  for (const auto& pack : packs) {
+    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
+    const auto tangent = rest_tangent<Pack, D>(pack.tables->basis, pack.tables->rest, e, section);
+    for (int i = 0; i < pack.count; ++i) {
+      const int k = pack.first + i;
+      const auto stiffness = [&](std::size_t row, std::size_t column) {
+        return lane<D>(tangent[row][column], i, by_q);
+      };
+      add_chord_tangent<D>(stiffness, diagonal + k, upper + k, lower + k);
+    }
+  }
+}
+
+template <int D>
 void tangents(Packs packs, const BeamSection& section, const double* q, const double* rate, const TangentWeights& by,
               NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) {
   if (!has_general && is_general(section)) {
@@ -197,7 +220,7 @@ void tangents(Packs packs, const BeamSection& section, const double* q, const do
 
 template <int D>
 SpanKernels<D> span_kernels() {
-  return {&forces<D>, &rest_forces<D>, &tangents<D>};
+  return {&forces<D>, &rest_forces<D>, &tangents<D>, &rest_tangents<D>};
 }
 template SpanKernels<2> span_kernels();
 template SpanKernels<3> span_kernels();

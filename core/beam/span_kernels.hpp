@@ -40,6 +40,9 @@ struct SpanKernels {
   /// As Span::add_tangent.
   void (*tangents)(Packs packs, const BeamSection& section, const double* q, const double* rate,
                    const TangentWeights& by, NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower);
+  /// Adds the tangent of minus what rest_forces() adds, times `by_q`.
+  void (*rest_tangents)(Packs packs, const BeamSection& section, const double* q, double by_q, NodeTangent<D>* diagonal,
+                        NodeTangent<D>* upper, NodeTangent<D>* lower);
 };
 
 /// Those for an instruction set that is available().

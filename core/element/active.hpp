@@ -86,8 +86,8 @@ class Active {
     return chain(power, a, power);
   }
   friend Active tanh(const Active& a) {
-    const double cosine = portable::cosh(a.value_);
-    return chain(portable::tanh(a.value_), a, 1 / (cosine * cosine));
+    const double value = portable::tanh(a.value_);
+    return chain(value, a, 1 - value * value);
   }
   friend Active asin(const Active& a) {
     return chain(portable::asin(a.value_), a, 1 / std::sqrt(1 - a.value_ * a.value_));

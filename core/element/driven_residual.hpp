@@ -19,7 +19,19 @@ std::array<Vec<Real, D>, 4> nodal_residual(const MovingEquations<Real, D>& eq, c
   return r;
 }
 
-/// The same of x_A and x_B: the forces that guide the ends along the beam [N].
+/// Its M q'' of nodes that alone accelerate.
+template <class Real, int D>
+std::array<Vec<Real, D>, 4> nodal_inertia(const MovingEquations<Real, D>& eq, const NodalCubic<Real, D>& a) {
+  const std::array<Vec<Real, D>, 4> nodal{a.r_a, a.s_a, a.r_b, a.s_b};
+  std::array<Vec<Real, D>, 4> r;
+  for (std::size_t i = 0; i < 4; ++i) {
+    r[i] = nodal[0] * eq.mass[i][0];
+    for (std::size_t j = 1; j < 4; ++j) r[i] += nodal[j] * eq.mass[i][j];
+  }
+  return r;
+}
+
+/// That residual of x_A and x_B: the forces that guide the ends along the beam [N].
 template <class Real, int D>
 std::array<Real, 2> guiding_forces(const MovingEquations<Real, D>& eq, const MovingCoordinates<Real, D>& a) {
   const std::array<Vec<Real, D>, 4> nodal{a.e.r_a, a.e.s_a, a.e.r_b, a.e.s_b};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <type_traits>
 #include <vector>
 
 #include "core/element/fixed_tangent.hpp"
@@ -28,36 +27,14 @@ FixedForce<Real, D> rest_force(const FixedBasis<Real>& basis, const std::vector<
   return force;
 }
 
-/// Derivative of minus that force, for the element in lane `lane` of a pack; of a single element, for that.
-template <int D, class Real>
-ChordTangent<double, D> rest_tangent(const FixedBasis<Real>& basis, const std::vector<RestStrain<Real>>& rest, int lane,
-                                     const NodalCubic<double, D>& e, const BeamSection& section) {
-  const auto of = [lane](const Real& values) -> double {
-    if constexpr (std::is_same_v<Real, double>) {
-      return values;
-    } else {
-      return values[lane];
-    }
-  };
-  using Vector = Vec<double, D>;
-  using Matrix = Eigen::Matrix<double, D, D>;
-  ChordTangent<double, D> tangent;
-  for (auto& row : tangent) row.fill(Matrix::Zero());
-  const Vector chord = e.r_b - e.r_a;
-  basis.visit(section, [&](const auto& point, const BeamSection& felt, std::size_t g) {
-    const Vector r_x = chord * of(point.s_x[0]) + e.s_a * of(point.s_x[1]) + e.s_b * of(point.s_x[2]);
-    const Vector r_xx = chord * of(point.s_xx[0]) + e.s_a * of(point.s_xx[1]) + e.s_b * of(point.s_xx[2]);
-    const RestStrain<double> strain{of(rest[g].axial), of(rest[g].curvature), {}, {}, {}};
-    const RestTangent<D> k(r_x, r_xx, strain, felt);
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Matrix by_p = of(point.weight) * (k.pp * of(point.s_x[j]) + k.pm * of(point.s_xx[j]));
-      const Matrix by_m = of(point.weight) * (k.pm.transpose() * of(point.s_x[j]) + k.mm * of(point.s_xx[j]));
-      for (std::size_t i = 0; i < 3; ++i) {
-        tangent[i][j] += by_p * of(point.s_x[i]) + by_m * of(point.s_xx[i]);
-      }
-    }
-  });
-  return tangent;
+/// Derivative of minus that force.
+template <class Real, int D>
+ChordTangent<Real, D> rest_tangent(const FixedBasis<Real>& basis, const std::vector<RestStrain<Real>>& rest,
+                                   const NodalCubic<Real, D>& e, const BeamSection& section) {
+  return chord_tangent<Real, D>(basis, e, section,
+                                [&rest](const auto& r_x, const auto& r_xx, const auto& felt, std::size_t index) {
+                                  return RestTangent<Real, D>(r_x, r_xx, rest[index], felt);
+                                });
 }
 
 }  // namespace vlbeam

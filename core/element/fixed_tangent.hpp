@@ -15,53 +15,59 @@ namespace vlbeam {
 template <class Real, int D>
 using ChordTangent = std::array<std::array<Eigen::Matrix<Real, D, D>, 3>, 3>;
 
-/// Adds the second derivative of the strain energy at `points` that feel `section` to the blocks i <= j. No branch on
-/// values: `Real` may be a Pack. Entry by entry and unrolled: matrices of packs would go through memory.
-template <class Real, int D>
-void add_elastic_tangent(const std::vector<typename FixedBasis<Real>::Point>& points, const NodalCubic<Real, D>& e,
-                         const BeamSection& section, ChordTangent<Real, D>& tangent) {
-  using Vector = Vec<Real, D>;
-  const Vector chord = e.r_b - e.r_a;
-  for (const auto& point : points) {
-    const Stiffness& stiffness = section.stiffness;
-    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
-    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
-    const ElasticTangent<Real, D> k(r_x, r_xx, stiffness);
+/// Adds those of a point with the derivatives `k` of its stresses (ElasticTangent) to the blocks i <= j. Entry by entry
+/// and unrolled: matrices of packs would go through memory.
+template <class Real, int D, class PointTangent>
+void add_point_tangent(const PointTangent& k, const typename FixedBasis<Real>::Point& point, bool bends,
+                       ChordTangent<Real, D>& tangent) {
 #pragma GCC unroll 3
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
-      for (int c = 0; c < D; ++c) {
-        for (int d = 0; d < D; ++d) {
-          Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
-          if (stiffness.bends()) {
-            by_p += k.pm(c, d) * w_xx;
-            by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
-          }
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Real w_x = point.weight * point.s_x[j], w_xx = point.weight * point.s_xx[j];
+    for (int c = 0; c < D; ++c) {
+      for (int d = 0; d < D; ++d) {
+        Real by_p = k.pp(c, d) * w_x, by_m = Real(0);
+        if (bends) {
+          by_p += k.pm(c, d) * w_xx;
+          by_m = k.pm(d, c) * w_x + k.mm(c, d) * w_xx;
+        }
 #pragma GCC unroll 3
-          for (std::size_t i = 0; i <= j; ++i) {
-            Real& sum = tangent[i][j](c, d);
-            if (stiffness.bends()) sum += by_m * point.s_xx[i];
-            sum += by_p * point.s_x[i];
-          }
+        for (std::size_t i = 0; i <= j; ++i) {
+          Real& sum = tangent[i][j](c, d);
+          if (bends) sum += by_m * point.s_xx[i];
+          sum += by_p * point.s_x[i];
         }
       }
     }
   }
 }
 
-/// Second derivative of the strain energy of a fixed-length element.
-template <class Real, int D>
-ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
-                                      const BeamSection& section) {
+/// Sum of add_point_tangent() over the points of an element, at(r_x, r_xx, section, index of the point) their `k`. No
+/// branch on values: `Real` may be a Pack.
+template <class Real, int D, class At>
+ChordTangent<Real, D> chord_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
+                                    const BeamSection& section, const At& at) {
+  using Vector = Vec<Real, D>;
   ChordTangent<Real, D> tangent;
   for (auto& row : tangent) row.fill(Eigen::Matrix<Real, D, D>::Zero());
-  basis.visit_kinds(section, [&](const auto& points, const BeamSection& felt) {
-    add_elastic_tangent<Real, D>(points, e, felt, tangent);
+  const Vector chord = e.r_b - e.r_a;
+  basis.visit(section, [&](const auto& point, const BeamSection& felt, std::size_t index) {
+    const Vector r_x = chord * point.s_x[0] + e.s_a * point.s_x[1] + e.s_b * point.s_x[2];
+    const Vector r_xx = chord * point.s_xx[0] + e.s_a * point.s_xx[1] + e.s_b * point.s_xx[2];
+    add_point_tangent<Real, D>(at(r_x, r_xx, felt, index), point, felt.bends(), tangent);
   });
   for (std::size_t i = 1; i < 3; ++i) {
     for (std::size_t j = 0; j < i; ++j) tangent[i][j] = tangent[j][i].transpose();
   }
   return tangent;
+}
+
+/// Second derivative of the strain energy of a fixed-length element.
+template <class Real, int D>
+ChordTangent<Real, D> elastic_tangent(const FixedBasis<Real>& basis, const NodalCubic<Real, D>& e,
+                                      const BeamSection& section) {
+  return chord_tangent<Real, D>(basis, e, section, [](const auto& r_x, const auto& r_xx, const auto& felt, auto) {
+    return ElasticTangent<Real, D>(r_x, r_xx, felt.stiffness);
+  });
 }
 
 /// Tangent of minus the viscous forces, by automatic differentiation, for the element in lane `lane` of a pack.

@@ -80,13 +80,13 @@ TangentOf<Real, Ends, D, Unknown> tangent_sums(const MovingCoordinates<Real, D>&
         by_acceleration += by.remainder;
         Vector elastic_p = elastic.p, elastic_m = elastic.m;
         Matrix pp = k.pp, pm = k.pm, mm = k.mm;
-        using Work = typename RestTangent<D>::Work;
+        using Work = typename RestTangent<double, D>::Work;
         [[maybe_unused]] Work along{Vec<double, D>::Zero(), Vec<double, D>::Zero()};  // of the stresses on rest strains
         std::array<Work, Unknown> on_end;
         on_end.fill(along);
         if constexpr (!plain) {
           if (rest != nullptr) {
-            const RestTangent<D> from_rest(at.r_x, at.r_xx, *rest, section);
+            const RestTangent<double, D> from_rest(at.r_x, at.r_xx, *rest, section);
             elastic_p += from_rest.p;
             elastic_m += from_rest.m;
             pp += from_rest.pp;

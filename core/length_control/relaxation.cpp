@@ -92,7 +92,7 @@ class Patch {
       if (!element.rest.empty()) {
         const auto more = rest_force<double, D>(element.basis, element.rest, e, undamped);
         f.r_b += more.r_b, f.s_a += more.s_a, f.s_b += more.s_b;
-        const auto stiffer = rest_tangent<D>(element.basis, element.rest, 0, e, undamped);
+        const auto stiffer = rest_tangent<double, D>(element.basis, element.rest, e, undamped);
         for (std::size_t i = 0; i < 3; ++i) {
           for (std::size_t j = 0; j < 3; ++j) k[i][j] += stiffer[i][j];
         }

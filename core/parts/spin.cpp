@@ -154,6 +154,12 @@ bool Spin::accelerate(const double* q, const double* rate, double t, double* a, 
   return true;
 }
 
+void Spin::inertia(const double* a, double* r) const {
+  Eigen::Map<Eigen::VectorXd>(r, coordinates()).setZero();
+  chain_.add_inertia(a, marks_, r);
+  for (const DrivenAngle& drive : model_.drives) r[angle(drive.node)] = a[angle(drive.node)];
+}
+
 void Spin::drive(const double* a, double t, double* r) const {
   for (const DrivenAngle& drive : model_.drives) {
     r[angle(drive.node)] = a[angle(drive.node)] - drive.theta(t).acceleration;

@@ -69,6 +69,8 @@ class Spin {
   double residual(const double* q, const double* rate, const double* a, double t, double* r);
   /// The same of the elements alone, without torques and what flows in with the matter.
   double inner_residual(const double* q, const double* rate, const double* a, double* r);
+  /// Writes M a, and of driven angles a itself.
+  void inertia(const double* a, double* r) const;
   /// Puts the equations of driven angles in place of theirs.
   void drive(const double* a, double t, double* r) const;
   /// Powers of drives and torques at the accelerations `a`; `more` acts on the angles, too, unless it is null.

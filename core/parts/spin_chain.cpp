@@ -88,6 +88,18 @@ double SpinChain::residual(const double* q, const double* rate, const double* a,
   return lost;
 }
 
+void SpinChain::add_inertia(const double* a, const Nodes& nodes, double* r) const {
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const int i = static_cast<int>(k);
+    const Coordinates at = local(a, nodes, &Prescribed::value, i);  // angles and their rates do not count
+    const Equations of = field_ == AngleField::hermite
+                             ? MovingElement<double, 1, MovingEnds::both>::masses(at, WeightFunction{}, table_, law_)
+                             : equations(at, at);
+    const auto rows = nodal_inertia(of, at.e);
+    scatter(i, {rows[0][0], rows[1][0], rows[2][0], rows[3][0]}, r);
+  }
+}
+
 bool SpinChain::solve(double* f) {
   mass_.reset(nodes());
   for (std::size_t k = 0; k < elements_.size(); ++k) mass_.add(static_cast<int>(k), elements_[k].mass);

@@ -52,6 +52,8 @@ class SpinChain {
   void solve_again(double* f);
   /// Adds M a - Q of all elements without their equations; returns the power lost to damping [W].
   double residual(const double* q, const double* rate, const double* a, const Nodes& nodes, double* r);
+  /// Adds M a of the angles and twists.
+  void add_inertia(const double* a, const Nodes& nodes, double* r) const;
   /// Forces along the beam [N] that move the ends of element k as their marks move, of the last residual().
   const std::array<double, 2>& guiding_forces(int k) const { return guiding_[static_cast<std::size_t>(k)]; }
   /// Derivative of the residual of element k by angle and twist at its ends.

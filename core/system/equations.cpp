@@ -8,17 +8,18 @@ namespace vlbeam {
 
 template <int D>
 double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                              Eigen::VectorXd& r) const {
+                              Eigen::VectorXd& r, Extent extent) const {
   const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
+  const int most = extent == Extent::ends ? 1 : Span<D>::all;
   const Vec<double, D> on_beam = beam_.beam_gravity(t);
   in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n).setZero(); });
   double lost = 0;
-  at_spans([&](const Span<D>& span) { lost += span.add_forces(q.data(), v.data(), on_beam, r.data()); });
+  at_spans([&](const Span<D>& span) { lost += span.add_forces(q.data(), v.data(), on_beam, r.data(), most); });
   for (const auto& part : beam_.acting()) lost += part->add_force(now, r.data()).dissipated;
   in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n) = -r.segment(first, n); });
   const PointMasses<D>& masses = beam_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
-  at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data()); });
+  at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data(), 0, most); });
   if (beam_.frames() != nullptr) beam_.frames()->add_inertia(q.data(), v.data(), a.data(), r.data());
   if (beam_.moving_mesh() != nullptr) {
     lost += flow_.add_residual(q.data(), v.data(), a.data(), t, r.data());

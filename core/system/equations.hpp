@@ -12,12 +12,19 @@ namespace vlbeam {
 template <int D>
 class Equations {
  public:
+  /// Which elements of fixed length count: what holds the beam at its ends asks for those there alone.
+  enum class Extent { whole, ends };
+
   /// `beam` must outlive this object; its events may change it at any time.
   explicit Equations(CurrentBeam<D>& beam) : beam_(beam), flow_(beam) {}
 
   /// Writes r of the coordinates of the state, at the start of an array that may be longer; returns the power lost [W].
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                  Eigen::VectorXd& r) const;
+                  Eigen::VectorXd& r, Extent extent = Extent::whole) const;
+  /// Adds M a of elements all of whose nodes travel as prescribed, at the time of the last residual.
+  void add_travelling_inertia(const Eigen::VectorXd& a, Eigen::VectorXd& r) const {
+    flow_.add_inertia(a.data(), r.data());
+  }
   /// Makes of `tangent` that of the residual with weights `by`, but for the angles of Spin, which couple to nothing
   /// else.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,

@@ -19,6 +19,8 @@ class Flow {
   /// M a - Q of the elements and of what comes in, of the nodal accelerations `a`, added to an array like q; returns
   /// the power lost to damping [W].
   double add_residual(const double* q, const double* rate, const double* a, double t, double* r);
+  /// M a of the elements of the last add_residual(), added to an array like q.
+  void add_inertia(const double* a, double* r) const { beam_.moving_mesh()->add_inertia(elements_, a, r); }
   /// What the beam is given in a second at the accelerations `a`; `elements` are those of the last evaluation.
   Tally power(const JointElements& elements, const double* q, const double* rate, const double* a, double t);
   /// The same of the elements of the last add_residual().

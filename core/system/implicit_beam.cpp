@@ -78,8 +78,8 @@ bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::Vect
 /// With what links do, and without what holds.
 template <int D>
 double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                      double t, Eigen::VectorXd& r) const {
-  const double lost = equations_.residual(q, v, a, t, r);
+                                      double t, Eigen::VectorXd& r, typename Equations<D>::Extent extent) const {
+  const double lost = equations_.residual(q, v, a, t, r, extent);
   links_.add_forces(q.data(), a.data() + first_link_multiplier(), reference_mass_, r.data());
   return lost;
 }
@@ -116,11 +116,17 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 
 template <int D>
 bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
-  if (beam_.moving_mesh() != nullptr || beam_.spin() != nullptr || beam_.frames() != nullptr) return false;
+  if (beam_.frames() != nullptr || beam_.nut_place()) return false;
   refresh();
-  beam_.fill_masses(q.data(), t, elements_);
-  accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
-  r.tail(r.size() - beam_.coordinates()).setZero();
+  if (beam_.moving_mesh() != nullptr) {
+    r.setZero();
+    equations_.add_travelling_inertia(a, r);
+  } else {
+    beam_.fill_masses(q.data(), t, elements_);
+    accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
+    r.tail(r.size() - beam_.coordinates()).setZero();
+  }
+  if (const Spin* spin = beam_.spin()) spin->inertia(a.data() + angles(), r.data() + angles());
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     const Eigen::Index at = beam_.departed_at(i);
     r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);
@@ -190,9 +196,8 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t, by_nut.size() > 0 ? &by_nut : nullptr);
   }
   if (!beam_.model().driven()) return power;
-  accelerations_.count_evaluation();
   free_.resize(q.size());
-  free_residual(q, v, a, t, free_);
+  free_residual(q, v, a, t, free_, Equations<D>::Extent::ends);
   at_guides([&](std::size_t i) { power.supports += free_[places()[i].mark] * v[places()[i].mark]; });
   holding().at(t);
   power.supports += holding().power(free_.data(), v.data());

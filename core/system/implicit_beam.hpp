@@ -45,7 +45,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
-  /// Of a beam that does not turn about its axis.
+  /// Of a beam without frames and nuts, at the time of the last residual.
   bool inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) override;
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
   void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
@@ -123,7 +123,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   Eigen::Index angles() const { return layout().angle(); }
   /// Residual without constraints.
   double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                       Eigen::VectorXd& r) const;
+                       Eigen::VectorXd& r, typename Equations<D>::Extent extent = Equations<D>::Extent::whole) const;
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale);
   /// What the thread does to the angles as it pushes the nut of these coordinates [N].
   Eigen::VectorXd nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double push) const;

@@ -151,20 +151,31 @@ void MovingMesh<D>::take_inertia(const ChainView<D>& beam, const std::vector<Mov
 }
 
 template <int D>
+void MovingMesh<D>::add_rows(int k, Rows rows, const double* a, double* r) const {
+  if (model_.rotary.present()) {
+    const auto inertia = rotary_[static_cast<std::size_t>(k)].inertia(model_.rotary, element_nodes<D>(a, k));
+    for (std::size_t i = 0; i < 4; ++i) rows[i] += inertia[i];
+  }
+  position<D>(r, k) += rows[0];
+  slope<D>(r, k) += rows[1];
+  position<D>(r, k + 1) += rows[2];
+  slope<D>(r, k + 1) += rows[3];
+}
+
+template <int D>
 void MovingMesh<D>::add_residual(const Elements& elements, const double* a, double* r) const {
   for (std::size_t k = 0; k < elements.size(); ++k) {
-    const int element = static_cast<int>(k);
-    const auto e = element_nodes<D>(a, element);
-    auto rows =
-        nodal_residual(elements[k], MovingCoordinates<double, D>{e, 0, 0});  // the ends' inertia is in the force
-    if (model_.rotary.present()) {
-      const auto inertia = rotary_[k].inertia(model_.rotary, e);
-      for (std::size_t i = 0; i < 4; ++i) rows[i] += inertia[i];
-    }
-    position<D>(r, element) += rows[0];
-    slope<D>(r, element) += rows[1];
-    position<D>(r, element + 1) += rows[2];
-    slope<D>(r, element + 1) += rows[3];
+    const auto e = element_nodes<D>(a, static_cast<int>(k));
+    const MovingCoordinates<double, D> nodes{e, 0, 0};  // the ends' inertia is in the force
+    add_rows(static_cast<int>(k), nodal_residual(elements[k], nodes), a, r);
+  }
+}
+
+template <int D>
+void MovingMesh<D>::add_inertia(const Elements& elements, const double* a, double* r) const {
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    const auto e = element_nodes<D>(a, static_cast<int>(k));
+    add_rows(static_cast<int>(k), nodal_inertia(elements[k], e), a, r);
   }
 }
 

@@ -41,6 +41,8 @@ class MovingMesh {
   void take_inertia(const ChainView<D>& beam, const std::vector<MovingPart>& parts, Elements& elements);
   /// Adds M a - Q of elements from which that was taken, a the accelerations of the nodes.
   void add_residual(const Elements& elements, const double* a, double* r) const;
+  /// Adds their M a alone.
+  void add_inertia(const Elements& elements, const double* a, double* r) const;
   /// Power of rotary inertia in an element that does not come in by its nodal residual [W].
   double rotary_power(const ChainView<D>& beam, const MovingPart& part, const double* a) const;
   /// Adds the momentum that comes in with the matter at the ends.
@@ -62,7 +64,10 @@ class MovingMesh {
 
  private:
   using Components = typename Support<D>::Components;
+  using Rows = std::array<Vector, 4>;  // of an element's positions and slopes
 
+  /// Adds the rows of element k, and its rotary inertia.
+  void add_rows(int k, Rows rows, const double* a, double* r) const;
   void check_model(const std::vector<WeightFunction>& weights) const;
   void adopt_supports();
   double length(std::size_t k) const { return marks_[k + 1].value - marks_[k].value; }
