@@ -9,6 +9,20 @@ namespace vlbeam {
 // of the rates of strains at material points where the inner angle is 0. That angle is no coordinate: it turns at the
 // rate at which R is least, as the angle itself is that of the least energy. Stiff torsion so does not lock.
 
+/// What the material resists with: w c EI_y, w c EI_z, w c GIp at the first point of a table, then at the second, times
+/// `scale`.
+template <class Real, class Table>
+std::array<Real, 6> resistances(const Table& table, const FrameSection& section, const Real& scale) {
+  std::array<Real, 6> result;
+  for (std::size_t g = 0; g < 2; ++g) {
+    const Real share = scale * Real(table.points[g].weight * section.damping);
+    result[3 * g] = share * Real(section.EI_y);
+    result[3 * g + 1] = share * Real(section.EI_z);
+    result[3 * g + 2] = share * Real(section.GIp);
+  }
+  return result;
+}
+
 /// How the material points at an element's ends move: r_B' - r_A', slopes, and spins about the tangents.
 template <class Real>
 struct FrameRates {
@@ -22,7 +36,7 @@ struct FrameViscous {
   FrameForce<Real> force;
   Real power;
 
-  /// `resists` are w c EI_y, w c EI_z, w c GIp at the first point of the table, then at the second.
+  /// `resists` are resistances().
   FrameViscous(const FrameElement<Real>& element, const std::array<Real, 6>& resists, const FrameRates<Real>& rates)
       : power(0) {
     std::array<FrameForce<Real>, 6> by;
@@ -103,16 +117,10 @@ struct FrameDamping {
       pass(a, 0, rate[N - 2]);
       pass(b, 1, rate[N - 1]);
     }
-    std::array<Real, 6> resists;
     const Real scale = !moves ? Real(1) : section.law == StrainLaw::green ? l : Real(Real(1) / l);
-    for (std::size_t g = 0; g < 2; ++g) {
-      const Real share = scale * Real(table.points[g].weight * section.damping);
-      resists[3 * g] = share * Real(section.EI_y);
-      resists[3 * g + 1] = share * Real(section.EI_z);
-      resists[3 * g + 2] = share * Real(section.GIp);
-    }
     const FrameViscous<Real> lost(
-        element, resists, {Vector(b.r_rate - a.r_rate), Vector(a.s_rate * l), Vector(b.s_rate * l), a.spin, b.spin});
+        element, resistances<Real>(table, section, scale),
+        {Vector(b.r_rate - a.r_rate), Vector(a.s_rate * l), Vector(b.s_rate * l), a.spin, b.spin});
     Answer<Real, N> answer{{}, lost.power};
     const auto put = [&](const End& end, int i, const Vector& on_r, const Vector& on_s, const Real& on_spin) {
       answer.force.template segment<3>(i) = on_r;

@@ -29,6 +29,9 @@ struct Drag {
 
   bool present() const { return linear.present() || quadratic.present(); }
   bool streams() const { return present() && stream.squaredNorm() > 0; }
+  /// Whether the force is a multiple of the velocity, as of mass damping: on an element of fixed length it is its mass
+  /// matrix that damps, then.
+  bool proportional() const { return linear.normal == linear.tangential && !quadratic.present(); }
 
   static bool acts(const Vec<double, D>& /*place*/) { return true; }
   /// Per unstretched length [N/m].
@@ -36,7 +39,7 @@ struct Drag {
   Vec<Real, D> force(const LinePoint<Real, D>& at) const {
     const Vec<Real, D> v = at.v - stream.template cast<Real>();
     Vec<Real, D> f = v * Real(-linear.normal);
-    if (linear.normal == linear.tangential && !quadratic.present()) return f;
+    if (proportional()) return f;
     const Vec<Real, D> t = at.r_x * Real(Real(1) / sqrt(Real(at.r_x.squaredNorm())));
     const Real along = v.dot(t);
     const Vec<Real, D> across = v - t * along;
@@ -52,8 +55,15 @@ struct Drag {
   /// Calls `add(element, matrix)` with the tangent of minus it by the element's coordinates.
   template <class Add>
   void add_tangent(const ChainView<D>& beam, const TangentWeights& by, const Add& add) const {
-    if (present()) add_line_tangent<D>(beam, quadrature_points, *this, by, add);
+    for (int k = 0; present() && k < beam.mesh.elements(); ++k) {
+      add(k, proportional() && !moves_along(beam, k) ? proportional_tangent(beam, k, by)
+                                                     : line_tangent<D>(beam, k, quadrature_points, *this, by));
+    }
   }
+
+ private:
+  Tally add_proportional_force(const ChainView<D>& beam, int k, double* force) const;
+  PointMatrix<D> proportional_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
 };
 
 /// Drag as a part of the equations; `drag` must outlive it.
@@ -63,6 +73,9 @@ class ActingDrag final : public Part<D> {
   explicit ActingDrag(const Drag<D>& drag) : drag_(drag) {}
   Tally add_force(const Motion<D>& motion, double* force) const override {
     return drag_.add_forces(motion.beam, force);
+  }
+  double load_power(const Motion<D>& motion, double* scratch) const override {
+    return drag_.streams() ? drag_.add_forces(motion.beam, scratch).loads : 0;
   }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
     drag_.add_tangent(motion.beam, by,

@@ -1,5 +1,6 @@
 #include "core/parts/frame_packs.hpp"
 
+#include "core/element/frame_damping.hpp"
 #include "core/element/frame_stiffness.hpp"
 
 namespace vlbeam {
@@ -46,15 +47,65 @@ FrameEnds<Pack> ends_of(const FrameNode* nodes, const Elements& k, const double*
           Pack(turned[k[0]], turned[k[1]], turned[k[2]], turned[k[3]])};
 }
 
+/// From arrays of nodes, and of one number a node.
+FrameRates<Pack> rates_of(const double* rate, const double* spins, const Elements& k) {
+  const auto vector = [&](int first) -> Vec<Pack, 3> {
+    std::array<const double*, Pack::width> at;
+    for (std::size_t i = 0; i < k.size(); ++i) at[i] = rate + std::size_t{node_size<3>} * k[i] + first;
+    const auto component = [&](int c) { return Pack(at[0][c], at[1][c], at[2][c], at[3][c]); };
+    return {component(0), component(1), component(2)};
+  };
+  const auto spin = [&](std::size_t end) {
+    return Pack(spins[k[0] + end], spins[k[1] + end], spins[k[2] + end], spins[k[3] + end]);
+  };
+  constexpr int slope = 3, next = node_size<3>;
+  return {vector(next) - vector(0), vector(slope), vector(next + slope), spin(0), spin(1)};
+}
+
+/// With what acts on the spins, which slopes turn, too.
+FrameForce<Pack> on_slopes(FrameForce<Pack> f, const FrameNode* nodes, const Elements& k) {
+  f.s_a += lanes(nodes, k, spin_by_slope) * f.spin_a;
+  f.s_b += lanes(nodes + 1, k, spin_by_slope) * f.spin_b;
+  return f;
+}
+
+void add_lanes(const FrameForce<Pack>& f, const Elements& elements, int count, double* force, double* torque) {
+  for (int i = 0; i < count; ++i) {
+    const std::size_t k = elements[static_cast<std::size_t>(i)];
+    double *a = force + std::size_t{node_size<3>} * k, *b = a + node_size<3>;
+    for (int c = 0; c < 3; ++c) {
+      a[c] += f.chord[c][i];
+      a[3 + c] -= f.s_a[c][i];
+      b[c] -= f.chord[c][i];
+      b[3 + c] -= f.s_b[c][i];
+    }
+    torque[k] -= f.spin_a[i];
+    torque[k + 1] -= f.spin_b[i];
+  }
+}
+
 // Flattened, as the kernels of spans are.
 
 [[gnu::flatten]] FrameForce<Pack> force_of(const FrameTableOf<Pack>& table, const FrameSection& section,
                                            const FrameNode* nodes, const Elements& k, const double* turned) {
   const FrameElement<Pack> element(table, section, ends_of(nodes, k, turned));
+  return on_slopes(element.force(element.inner()), nodes, k);
+}
+
+/// Writes the power that is lost.
+[[gnu::flatten]] FrameForce<Pack> damped_force_of(const FrameTableOf<Pack>& table, const FrameSection& section,
+                                                  const FrameNode* nodes, const Elements& k, const double* turned,
+                                                  const FrameRates<Pack>& rates, Pack& lost) {
+  const FrameElement<Pack> element(table, section, ends_of(nodes, k, turned));
   FrameForce<Pack> f = element.force(element.inner());
-  f.s_a += lanes(nodes, k, spin_by_slope) * f.spin_a;
-  f.s_b += lanes(nodes + 1, k, spin_by_slope) * f.spin_b;
-  return f;
+  const FrameViscous<Pack> viscous(element, resistances<Pack>(table, section, Pack(1)), rates);
+  f.chord += viscous.force.chord;
+  f.s_a += viscous.force.s_a;
+  f.s_b += viscous.force.s_b;
+  f.spin_a += viscous.force.spin_a;
+  f.spin_b += viscous.force.spin_b;
+  lost = viscous.power;
+  return on_slopes(f, nodes, k);
 }
 
 [[gnu::flatten]] FrameStiffness<Pack> stiffness_of(const FrameElement<Pack>& element, const FrameNode* nodes,
@@ -78,19 +129,22 @@ void FramePacks::add_forces(const FrameSection& section, const std::vector<Frame
                             const std::vector<double>& turned, double* force, double* torque) const {
   for (const Four& pack : packs_) {
     const auto f = force_of(pack.table, section, nodes.data(), pack.elements, turned.data());
-    for (int i = 0; i < pack.count; ++i) {
-      const std::size_t k = pack.elements[static_cast<std::size_t>(i)];
-      double *a = force + std::size_t{node_size<3>} * k, *b = a + node_size<3>;
-      for (int c = 0; c < 3; ++c) {
-        a[c] += f.chord[c][i];
-        a[3 + c] -= f.s_a[c][i];
-        b[c] -= f.chord[c][i];
-        b[3 + c] -= f.s_b[c][i];
-      }
-      torque[k] -= f.spin_a[i];
-      torque[k + 1] -= f.spin_b[i];
-    }
+    add_lanes(f, pack.elements, pack.count, force, torque);
   }
+}
+
+double FramePacks::add_damped_forces(const FrameSection& section, const std::vector<FrameNode>& nodes,
+                                     const std::vector<double>& turned, const double* rate,
+                                     const std::vector<double>& spins, double* force, double* torque) const {
+  double lost = 0;
+  for (const Four& pack : packs_) {
+    Pack of_each;
+    const auto f = damped_force_of(pack.table, section, nodes.data(), pack.elements, turned.data(),
+                                   rates_of(rate, spins.data(), pack.elements), of_each);
+    add_lanes(f, pack.elements, pack.count, force, torque);
+    for (int i = 0; i < pack.count; ++i) lost += of_each[i];
+  }
+  return lost;
 }
 
 void FramePacks::add_tangents(const FrameSection& section, const std::vector<FrameNode>& nodes,

@@ -22,6 +22,11 @@ class FramePacks {
   /// `torque` on. `turned` is the twist of each element of the beam, to within half a turn [rad].
   void add_forces(const FrameSection& section, const std::vector<FrameNode>& nodes, const std::vector<double>& turned,
                   double* force, double* torque) const;
+  /// The same with what damping adds, at the rates of nodes, an array like `force`, and spins of nodes; returns the
+  /// power that is lost [W].
+  double add_damped_forces(const FrameSection& section, const std::vector<FrameNode>& nodes,
+                           const std::vector<double>& turned, const double* rate, const std::vector<double>& spins,
+                           double* force, double* torque) const;
   /// Adds `by` times the second derivative of their energy.
   void add_tangents(const FrameSection& section, const std::vector<FrameNode>& nodes, const std::vector<double>& turned,
                     double by, BeamMatrix<3>& tangent) const;

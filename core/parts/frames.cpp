@@ -119,21 +119,39 @@ void Frames::at_torques(double t, const Visit& visit) const {
 Tally Frames::add_force(const Motion<3>& motion, double* force) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate;
   look(q);
-  packs_.add_forces(model_.section, nodes_, turned_, force, force + angle(0));
-  add_sliding_force(q, force);
   Tally power;
-  if (damped()) power.dissipated = add_damping(q, rate, force);
-  power.loads = add_moments(q, rate, motion.t, force);
+  if (damped()) {
+    look_at_spins(rate);
+    power.dissipated =
+        packs_.add_damped_forces(model_.section, nodes_, turned_, rate, spins_, force, force + angle(0)) +
+        add_sliding_damping(q, rate, force);
+  } else {
+    packs_.add_forces(model_.section, nodes_, turned_, force, force + angle(0));
+  }
+  add_sliding_force(q, force);
+  power.loads = add_loads(motion, force);
+  return power;
+}
+
+double Frames::load_power(const Motion<3>& motion, double* scratch) const {
+  if (!model_.loaded()) return 0;
+  look(motion.beam.q);
+  return add_loads(motion, scratch);
+}
+
+double Frames::add_loads(const Motion<3>& motion, double* force) const {
+  const double *q = motion.beam.q, *rate = motion.beam.rate;
+  double power = add_moments(q, rate, motion.t, force);
   if (!model_.torques.present()) return power;
   const auto turn = [&](int k, double torque) {
     force[angle(k)] += torque;
     slope<3>(force, k) += torque * nodes_[static_cast<std::size_t>(k)].spin_by_slope;
-    power.loads += torque * spin_of(rate, k);
+    power += torque * spin_of(rate, k);
   };
   at_torques(motion.t, [&](int k, double on_a, double on_b) {
     turn(k, on_a);
     turn(k + 1, on_b);
-    if (slides(k)) power.loads += add_torque_on_marks(k, q, rate, on_a, on_b, force);
+    if (slides(k)) power += add_torque_on_marks(k, q, rate, on_a, on_b, force);
   });
   return power;
 }

@@ -58,7 +58,7 @@ class Frames final : public Part<3> {
                  std::shared_ptr<const RestTriads> along);
 
   Tally add_force(const Motion<3>& motion, double* force) const override;
-  bool has_power() const override { return model_.loaded() || damped(); }
+  double load_power(const Motion<3>& motion, double* scratch) const override;
   /// With that of the inertia.
   void add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const override;
   /// Adds M a and what is quadratic in velocities.
@@ -122,7 +122,8 @@ class Frames final : public Part<3> {
       visit(moment.node < 0 ? nodes() + moment.node : moment.node, moment);
     }
   }
-  /// Returns their power [W].
+  /// Adds what torques and moments do, once look() was told; returns their power [W].
+  double add_loads(const Motion<3>& motion, double* force) const;
   double add_moments(const double* q, const double* rate, double t, double* force) const;
   /// Looks at all nodes and elements, for what is asked below.
   void look(const double* q) const;
@@ -144,8 +145,8 @@ class Frames final : public Part<3> {
   /// Element k, whose table is of length 1 where its ends may move.
   FrameDamping damping_of(const FrameTable& table, const double* q, int k) const;
   FrameVector gathered(const double* q, int k) const;
-  /// Returns the power that is lost [W].
-  double add_damping(const double* q, const double* rate, double* force) const;
+  /// Of elements between marks that move; returns the power that is lost [W].
+  double add_sliding_damping(const double* q, const double* rate, double* force) const;
   void add_damping_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const;
 
   /// An element between marks of which one or both move.

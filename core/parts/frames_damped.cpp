@@ -35,19 +35,8 @@ FrameVector Frames::gathered(const double* q, int k) const {
   return result;
 }
 
-double Frames::add_damping(const double* q, const double* rate, double* force) const {
+double Frames::add_sliding_damping(const double* q, const double* rate, double* force) const {
   double lost = 0;
-  for (int k = 0; k < elements(); ++k) {
-    if (slides(k)) continue;
-    const auto answer =
-        damping_of(tables_[static_cast<std::size_t>(k)], q, k).at<double, 14>(gathered(q, k), gathered(rate, k));
-    lost += answer.power;
-    for (int e = 0; e < 2; ++e) {
-      position<3>(force, k + e) -= answer.force.segment<3>(7 * e);
-      slope<3>(force, k + e) -= answer.force.segment<3>(7 * e + 3);
-      force[angle(k + e)] -= answer.force[7 * e + 6];
-    }
-  }
   for (const Sliding& sliding : sliding_) {
     const auto answer = damping_of(sliding.unit, q, sliding.element)
                             .at<double, 16>(gathered(sliding, q, false), gathered(sliding, rate, true));

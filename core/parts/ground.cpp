@@ -16,8 +16,9 @@ Tally Ground<D>::add_force(const Motion<D>& motion, double* force) const {
 
 template <int D>
 void Ground<D>::add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const {
-  add_line_tangent<D>(motion.beam, points_, law_, by,
-                      [&](int k, const PointMatrix<D>& matrix) { tangent.add_point(motion.beam, k, matrix); });
+  for (int k = 0; k < motion.beam.mesh.elements(); ++k) {
+    tangent.add_point(motion.beam, k, line_tangent<D>(motion.beam, k, points_, law_, by));
+  }
 }
 
 template class Ground<2>;

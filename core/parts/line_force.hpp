@@ -32,25 +32,34 @@ PointMotion<double, D> resting_point(const MovingKinematics<double, D>& element,
   return point;
 }
 
-/// Adds N^T f of a force per unstretched length to an array like q, summed at Gauss points of all elements. The law
-/// has acts(place), where the force can be other than zero, and force(point). Calls visit(k, motion, force [N/m],
+/// Whether points of element k may move along the beam with its ends.
+template <int D>
+bool moves_along(const ChainView<D>& beam, int k) {
+  return beam.at_joint(k) || beam.marks != nullptr;
+}
+
+/// Adds N^T f of a force per unstretched length to an array like q, summed at Gauss points of element k. The law has
+/// acts(place), where the force can be other than zero, and force(point). Calls visit(k, motion, force [N/m],
 /// weight [m]) at each point where it acts.
 template <int D, class Law, class Visit>
-void add_line_force(const ChainView<D>& beam, int points, const Law& law, double* out, const Visit& visit) {
-  const auto& rule = gauss_legendre(points);
-  for (int k = 0; k < beam.mesh.elements(); ++k) {
-    const MovingKinematics<double, D> element = beam.kinematics(k);
-    const bool unit = beam.weights(k).w == unit_weights, moves = beam.at_joint(k) || beam.marks != nullptr;
-    for (const auto& [u, share] : rule) {
-      const ShapeTable<double> shape = shape_at(element.weights(), unit, u);
-      const PointMotion<double, D> at = moves ? element.at(u, shape) : resting_point<D>(element, shape);
-      if (!law.acts(at.r)) continue;
-      const Vec<double, D> f = law.force(LinePoint<double, D>{at.r, at.r_x, at.v});
-      const double weight = share * element.length();
-      add_point_force<D>(beam, k, at, {weight * f, Vec<double, D>::Zero()}, out);
-      visit(k, at, f, weight);
-    }
+void add_line_force_of(const ChainView<D>& beam, int k, int points, const Law& law, double* out, const Visit& visit) {
+  const MovingKinematics<double, D> element = beam.kinematics(k);
+  const bool unit = beam.weights(k).w == unit_weights, moves = moves_along(beam, k);
+  for (const auto& [u, share] : gauss_legendre(points)) {
+    const ShapeTable<double> shape = shape_at(element.weights(), unit, u);
+    const PointMotion<double, D> at = moves ? element.at(u, shape) : resting_point<D>(element, shape);
+    if (!law.acts(at.r)) continue;
+    const Vec<double, D> f = law.force(LinePoint<double, D>{at.r, at.r_x, at.v});
+    const double weight = share * element.length();
+    add_point_force<D>(beam, k, at, {weight * f, Vec<double, D>::Zero()}, out);
+    visit(k, at, f, weight);
   }
+}
+
+/// The same of all elements.
+template <int D, class Law, class Visit>
+void add_line_force(const ChainView<D>& beam, int points, const Law& law, double* out, const Visit& visit) {
+  for (int k = 0; k < beam.mesh.elements(); ++k) add_line_force_of<D>(beam, k, points, law, out, visit);
 }
 
 /// Of an element whose nodes rest: the derivatives of minus that force.
@@ -106,13 +115,11 @@ PointMatrix<D> moving_line_tangent(const ChainView<D>& beam, int k, int points, 
   return matrix;
 }
 
-/// Calls `add(element, matrix)` with that of each element.
-template <int D, class Law, class Add>
-void add_line_tangent(const ChainView<D>& beam, int points, const Law& law, const TangentWeights& by, const Add& add) {
-  for (int k = 0; k < beam.mesh.elements(); ++k) {
-    const bool moves = beam.at_joint(k) || beam.marks != nullptr;
-    add(k, moves ? moving_line_tangent(beam, k, points, law, by) : fixed_line_tangent(beam, k, points, law, by));
-  }
+/// Of element k.
+template <int D, class Law>
+PointMatrix<D> line_tangent(const ChainView<D>& beam, int k, int points, const Law& law, const TangentWeights& by) {
+  return moves_along(beam, k) ? moving_line_tangent(beam, k, points, law, by)
+                              : fixed_line_tangent(beam, k, points, law, by);
 }
 
 }  // namespace vlbeam

@@ -24,8 +24,9 @@ class Part {
   virtual ~Part() = default;
   /// Adds its generalized forces Q to an array like q; returns the power that it takes and gives.
   virtual Tally add_force(const Motion<D>& motion, double* force) const = 0;
-  /// Whether add_force() returns any. Where it does not, the forces need not be summed to know the power.
-  virtual bool has_power() const { return true; }
+  /// What of the power add_force() counts as of loads [W]; whoever knows it for less than all forces says so. `scratch`
+  /// is an array of forces to write on.
+  virtual double load_power(const Motion<D>& motion, double* scratch) const { return add_force(motion, scratch).loads; }
   /// Adds the tangent of M a - Q as far as it is the part's.
   virtual void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const = 0;
 };

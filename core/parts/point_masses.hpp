@@ -61,6 +61,7 @@ class ActingPointMasses final : public Part<D> {
     masses_.add_weight(motion.beam, motion.gravity, force);
     return {};
   }
+  double load_power(const Motion<D>& /*motion*/, double* /*scratch*/) const override { return 0; }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
     masses_.add_tangent(motion.beam, motion.a, motion.gravity, by,
                         [&](int k, const PointMatrix<D>& matrix) { tangent.add_point(motion.beam, k, matrix); });

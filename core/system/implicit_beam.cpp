@@ -179,9 +179,7 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   if (beam_.model().tallies().loads) {
     free_.setZero(q.size());
     const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
-    for (const auto& part : beam_.acting()) {
-      if (part->has_power()) power.loads += part->add_force(now, free_.data()).loads;
-    }
+    for (const auto& part : beam_.acting()) power.loads += part->load_power(now, free_.data());
     power.loads += beam_.line_power(now.beam, t);
     power.supports += beam_.fed_line_power(now.beam, t);
   }

@@ -38,7 +38,7 @@ TEST(Elementary, HasTheHyperbolicTangentToItsLastDigits) {
                                                         {0.1, 0x1.983d7795f413ap-4},
                                                         {0.3, 0x1.2a4dda7d914fap-2},
                                                         {0.7, 0x1.356fb17af2e91p-1},
-                                                        {3, 0x1.fd77d111a0affp-1},
+                                                        {3, 0x1.fd77d111a0b00p-1},
                                                         {19, 1}}};
   for (const auto& [x, value] : known) {
     EXPECT_NEAR(portable::tanh(x), value, 1e-15 * value) << x;
