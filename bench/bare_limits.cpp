@@ -35,7 +35,9 @@ struct Beam {
       }
       tables->basis.points.push_back(packed);
     }
-    tables->inertia.fill(fixed_inertia(1, unit_weights, beam_rule(5)));
+    for (int lane = 0; lane < Pack::width; ++lane) {
+      tables->set_inertia(lane, fixed_inertia(1, unit_weights, beam_rule(5)));
+    }
     for (int k = 0; k < elements; k += Pack::width) packs.push_back({k, std::min(Pack::width, elements - k), tables});
     for (int i = 0; i <= elements; ++i) q.segment<4>(4 * i) << i, 1e-3 * std::sin(i), 1, 1e-3 * std::cos(i);
   }
@@ -47,7 +49,7 @@ void forces(benchmark::State& state, InstructionSet set) {
   Beam beam(elements);
   const auto kernels = span_kernels<2>(set);
   for (auto _ : state) {
-    kernels.forces(beam.packs, beam.section, beam.q.data(), beam.q.data(), beam.force.data());
+    kernels.forces(beam.packs, beam.section, beam.q.data(), beam.q.data(), {0, -9.81}, beam.force.data());
     benchmark::DoNotOptimize(beam.force.data());
   }
   per_element(state, elements);

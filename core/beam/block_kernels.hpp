@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/element/instruction_set.hpp"
+#include "core/instruction_set.hpp"
 
 namespace vlbeam {
 

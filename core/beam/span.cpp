@@ -69,24 +69,6 @@ std::vector<RestStrain<Pack>> pack_rest(const std::vector<std::vector<RestStrain
   return rest;
 }
 
-template <int D>
-void add_pack_inertia(Packs packs, const double* a, double* out) {
-  for (const auto& pack : packs) {
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      const auto& m = pack.tables->inertia[static_cast<std::size_t>(i)].mass;
-      const auto e = element_nodes<D>(a, k);
-      auto inertia = [&](std::size_t row) -> Vec<double, D> {
-        return m[row][0] * e.r_a + m[row][1] * e.s_a + m[row][2] * e.r_b + m[row][3] * e.s_b;
-      };
-      position<D>(out, k) += inertia(0);
-      slope<D>(out, k) += inertia(1);
-      position<D>(out, k + 1) += inertia(2);
-      slope<D>(out, k + 1) += inertia(3);
-    }
-  }
-}
-
 }  // namespace
 
 template <int D>
@@ -139,8 +121,6 @@ int Span<D>::take_over(Span& before, const Mesh& mesh, int unchanged) {
   }
   pivots_ = std::move(before.pivots_);
   pivots_.resize(static_cast<std::size_t>(known));
-  load_ = std::move(before.load_);
-  load_.resize(static_cast<std::size_t>(known));
   return known;
 }
 
@@ -150,7 +130,6 @@ void Span<D>::reserve(int elements) {
   elements_.reserve(count);
   packs_.reserve(count / Pack::width + 1);
   pivots_.reserve(count);
-  load_.reserve(count + 1);
 }
 
 template <int D>
@@ -183,13 +162,13 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double
       const auto& weights = mesh.weights[static_cast<std::size_t>(k)].w;
       const BeamRule& rule = rules.of(weights);
       lanes.push_back(fixed_basis(length(k), weights, rule));
-      auto& inertia = tables->inertia[static_cast<std::size_t>(k - first)];
-      inertia = fixed_inertia(length(k), weights, rule);
+      FixedInertia inertia = fixed_inertia(length(k), weights, rule);
       for (auto& row : inertia.mass) {
         for (double& entry : row) entry *= section_.rhoA;
       }
       for (double& entry : inertia.load) entry *= section_.rhoA;
       add_point_masses(masses, mesh, k, inertia.mass);
+      for (int lane = k - first; lane < Pack::width; ++lane) tables->set_inertia(lane, inertia);
     }
     even_out(lanes);
     tables->basis = pack_basis(lanes);
@@ -210,14 +189,13 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double
 }
 
 template <int D>
-const FixedInertia& Span<D>::inertia(int i) const {
+FixedInertia Span<D>::inertia(int i) const {
   const PackOfElements& pack = packs_[static_cast<std::size_t>(i / Pack::width)];
-  return pack.tables->inertia[static_cast<std::size_t>(element(i) - pack.first)];
+  return pack.tables->inertia_of(element(i) - pack.first);
 }
 
 template <int D>
 void Span<D>::factor(int known) {
-  load_.resize(static_cast<std::size_t>(count()) + 1, {0, 0});
   NodeBlock<D> block;
   Components free_r = support_.free_position, free_s = support_.free_slope;
   const std::size_t near = step_ > 0 ? 0 : 2, far = 2 - near;  // rows of an element's outer node and of the next one
@@ -232,19 +210,12 @@ void Span<D>::factor(int known) {
     free_s.setOnes();
   };
   if (known > 0) {
-    const FixedInertia& last = inertia(known - 1);
+    const FixedInertia last = inertia(known - 1);
     carry_on(last, pivots_.back());
-    load_[static_cast<std::size_t>(known)] = {last.load[far], last.load[far + 1]};
   }
   for (int i = known; i < count(); ++i) {
-    const FixedInertia& of = inertia(i);
+    const FixedInertia of = inertia(i);
     const auto& m = of.mass;
-    auto &here = load_[static_cast<std::size_t>(i)], &there = load_[static_cast<std::size_t>(i) + 1];
-    here[0] += of.load[near];
-    here[1] += of.load[near + 1];
-    there[0] += of.load[far];
-    there[1] += of.load[far + 1];
-
     block.rr += m[near][near];
     block.rs += m[near][near + 1];
     block.ss += m[near + 1][near + 1];
@@ -264,35 +235,34 @@ void Span<D>::factor(int known) {
 }
 
 template <int D>
-double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force, int most) const {
+double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
-  const std::ptrdiff_t packs = packs_of(most);
-  const double dissipation =
-      sum_in_meeting_pieces<double>(packs, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-        return kernels.forces(some_packs(first, n), section_, q, rate, force);
-      });
-  if (curved_at_rest_) {
-    in_meeting_pieces(packs, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-      kernels.rest_forces(some_packs(first, n), section_, q, force);
-    });
-  }
-  const std::ptrdiff_t nodes = std::min(std::ssize(load_), packs * Pack::width + 1);
-  in_pieces(nodes, node_size<D>, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    for (std::ptrdiff_t i = first; i < first + n; ++i) {
-      const int at = node(static_cast<int>(i));
-      const auto& load = load_[static_cast<std::size_t>(i)];
-      position<D>(force, at) += load[0] * gravity;
-      slope<D>(force, at) += load[1] * gravity;
-    }
-  });
-  return dissipation;
+  return sum_in_meeting_pieces<double>(std::ssize(packs_), numbers_in_pack,
+                                       [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+                                         const Packs packs = some_packs(first, n);
+                                         if (curved_at_rest_) kernels.rest_forces(packs, section_, q, 1, force);
+                                         return kernels.forces(packs, section_, q, rate, gravity, force);
+                                       });
 }
 
 template <int D>
-void Span<D>::add_inertia(const double* a, double* out, int left_out, int most) const {
+double Span<D>::add_residual(const double* q, const double* rate, const double* a, const Vector& gravity,
+                             double* residual, int most) const {
+  const SpanKernels<D>& kernels = span_kernels<D>();
+  const std::ptrdiff_t packs = most < count() ? (most + Pack::width - 1) / Pack::width : std::ssize(packs_);
+  return sum_in_meeting_pieces<double>(packs, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    const Packs some = some_packs(first, n);
+    if (curved_at_rest_) kernels.rest_forces(some, section_, q, -1, residual);
+    return kernels.residual(some, section_, q, rate, a, gravity, residual);
+  });
+}
+
+template <int D>
+void Span<D>::add_inertia(const double* a, double* out, int left_out) const {
+  const SpanKernels<D>& kernels = span_kernels<D>();
   const std::ptrdiff_t from = left_out / Pack::width;
-  in_meeting_pieces(packs_of(most) - from, numbers_in_pack, [=, this](std::ptrdiff_t first, std::ptrdiff_t n) {
-    add_pack_inertia<D>(some_packs(from + first, n), a, out);
+  in_meeting_pieces(std::ssize(packs_) - from, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    kernels.inertia(some_packs(from + first, n), a, out);
   });
 }
 
@@ -310,9 +280,12 @@ void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeig
 template <int D>
 typename Span<D>::Vector Span<D>::first_moment(const double* q) const {
   Vector sum = Vector::Zero();
-  for (std::size_t i = 0; i < load_.size(); ++i) {
-    const int at = node(static_cast<int>(i));
-    sum += load_[i][0] * position<D>(q, at) + load_[i][1] * slope<D>(q, at);
+  for (const PackOfElements& pack : packs_) {
+    for (int i = 0; i < pack.count; ++i) {
+      const auto& load = pack.tables->inertia.load;
+      const auto e = element_nodes<D>(q, pack.first + i);
+      sum += load[0][i] * e.r_a + load[1][i] * e.s_a + load[2][i] * e.r_b + load[3][i] * e.s_b;
+    }
   }
   return sum;
 }

@@ -32,16 +32,20 @@ class Span {
 
   static constexpr int all = std::numeric_limits<int>::max();
 
-  /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W]. Of at least
-  /// so many elements next to the outer node: whole packs are computed.
-  double add_forces(const double* q, const double* rate, const Vector& gravity, double* force, int most = all) const;
+  /// Adds elastic, viscous and gravity forces to the nodal array `force`; returns the dissipated power [W].
+  double add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const;
+
+  /// Adds the inertia M a of the nodal accelerations `a` less those forces to the nodal array `residual`; returns the
+  /// same. Of at least so many elements next to the outer node: whole packs are computed.
+  double add_residual(const double* q, const double* rate, const double* a, const Vector& gravity, double* residual,
+                      int most = all) const;
 
   /// First moment of mass, the integral of rhoA r [kg m], by nodal positions; by their rates, the momentum.
   Vector first_moment(const double* q) const;
 
   /// Adds the inertia M a of the nodal accelerations `a` to the nodal array `out`: of all elements but so many next to
-  /// the outer node, a multiple of Pack::width; of at least `most`.
-  void add_inertia(const double* a, double* out, int left_out = 0, int most = all) const;
+  /// the outer node, a multiple of Pack::width.
+  void add_inertia(const double* a, double* out, int left_out = 0) const;
 
   /// Adds the tangent of M a minus the elastic and viscous forces to the node blocks of a block tridiagonal matrix:
   /// upper[k] couples node k to k + 1, lower[k] to k - 1.
@@ -95,11 +99,7 @@ class Span {
   int first_of(int p, int count) const {
     return step_ > 0 ? element(p * Pack::width) : element(p * Pack::width + count - 1);
   }
-  const FixedInertia& inertia(int i) const;
-  /// How many packs hold `elements`.
-  std::ptrdiff_t packs_of(int elements) const {
-    return elements < count() ? (elements + Pack::width - 1) / Pack::width : std::ssize(packs_);
-  }
+  FixedInertia inertia(int i) const;
   Packs some_packs(std::ptrdiff_t first, std::ptrdiff_t n) const {
     return Packs(packs_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(n));
   }
@@ -116,7 +116,6 @@ class Span {
   std::vector<PackOfElements> packs_;
   std::vector<Pivot> pivots_;  ///< without the open node
   NodeBlock<D> open_mass_;
-  std::vector<std::array<double, 2>> load_;  ///< of nodes: rhoA times the integral of their two shape functions
 };
 
 extern template class Span<2>;

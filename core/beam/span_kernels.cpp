@@ -2,7 +2,6 @@
 // that the linker shares with units for other machines: a test looks for it.
 #include <algorithm>
 
-#include "core/beam/chord_tangent.hpp"
 #include "core/beam/span_kernels.hpp"
 #include "core/element/fixed_rest.hpp"
 #include "core/element/fixed_tangent.hpp"
@@ -19,12 +18,25 @@ Vec<Pack, D> load_lanes(const double* first, const std::array<int, Pack::width>&
   return result;
 }
 
+/// The coordinates of four nodes in the plane, lane by lane.
+std::array<Vec<Pack, 2>, 2> load_nodes(const double* first, const std::array<int, Pack::width>& offset) {
+  Pack a = Pack::load(first + offset[0]), b = Pack::load(first + offset[1]), c = Pack::load(first + offset[2]),
+       d = Pack::load(first + offset[3]);
+  Pack::transpose(a, b, c, d);
+  return {Vec<Pack, 2>(a, b), Vec<Pack, 2>(c, d)};
+}
+
 template <int D>
 NodalCubic<Pack, D> load_elements(const double* nodes, int first, const std::array<int, Pack::width>& offset) {
   const double* a = nodes + node_size<D> * first;
   const double* b = a + node_size<D>;
-  return {load_lanes<D>(a, offset), load_lanes<D>(a + D, offset), load_lanes<D>(b, offset),
-          load_lanes<D>(b + D, offset)};
+  if constexpr (D == 2) {
+    const auto at_a = load_nodes(a, offset), at_b = load_nodes(b, offset);
+    return {at_a[0], at_a[1], at_b[0], at_b[1]};
+  } else {
+    return {load_lanes<D>(a, offset), load_lanes<D>(a + D, offset), load_lanes<D>(b, offset),
+            load_lanes<D>(b + D, offset)};
+  }
 }
 
 /// Offsets of a pack's elements in a nodal array; lanes beyond the last element repeat it.
@@ -35,28 +47,50 @@ std::array<int, Pack::width> lane_offsets(int count) {
   return offset;
 }
 
-/// Adds the forces on the first `count` elements of a pack to the nodes from `out` on.
+/// Numbers of an element's nodal vectors.
 template <int D>
-void add_lanes(const FixedForce<Pack, D>& f, int count, double* out) {
-  constexpr int stride = node_size<D>;
-  for (int i = 0; i < count; ++i, out += stride) {
-    for (int c = 0; c < D; ++c) {
-      out[c] -= f.r_b[c][i];
-      out[D + c] += f.s_a[c][i];
-      out[stride + c] += f.r_b[c][i];
-      out[stride + D + c] += f.s_b[c][i];
-    }
-  }
+struct Rows {
+  Vec<Pack, D> r_a, s_a, r_b, s_b;
+};
+
+/// Forces of an element, and its weight.
+template <int D>
+Rows<D> rows_of(const FixedForce<Pack, D>& f, const std::array<Pack, 4>& load, const Vec<double, D>& gravity) {
+  const Vec<Pack, D> g = gravity.template cast<Pack>();
+  return {g * load[0] - f.r_b, g * load[1] + f.s_a, g * load[2] + f.r_b, g * load[3] + f.s_b};
 }
 
-/// `scale` times one lane of a block.
 template <int D>
-Eigen::Matrix<double, D, D> lane(const Eigen::Matrix<Pack, D, D>& block, int i, double scale) {
-  Eigen::Matrix<double, D, D> result;
-  for (int c = 0; c < D; ++c) {
-    for (int d = 0; d < D; ++d) result(c, d) = scale * block(c, d)[i];
+Rows<D> inertia_of(const FixedInertiaOf<Pack>& of, const NodalCubic<Pack, D>& a) {
+  const auto row = [&](std::size_t i) -> Vec<Pack, D> {
+    return (a.r_a * of.mass[i][0] + a.s_a * of.mass[i][1]) + (a.r_b * of.mass[i][2] + a.s_b * of.mass[i][3]);
+  };
+  return {row(0), row(1), row(2), row(3)};
+}
+
+/// Adds those of the first `count` elements of a pack to the nodes from `out` on.
+template <int D>
+void add_lanes(const Rows<D>& rows, int count, double* out) {
+  constexpr int stride = node_size<D>;
+  if constexpr (D == 2) {
+    std::array<Pack, Pack::width> a{rows.r_a[0], rows.r_a[1], rows.s_a[0], rows.s_a[1]},
+        b{rows.r_b[0], rows.r_b[1], rows.s_b[0], rows.s_b[1]};
+    Pack::transpose(a[0], a[1], a[2], a[3]);
+    Pack::transpose(b[0], b[1], b[2], b[3]);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i, out += stride) {
+      (Pack::load(out) + a[i]).store(out);
+      (Pack::load(out + stride) + b[i]).store(out + stride);
+    }
+  } else {
+    for (int i = 0; i < count; ++i, out += stride) {
+      for (int c = 0; c < D; ++c) {
+        out[c] += rows.r_a[c][i];
+        out[D + c] += rows.s_a[c][i];
+        out[stride + c] += rows.r_b[c][i];
+        out[stride + D + c] += rows.s_b[c][i];
+      }
+    }
   }
-  return result;
 }
 
 #ifdef VLBEAM_GENERAL_KERNELS
@@ -106,24 +140,30 @@ auto with_kernel(const BeamSection& section, const Function& f) {
 // Flattened, here and in the elements at the joint: the compiler otherwise leaves the vector arithmetic of packs in
 // calls. Free functions: for a member of a class template GCC takes the attribute at its declaration only.
 
-/// `Sampled`: the axial strain has points of its own. Where it has none, the loop over them costs 2 %.
-template <int D, Kernel K, bool Sampled>
-[[gnu::flatten]] double add_pack_forces(Packs packs, const BeamSection& of, const double* q, const double* rate,
-                                        double* force) {
+/// Adds forces to `out`, or where accelerations `a` are given inertia less forces. `Sampled`: the axial strain has
+/// points of its own. Where it has none, the loop over them costs 2 %.
+template <int D, Kernel K, bool Sampled, bool Inertia>
+[[gnu::flatten]] double add_packs(Packs packs, const BeamSection& of, const double* q, const double* rate,
+                                  const double* a, const Vec<double, D>& gravity, double* out) {
   const BeamSection section = known<K>(of);
   double dissipation = 0;
   for (const auto& pack : packs) {
     const auto offset = lane_offsets<D>(pack.count);
     const auto e = load_elements<D>(q, pack.first, offset);
     const auto e_rate = section.damped() ? load_elements<D>(rate, pack.first, offset) : e;
-    const auto& basis = pack.tables->basis;
+    const PackTables& tables = *pack.tables;
     auto f = FixedForce<Pack, D>::zero();
     if constexpr (Sampled) {
-      f = fixed_force<Pack, D>(basis, e, e_rate, section);
+      f = fixed_force<Pack, D>(tables.basis, e, e_rate, section);
     } else {
-      add_fixed_force<Pack, D>(basis.points, e, e_rate, section, f);
+      add_fixed_force<Pack, D>(tables.basis.points, e, e_rate, section, f);
     }
-    add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
+    Rows<D> rows = rows_of<D>(f, tables.inertia.load, gravity);
+    if constexpr (Inertia) {
+      const auto inertia = inertia_of<D>(tables.inertia, load_elements<D>(a, pack.first, offset));
+      rows = {inertia.r_a - rows.r_a, inertia.s_a - rows.s_a, inertia.r_b - rows.r_b, inertia.s_b - rows.s_b};
+    }
+    add_lanes<D>(rows, pack.count, out + node_size<D> * pack.first);
     if (section.damped()) {
       for (int i = 0; i < pack.count; ++i) dissipation += f.dissipation[i];
     }
@@ -131,62 +171,128 @@ template <int D, Kernel K, bool Sampled>
   return dissipation;
 }
 
-template <int D, Kernel K>
-[[gnu::flatten]] void add_pack_tangents(Packs packs, const BeamSection& of, const double* q, const double* rate,
-                                        const TangentWeights& by, NodeTangent<D>* diagonal, NodeTangent<D>* upper,
-                                        NodeTangent<D>* lower) {
-  using Matrix = Eigen::Matrix<double, D, D>;
-  const BeamSection section = known<K>(of);
-  ChordTangent<double, D> viscous;
-  for (auto& row : viscous) row.fill(Matrix::Zero());
+template <int D>
+[[gnu::flatten]] void inertia(Packs packs, const double* a, double* out) {
   for (const auto& pack : packs) {
-    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto elastic = elastic_tangent<Pack, D>(pack.tables->basis, e, section);
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      if constexpr (K == Kernel::general) {
-        if (section.damped()) {
-          viscous =
-              viscous_tangent<D>(pack.tables->basis, i, element_nodes<D>(q, k), element_nodes<D>(rate, k), section, by);
-        }
+    const auto e = load_elements<D>(a, pack.first, lane_offsets<D>(pack.count));
+    add_lanes<D>(inertia_of<D>(pack.tables->inertia, e), pack.count, out + node_size<D> * pack.first);
+  }
+}
+
+/// Adds entry(row, column) to blocks of the first `count` elements of a pack, one behind the other.
+template <int D, class Entry>
+void add_blocks(const Entry& entry, int count, NodeTangent<D>* blocks) {
+  constexpr int size = node_size<D>;
+#pragma GCC unroll 6
+  for (int column = 0; column < size; ++column) {
+    std::array<Pack, std::size_t{size}> rows;
+#pragma GCC unroll 6
+    for (int row = 0; row < size; ++row) rows[static_cast<std::size_t>(row)] = entry(row, column);
+    double* to = blocks->data() + size * column;
+    if constexpr (D == 2) Pack::transpose(rows[0], rows[1], rows[2], rows[3]);
+    for (int i = 0; i < count; ++i, to += size * size) {
+      if constexpr (D == 2) {
+        (Pack::load(to) + rows[static_cast<std::size_t>(i)]).store(to);
+      } else {
+        for (int row = 0; row < size; ++row) to[row] += rows[static_cast<std::size_t>(row)][i];
       }
-      auto stiffness = [&](std::size_t row, std::size_t column) {
-        Matrix result = lane<D>(elastic[row][column], i, by.q);
-        if (section.damped()) result += viscous[row][column];
-        return result;
-      };
-      const auto& m = pack.tables->inertia[static_cast<std::size_t>(i)].mass;
-      auto add_mass = [&](NodeTangent<D>& block, std::size_t row, std::size_t column) {
-        for (std::size_t r = 0; r < 2; ++r) {
-          for (std::size_t c = 0; c < 2; ++c) {
-            block.template block<D, D>(static_cast<int>(r) * D, static_cast<int>(c) * D).diagonal().array() +=
-                by.a * m[row + r][column + c];
-          }
-        }
-      };
-      add_mass(diagonal[k], 0, 0), add_mass(upper[k], 0, 2), add_mass(lower[k + 1], 2, 0);
-      add_mass(diagonal[k + 1], 2, 2);
-      add_chord_tangent<D>(stiffness, diagonal + k, upper + k, lower + k);
     }
   }
 }
 
+/// Adds the tangent of a pack, with `by_a` times the mass, to the node blocks of its first element and of those behind.
+/// Unknowns r_A, s_A, r_B, s_B: r_A enters through minus the chord r_B - r_A, r_B through the chord.
 template <int D>
-double forces(Packs packs, const BeamSection& section, const double* q, const double* rate, double* force) {
-  if (!has_general && is_general(section)) return portable::span_kernels<D>().forces(packs, section, q, rate, force);
+void add_tangent(const ChordTangent<Pack, D>& stiffness, double by_a, const FixedInertiaOf<Pack>& inertia, int count,
+                 NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) {
+  const auto block = [&](int node_row, int node_column) {
+    return [&stiffness, &inertia, by_a, node_row, node_column](int row, int column) -> Pack {
+      const auto i = static_cast<std::size_t>(2 * node_row + row / D),
+                 j = static_cast<std::size_t>(2 * node_column + column / D);
+      constexpr std::array<std::size_t, 4> of_chord{0, 1, 0, 2};
+      Pack entry = stiffness[of_chord[i]][of_chord[j]](row % D, column % D);
+      if ((i == 0) != (j == 0)) entry = -entry;
+      return row % D == column % D ? entry + Pack(by_a) * inertia.mass[i][j] : entry;
+    };
+  };
+  add_blocks<D>(block(0, 0), count, diagonal);
+  add_blocks<D>(block(0, 1), count, upper);
+  add_blocks<D>(block(1, 0), count, lower + 1);
+  add_blocks<D>(block(1, 1), count, diagonal + 1);
+}
+
+template <int D>
+void scale(ChordTangent<Pack, D>& tangent, double by) {
+  for (auto& row : tangent) {
+    for (auto& block : row) block *= Pack(by);
+  }
+}
+
+template <int D, Kernel K>
+[[gnu::flatten]] void add_pack_tangents(Packs packs, const BeamSection& of, const double* q,
+                                        [[maybe_unused]] const double* rate, const TangentWeights& by,
+                                        NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) {
+  const BeamSection section = known<K>(of);
+  for (const auto& pack : packs) {
+    const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
+    auto stiffness = elastic_tangent<Pack, D>(pack.tables->basis, e, section);
+    scale<D>(stiffness, by.q);
+    if constexpr (K == Kernel::general) {
+      for (int lane = 0; section.damped() && lane < pack.count; ++lane) {
+        const int k = pack.first + lane;
+        const auto viscous = viscous_tangent<D>(pack.tables->basis, lane, element_nodes<D>(q, k),
+                                                element_nodes<D>(rate, k), section, by);
+        for (std::size_t i = 0; i < 3; ++i) {
+          for (std::size_t j = 0; j < 3; ++j) {
+            for (int n = 0; n < D * D; ++n) {
+              Pack& entry = stiffness[i][j](n / D, n % D);
+              entry.set(lane, entry[lane] + viscous[i][j](n / D, n % D));
+            }
+          }
+        }
+      }
+    }
+    add_tangent<D>(stiffness, by.a, pack.tables->inertia, pack.count, diagonal + pack.first, upper + pack.first,
+                   lower + pack.first);
+  }
+}
+
+template <int D, bool Inertia>
+double add(Packs packs, const BeamSection& section, const double* q, const double* rate, const double* a,
+           const Vec<double, D>& gravity, double* out) {
   const bool sampled = !packs.empty() && !packs.front().tables->basis.stretch.empty();
   return with_kernel(section, [&]<Kernel K>() {
-    return sampled ? add_pack_forces<D, K, true>(packs, section, q, rate, force)
-                   : add_pack_forces<D, K, false>(packs, section, q, rate, force);
+    return sampled ? add_packs<D, K, true, Inertia>(packs, section, q, rate, a, gravity, out)
+                   : add_packs<D, K, false, Inertia>(packs, section, q, rate, a, gravity, out);
   });
 }
 
 template <int D>
-[[gnu::flatten]] void rest_forces(Packs packs, const BeamSection& section, const double* q, double* force) {
+double forces(Packs packs, const BeamSection& section, const double* q, const double* rate,
+              const Vec<double, D>& gravity, double* force) {
+  if (!has_general && is_general(section)) {
+    return portable::span_kernels<D>().forces(packs, section, q, rate, gravity, force);
+  }
+  return add<D, false>(packs, section, q, rate, nullptr, gravity, force);
+}
+
+template <int D>
+double residual(Packs packs, const BeamSection& section, const double* q, const double* rate, const double* a,
+                const Vec<double, D>& gravity, double* out) {
+  if (!has_general && is_general(section)) {
+    return portable::span_kernels<D>().residual(packs, section, q, rate, a, gravity, out);
+  }
+  return add<D, true>(packs, section, q, rate, a, gravity, out);
+}
+
+template <int D>
+[[gnu::flatten]] void rest_forces(Packs packs, const BeamSection& section, const double* q, double scale, double* out) {
   for (const auto& pack : packs) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
     const auto f = rest_force<Pack, D>(pack.tables->basis, pack.tables->rest, e, section);
-    add_lanes<D>(f, pack.count, force + node_size<D> * pack.first);
+    const Pack by(scale);
+    add_lanes<D>({f.r_b * Pack(-scale), f.s_a * by, f.r_b * by, f.s_b * by}, pack.count,
+                 out + node_size<D> * pack.first);
   }
 }
 
@@ -195,14 +301,10 @@ template <int D>
                                     NodeTangent<D>* diagonal, NodeTangent<D>* upper, NodeTangent<D>* lower) {
   for (const auto& pack : packs) {
     const auto e = load_elements<D>(q, pack.first, lane_offsets<D>(pack.count));
-    const auto tangent = rest_tangent<Pack, D>(pack.tables->basis, pack.tables->rest, e, section);
-    for (int i = 0; i < pack.count; ++i) {
-      const int k = pack.first + i;
-      const auto stiffness = [&](std::size_t row, std::size_t column) {
-        return lane<D>(tangent[row][column], i, by_q);
-      };
-      add_chord_tangent<D>(stiffness, diagonal + k, upper + k, lower + k);
-    }
+    auto tangent = rest_tangent<Pack, D>(pack.tables->basis, pack.tables->rest, e, section);
+    scale<D>(tangent, by_q);
+    add_tangent<D>(tangent, 0, pack.tables->inertia, pack.count, diagonal + pack.first, upper + pack.first,
+                   lower + pack.first);
   }
 }
 
@@ -220,7 +322,7 @@ void tangents(Packs packs, const BeamSection& section, const double* q, const do
 
 template <int D>
 SpanKernels<D> span_kernels() {
-  return {&forces<D>, &rest_forces<D>, &tangents<D>, &rest_tangents<D>};
+  return {&forces<D>, &residual<D>, &inertia<D>, &rest_forces<D>, &tangents<D>, &rest_tangents<D>};
 }
 template SpanKernels<2> span_kernels();
 template SpanKernels<3> span_kernels();

@@ -55,24 +55,13 @@ struct AlphaStep {
   /// Takes a correction off the increment. The increment is kept by itself: next to the coordinates it would lose its
   /// digits in short steps, and with them the accelerations theirs.
   void correct(const AlphaRule& rule, const Eigen::VectorXd& correction, double h) {
-    in_pieces(d.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
-      d.segment(first, count) -= correction.segment(first, count);
-      complete(rule, h, first, count);
-    });
+    complete(rule, h, correction.data());
   }
-
   /// The end of the step, from the increment.
-  void complete(const AlphaRule& rule, double h) {
-    in_pieces(d.size(), 1, [&](Eigen::Index first, Eigen::Index count) { complete(rule, h, first, count); });
-  }
+  void complete(const AlphaRule& rule, double h) { complete(rule, h, nullptr); }
 
  private:
-  void complete(const AlphaRule& rule, double h, Eigen::Index first, Eigen::Index count) {
-    const auto increment = d.segment(first, count);
-    q.segment(first, count) = base_q.segment(first, count) + (h * base_v.segment(first, count) + increment);
-    v.segment(first, count) = predicted_v.segment(first, count) + rule.by_v(h) * increment;
-    a.segment(first, count) = predicted_a.segment(first, count) + rule.by_a(h) * increment;
-  }
+  void complete(const AlphaRule& rule, double h, const double* correction);
 };
 
 /// What a step leaves to the next one.

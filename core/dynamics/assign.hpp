@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+
 #include "core/pieces.hpp"
 
 namespace vlbeam {
@@ -10,7 +12,11 @@ namespace vlbeam {
 template <class Expression>
 void assign_to(Eigen::Ref<Eigen::VectorXd> to, const Expression& expression) {
   in_pieces(to.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
-    to.segment(first, count) = expression.segment(first, count);
+    if constexpr ((Expression::Flags & Eigen::DirectAccessBit) != 0) {  // a vector, or a part of one
+      std::copy_n(expression.data() + first, count, to.data() + first);
+    } else {
+      to.segment(first, count) = expression.segment(first, count);
+    }
   });
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/dynamics/step_kernels.hpp"
 #include "core/pieces.hpp"
 
 namespace vlbeam {
@@ -74,8 +75,7 @@ double largest_magnitude(const double* at, Eigen::Index stride, Eigen::Index cou
 /// The same of a run in x.
 inline double largest_magnitude(const FieldRun& run, const Eigen::VectorXd& x) {
   const double* const at = x.data() + run.first;
-  if (run.width == 2)
-    return largest_magnitude<2>(at, run.stride, run.count);  // positions and slopes, most of all there is
+  if (run.width == 2) return largest_magnitude<2>(at, run.stride, run.count);
   if (run.width == 3) return largest_magnitude<3>(at, run.stride, run.count);
   double largest = 0;
   for (Eigen::Index i = 0; i < run.width; ++i) {
@@ -84,10 +84,29 @@ inline double largest_magnitude(const FieldRun& run, const Eigen::VectorXd& x) {
   return largest;
 }
 
+/// Whether two runs are positions and slopes of the same nodes in the plane, and all there is of these.
+inline bool are_planar_nodes(const FieldRun& a, const FieldRun& b) {
+  return a.width == 2 && b.width == 2 && a.stride == 4 && b.stride == 4 && b.first == a.first + 2 && a.count == b.count;
+}
+
 /// Largest magnitude of each kind, of finite entries.
 inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::VectorXd& x) {
   FieldNorms norms{};
-  for (const FieldRun& run : runs) {
+  std::size_t done = 0;
+  if (runs.size() > 1 && are_planar_nodes(runs[0], runs[1])) {  // most of all there is, in one pass
+    std::atomic<double> position = 0, slope = 0;
+    in_pieces(runs[0].count, runs[0].stride, [&](Eigen::Index first, Eigen::Index count) {
+      std::array<double, 4> largest;
+      step_kernels().largest(count, x.data() + runs[0].first + 4 * first, largest);
+      raise(position, std::max(largest[0], largest[1]));
+      raise(slope, std::max(largest[2], largest[3]));
+    });
+    norms[static_cast<std::size_t>(runs[0].field)] = position;
+    norms[static_cast<std::size_t>(runs[1].field)] = slope;
+    done = 2;
+  }
+  for (; done < runs.size(); ++done) {
+    const FieldRun& run = runs[done];
     std::atomic<double> largest = norms[static_cast<std::size_t>(run.field)];
     in_pieces(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
       raise(largest, largest_magnitude(run.part(first, count), x));

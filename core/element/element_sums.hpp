@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/element/instruction_set.hpp"
 #include "core/element/moving_points.hpp"
 #include "core/element/strain_extremes.hpp"
+#include "core/instruction_set.hpp"
 
 namespace vlbeam {
 

@@ -48,10 +48,12 @@ FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const BeamRul
 
 /// Constant matrices of a fixed-length element: its consistent mass is rhoA times `mass` times the identity, its weight
 /// rhoA g times `load`.
-struct FixedInertia {
-  std::array<std::array<double, 4>, 4> mass;  ///< integral of s_i s_j dx, order r_A, s_A, r_B, s_B
-  std::array<double, 4> load;                 ///< integral of s_i dx
+template <class Real>
+struct FixedInertiaOf {
+  std::array<std::array<Real, 4>, 4> mass;  ///< integral of s_i s_j dx, order r_A, s_A, r_B, s_B
+  std::array<Real, 4> load;                 ///< integral of s_i dx
 };
+using FixedInertia = FixedInertiaOf<double>;
 
 FixedInertia fixed_inertia(double l, const Weights<double>& w, const BeamRule& rule);
 

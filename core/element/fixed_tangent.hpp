@@ -5,7 +5,7 @@
 #include "core/element/active.hpp"
 #include "core/element/elastic_tangent.hpp"
 #include "core/element/fixed_element.hpp"
-#include "core/element/pack.hpp"
+#include "core/pack.hpp"
 #include "core/tangent_weights.hpp"
 
 namespace vlbeam {

@@ -7,8 +7,8 @@
 
 #include "core/element/active.hpp"
 #include "core/element/frame_table.hpp"
-#include "core/element/pack.hpp"
 #include "core/element/triad.hpp"
+#include "core/pack.hpp"
 
 namespace vlbeam {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/element/instruction_set.hpp"
 #include "core/element/moving_tangent.hpp"
+#include "core/instruction_set.hpp"
 
 namespace vlbeam {
 

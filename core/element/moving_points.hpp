@@ -6,8 +6,8 @@
 
 #include "core/element/beam_rule.hpp"
 #include "core/element/moving_kinematics.hpp"
-#include "core/element/pack.hpp"
 #include "core/element/rest_element.hpp"
+#include "core/pack.hpp"
 
 namespace vlbeam {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/element/moving_kinematics.hpp"
-#include "core/element/pack.hpp"
+#include "core/pack.hpp"
 
 namespace vlbeam {
 

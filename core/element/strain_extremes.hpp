@@ -6,9 +6,9 @@
 #include <type_traits>
 
 #include "core/element/moving_kinematics.hpp"
-#include "core/element/pack.hpp"
 #include "core/element/rest_strain.hpp"
 #include "core/element/section.hpp"
+#include "core/pack.hpp"
 
 namespace vlbeam {
 

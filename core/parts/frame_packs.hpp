@@ -5,7 +5,7 @@
 
 #include "core/beam/beam_matrix.hpp"
 #include "core/element/frame_table.hpp"
-#include "core/element/pack.hpp"
+#include "core/pack.hpp"
 
 namespace vlbeam {
 

@@ -14,12 +14,14 @@ double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v
   const Vec<double, D> on_beam = beam_.beam_gravity(t);
   in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n).setZero(); });
   double lost = 0;
-  at_spans([&](const Span<D>& span) { lost += span.add_forces(q.data(), v.data(), on_beam, r.data(), most); });
-  for (const auto& part : beam_.acting()) lost += part->add_force(now, r.data()).dissipated;
-  in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n) = -r.segment(first, n); });
+  if (!beam_.acting().empty()) {
+    for (const auto& part : beam_.acting()) lost += part->add_force(now, r.data()).dissipated;
+    in_pieces(r.size(), 1, [&r](Eigen::Index first, Eigen::Index n) { r.segment(first, n) = -r.segment(first, n); });
+  }
+  at_spans(
+      [&](const Span<D>& span) { lost += span.add_residual(q.data(), v.data(), a.data(), on_beam, r.data(), most); });
   const PointMasses<D>& masses = beam_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
-  at_spans([&](const Span<D>& span) { span.add_inertia(a.data(), r.data(), 0, most); });
   if (beam_.frames() != nullptr) beam_.frames()->add_inertia(q.data(), v.data(), a.data(), r.data());
   if (beam_.moving_mesh() != nullptr) {
     lost += flow_.add_residual(q.data(), v.data(), a.data(), t, r.data());

@@ -4,6 +4,7 @@
 
 #include "core/beam/block_kernels.hpp"
 #include "core/beam/span_kernels.hpp"
+#include "core/dynamics/step_kernels.hpp"
 #include "core/element/element_sums.hpp"
 #include "core/element/moving_kernels.hpp"
 #include "tests/core/support/element_state.hpp"
@@ -101,9 +102,12 @@ void expect_same_spans(Random& random, const BeamSection& section, AxialStrain a
     for (int lane = 0; lane < Pack::width; ++lane) {
       const auto rule = beam_rule(5, axial);
       const auto basis = fixed_basis(random.uniform(0.5, 1.5), random.weights(3), rule);
-      for (auto& row : tables->inertia[static_cast<std::size_t>(lane)].mass) {
+      FixedInertia inertia;
+      for (auto& row : inertia.mass) {
         for (double& entry : row) entry = random.uniform(0, 1);
       }
+      for (double& entry : inertia.load) entry = random.uniform(0, 1);
+      tables->set_inertia(lane, inertia);
       tables->basis.points.resize(basis.points.size());
       tables->basis.stretch.resize(basis.stretch.size());
       tables->rest.resize(basis.size());
@@ -120,19 +124,25 @@ void expect_same_spans(Random& random, const BeamSection& section, AxialStrain a
     }
     packs.push_back({first, std::min(Pack::width, elements - first), tables});
   }
-  Eigen::VectorXd q(size), rate(size);
-  for (double& entry : q) entry = random.uniform(-1, 1);
-  for (double& entry : rate) entry = random.uniform(-1, 1);
+  Eigen::VectorXd q(size), rate(size), a(size);
+  for (auto* vector : {&q, &rate, &a}) {
+    for (double& entry : *vector) entry = random.uniform(-1, 1);
+  }
+  const Vec<double, D> gravity = random.vector<D>(9.81);
   const TangentWeights by{0.7, 30, 900};
   const auto of = [&](InstructionSet set) {
     const auto kernels = span_kernels<D>(set);
     Eigen::VectorXd force = Eigen::VectorXd::Zero(size);
-    std::vector<double> all{kernels.forces(packs, section, q.data(), rate.data(), force.data())};
-    kernels.rest_forces(packs, section, q.data(), force.data());
+    std::vector<double> all{kernels.forces(packs, section, q.data(), rate.data(), gravity, force.data())};
+    kernels.rest_forces(packs, section, q.data(), 0.7, force.data());
+    all.insert(all.end(), force.begin(), force.end());
+    all.push_back(kernels.residual(packs, section, q.data(), rate.data(), a.data(), gravity, force.data()));
+    kernels.inertia(packs, a.data(), force.data());
     all.insert(all.end(), force.begin(), force.end());
     const std::vector<NodeTangent<D>> zero(elements + 1, NodeTangent<D>::Zero());
     auto diagonal = zero, upper = zero, lower = zero;
     kernels.tangents(packs, section, q.data(), rate.data(), by, diagonal.data(), upper.data(), lower.data());
+    kernels.rest_tangents(packs, section, q.data(), 0.7, diagonal.data(), upper.data(), lower.data());
     for (const auto* blocks : {&diagonal, &upper, &lower}) {
       for (const auto& block : *blocks) all.insert(all.end(), block.data(), block.data() + block.size());
     }
@@ -188,6 +198,37 @@ TEST(InstructionSets, GiveBlocksOfANodeTheSameBits) {
   const Eigen::VectorXd portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
   expect_same_bits(portable.data(), avx2.data(), static_cast<std::size_t>(portable.size()));
   EXPECT_NE(portable, start);
+}
+
+TEST(InstructionSets, GiveTheEndOfAStepTheSameBits) {
+  if (!available(InstructionSet::avx2)) GTEST_SKIP() << "this machine has one only";
+  Random random(18);
+  constexpr int count = 23;
+  const Eigen::VectorXd start = Eigen::VectorXd::NullaryExpr(9 * count, [&] { return random.uniform(-1, 1); });
+  const auto of = [&](InstructionSet set) {
+    Eigen::VectorXd numbers = start;
+    const auto array = [&](int which) { return numbers.data() + which * count; };
+    const StepKernels::Arrays step{array(1), array(2), array(3), array(4), array(5), array(6), array(7), array(8)};
+    const StepKernels kernels = step_kernels(set);
+    kernels.complete(count, {0.1, 7, 300}, array(0), step);
+    Eigen::VectorXd all(2 * numbers.size());
+    all.head(numbers.size()) = numbers;
+    kernels.complete(count, {0.2, 7, 300}, nullptr, step);
+    all.tail(numbers.size()) = numbers;
+    std::array<double, 4> largest;
+    kernels.largest(count, start.data(), largest);
+    for (int i = 0; i < 4; ++i) {
+      const auto of_each = Eigen::Map<const Eigen::Matrix4Xd>(start.data(), 4, count).row(i);
+      EXPECT_EQ(largest[static_cast<std::size_t>(i)], of_each.cwiseAbs().maxCoeff());
+    }
+    return all;
+  };
+  const Eigen::VectorXd portable = of(InstructionSet::portable), avx2 = of(InstructionSet::avx2);
+  expect_same_bits(portable.data(), avx2.data(), static_cast<std::size_t>(portable.size()));
+  const auto corrected = portable.segment(5 * count, count);
+  EXPECT_EQ((corrected - (start.segment(5 * count, count) - start.head(count))).norm(), 0);
+  const auto a = portable.segment(8 * count, count);
+  EXPECT_LE((a - (start.segment(4 * count, count) + 300 * corrected)).norm(), 1e-13 * a.norm());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/pack.hpp"
+#include "core/pack.hpp"
 #include "tests/core/support/element_under_test.hpp"
 
 namespace vlbeam::test {

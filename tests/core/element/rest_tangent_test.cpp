@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/pack.hpp"
+#include "core/pack.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/random.hpp"
 

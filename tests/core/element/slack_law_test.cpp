@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/pack.hpp"
 #include "core/element/rest_tangent.hpp"
+#include "core/pack.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/random.hpp"
 

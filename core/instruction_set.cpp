@@ -1,4 +1,4 @@
-#include "core/element/instruction_set.hpp"
+#include "core/instruction_set.hpp"
 
 // The C library's answer, where it has one: its tunables can hide instructions, and so a test runs the other kernels.
 #if defined(VLBEAM_HAS_AVX2) && __has_include(<sys/platform/x86.h>)

@@ -63,6 +63,49 @@ class Pack {
     const auto lane = [&](int i) { return a[i] < low || a[i] > high ? 0.0 : 1.0; };
     return {lane(0), lane(1), lane(2), lane(3)};
   }
+  /// Lane i of pack j becomes lane j of pack i.
+  static void transpose(Pack& a, Pack& b, Pack& c, Pack& d) {
+#ifdef __AVX__
+    const Lanes even = __builtin_shufflevector(a.parts_[0], b.parts_[0], 0, 4, 2, 6),
+                odd = __builtin_shufflevector(a.parts_[0], b.parts_[0], 1, 5, 3, 7),
+                more_even = __builtin_shufflevector(c.parts_[0], d.parts_[0], 0, 4, 2, 6),
+                more_odd = __builtin_shufflevector(c.parts_[0], d.parts_[0], 1, 5, 3, 7);
+    a.parts_[0] = __builtin_shufflevector(even, more_even, 0, 1, 4, 5);
+    b.parts_[0] = __builtin_shufflevector(odd, more_odd, 0, 1, 4, 5);
+    c.parts_[0] = __builtin_shufflevector(even, more_even, 2, 3, 6, 7);
+    d.parts_[0] = __builtin_shufflevector(odd, more_odd, 2, 3, 6, 7);
+#else
+    const auto turn = [](const Lanes& x, const Lanes& y, Lanes& first, Lanes& second) {
+      const Lanes low = __builtin_shufflevector(x, y, 0, 2), high = __builtin_shufflevector(x, y, 1, 3);
+      first = low;
+      second = high;
+    };
+    const Pack a0 = a, b0 = b, c0 = c, d0 = d;
+    turn(a0.parts_[0], b0.parts_[0], a.parts_[0], b.parts_[0]);
+    turn(c0.parts_[0], d0.parts_[0], a.parts_[1], b.parts_[1]);
+    turn(a0.parts_[1], b0.parts_[1], c.parts_[0], d.parts_[0]);
+    turn(c0.parts_[1], d0.parts_[1], c.parts_[1], d.parts_[1]);
+#endif
+  }
+  /// Four numbers that stand one behind the other.
+  static Pack load(const double* from) {
+    Pack result;
+    for (int i = 0; i < parts; ++i) result.parts_[i] = reinterpret_cast<const InMemory*>(from)[i];
+    return result;
+  }
+  void store(double* to) const {
+    for (int i = 0; i < parts; ++i) reinterpret_cast<InMemory*>(to)[i] = parts_[i];
+  }
+
+  /// The larger of `largest` and the magnitude of `a`, of finite numbers.
+  friend Pack larger(const Pack& largest, const Pack& a) {
+    Pack result;
+    for (int i = 0; i < parts; ++i) {
+      const Lanes minus = -a.parts_[i], size = a.parts_[i] > minus ? a.parts_[i] : minus;
+      result.parts_[i] = size > largest.parts_[i] ? size : largest.parts_[i];
+    }
+    return result;
+  }
   friend Pack sqrt(const Pack& a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
 
  private:
@@ -75,6 +118,8 @@ class Pack {
   static constexpr int in_part = width / parts;
   // aligned as Eigen aligns its fixed-size arrays in the portable build
   using Lanes __attribute__((vector_size(in_part * sizeof(double)), aligned(16))) = double;
+
+  using InMemory __attribute__((vector_size(in_part * sizeof(double)), aligned(sizeof(double)), may_alias)) = double;
 
   Lanes parts_[parts];
 };
