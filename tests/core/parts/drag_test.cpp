@@ -73,6 +73,41 @@ TYPED_TEST(DragTest, IsTheSameToImplicitMethods) {
   }
 }
 
+/// In proportion to the mass it is a product with the mass matrix, where it is nearly that a sum over points.
+TYPED_TEST(DragTest, InProportionToTheMassIsTheSumOverPoints) {
+  constexpr int D = TypeParam::value;
+  unsigned seed = 45;
+  for (const ChainShape& shape : bearing_shapes) {
+    SCOPED_TRACE(testing::Message() << "elements " << shape.elements << " joint " << shape.joint);
+    ++seed;
+    const auto with = [&](double tangential) -> HeldChain<D> {
+      return {shape, seed, Constraints::eliminated, [&](BeamModel<D>& model, Random&) {
+                model.drag = {{0.7, tangential}, {}, 7, Vec<double, D>::UnitX() * 0.4};
+              }};
+    };
+    HeldChain<D> even = with(0.7), nearly = with(0.7 + 1e-10);
+    const TangentWeights by{1, 7, 300};
+    const auto look = [&](HeldChain<D>& c) {
+      auto& implicit = *c.system->second_order();
+      Eigen::VectorXd q, v;
+      implicit.expand(c.y, q, v);
+      Eigen::VectorXd r(q.size());
+      const Eigen::VectorXd a = Eigen::VectorXd::Zero(q.size());
+      const double lost = implicit.residual(q, v, a, c.now, r);
+      Eigen::MatrixXd tangent;
+      implicit.tangent(q, v, a, c.now, by, tangent);
+      const Eigen::Index n = q.size();
+      Eigen::VectorXd all(n + 2 + n * n);
+      all << lost, implicit.supplied_power(q, v, a, c.now).loads, r, tangent.reshaped();
+      return all;
+    };
+    const Eigen::VectorXd of_even = look(even), of_nearly = look(nearly);
+    EXPECT_GT(of_even[0], 0.01);
+    EXPECT_GT(std::abs(of_even[1]), 1e-3);
+    EXPECT_LE((of_even - of_nearly).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
 /// A free rod that falls, along its axis or across it.
 Scene falling_rod(bool across) {
   Scene scene;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/frame_element.hpp"
+#include "core/element/frame_damping.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {
@@ -15,13 +15,12 @@ struct PackedChain {
   std::vector<FrameTable> tables;
   std::vector<TriadReference> references;
   std::vector<FrameNode> ends;
-  std::vector<double> turned;
+  std::vector<double> turned, angles;
 
   explicit PackedChain(StrainLaw law) {
     section.law = law;
     Random random(12);
     Vec<double, 3> r = Vec<double, 3>::Zero();
-    std::vector<double> angles;
     for (int k = 0; k < nodes; ++k) {
       const Vec<double, 3> t = (Vec<double, 3>::UnitX() + random.vector<3>(0.5)).normalized();
       references.push_back({t, t.cross(Vec<double, 3>::UnitZ() + random.vector<3>(0.3)).normalized()});
@@ -82,6 +81,47 @@ TEST(FramePacks, AreTheirElements) {
     const FramePacks packs = chain.packs(0, PackedChain::elements - 1);
     EXPECT_LE((chain.force(packs) - force).norm(), 1e-13 * force.norm());
     EXPECT_LE((chain.tangent(packs, 0.3) - tangent).norm(), 1e-13 * tangent.norm());
+  }
+}
+
+TEST(FramePacks, AreDampedAsTheirElementsAre) {
+  for (const StrainLaw law : {StrainLaw::green, StrainLaw::engineering}) {
+    PackedChain chain(law);
+    chain.section.damping = 0.03;
+    constexpr int nodes = PackedChain::nodes;
+    Random random(4);
+    const Eigen::VectorXd rate = Eigen::VectorXd::NullaryExpr(7 * nodes, [&] { return random.uniform(-1, 1); });
+    std::vector<double> spins;
+    for (int k = 0; k < nodes; ++k) {
+      const FrameNode& node = chain.ends[static_cast<std::size_t>(k)];
+      spins.push_back(rate[6 * nodes + k] + node.spin_by_slope.dot(rate.segment<3>(6 * k + 3)));
+    }
+    const FramePacks packs = chain.packs(0, PackedChain::elements - 1);
+    Eigen::VectorXd force = chain.force(packs), damped = Eigen::VectorXd::Zero(7 * nodes);
+    double lost = 0;
+    for (int k = 0; k < PackedChain::elements; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const FrameDamping damping{chain.references[i], chain.references[i + 1], chain.tables[i],
+                                 chain.section,       chain.turned[i],         {}};
+      FrameVector q, v;
+      for (int e = 0; e < 2; ++e) {
+        const std::size_t end = i + static_cast<std::size_t>(e);
+        q.segment<7>(7 * e) << chain.ends[end].r, chain.ends[end].s, chain.angles[end];
+        v.segment<7>(7 * e) << rate.segment<6>(6 * (k + e)), rate[6 * nodes + k + e];
+      }
+      const auto answer = damping.at<double, 14>(q, v);
+      lost += answer.power;
+      for (int e = 0; e < 2; ++e) {
+        force.segment<6>(6 * (k + e)) -= answer.force.segment<6>(7 * e);
+        force[6 * nodes + k + e] -= answer.force[7 * e + 6];
+      }
+    }
+    const double power = packs.add_damped_forces(chain.section, chain.ends, chain.turned, rate.data(), spins,
+                                                 damped.data(), damped.data() + 6 * nodes);
+    EXPECT_GT(lost, 1e-3);
+    EXPECT_NEAR(power, lost, 1e-13 * lost);
+    EXPECT_LE((damped - force).norm(), 1e-13 * force.norm());
+    EXPECT_GE((force - chain.force(packs)).norm(), 1e-3 * force.norm());
   }
 }
 

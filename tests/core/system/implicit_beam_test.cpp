@@ -146,7 +146,7 @@ TYPED_TEST(ImplicitBeamTest, InertiaIsWhatMoreAccelerationAddsToTheResidual) {
     if (shape.held) more[c.system->layout().mark()] = 0;
     Eigen::VectorXd inertia(c.q.size()), r(c.q.size()), r_of_more(c.q.size());
     const bool known = implicit.inertia(c.q, more, 0, inertia);
-    EXPECT_EQ(known, !nut) << "of shafts it is not";
+    EXPECT_EQ(known, !nut);
     if (!known || friction) continue;  // which changes with the force that presses
     implicit.residual(c.q, c.v, c.a, 0, r);
     implicit.residual(c.q, c.v, c.a + more, 0, r_of_more);

@@ -70,6 +70,26 @@ TYPED_TEST(ImplicitTravelTest, ResidualVanishesAtTheAccelerationsOfTheExplicitFo
   }
 }
 
+TYPED_TEST(ImplicitTravelTest, InertiaIsWhatMoreAccelerationAddsToTheResidual) {
+  constexpr int D = TypeParam::value;
+  for (const auto& [formulation, field] : choices) {
+    const BeamModel<D> model = whirling<D>(formulation, field);
+    BeamSystem<D> beam(model, straight_chain(model));
+    ImplicitBeam<D> flow(beam.accelerations());
+    const Eigen::Index n = beam.coordinates();
+    const Eigen::VectorXd y = random_state(beam, this->random_);
+    const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
+    const Eigen::VectorXd more =
+        Eigen::VectorXd::NullaryExpr(n, [&] { return static_cast<double>(this->random_.uniform(-2, 2)); });
+    Eigen::VectorXd r(n), r_of_more(n), inertia(n);
+    flow.residual(q, v, more, 0.1, r_of_more);
+    flow.residual(q, v, Eigen::VectorXd::Zero(n), 0.1, r);
+    ASSERT_TRUE(flow.inertia(q, more, 0.1, inertia));
+    EXPECT_GT(inertia.norm(), 0.1);
+    EXPECT_LE((r_of_more - r - inertia).norm(), 1e-12 * (r.norm() + inertia.norm()));
+  }
+}
+
 TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   for (const auto& [formulation, field] : choices) {
