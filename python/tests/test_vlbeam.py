@@ -115,6 +115,8 @@ def test_a_run_that_breaks_down_keeps_what_it_has():
 
 def test_python_goes_on_meanwhile():
     scene = vlbeam.scene("falling_beam")
+    scene["beam"]["elements"] = 160
+    scene["integrator"] = {"type": "generalized-alpha", "step": 1e-4}  # long enough for a busy machine to see both
     counted, stop = [0], threading.Event()
 
     def count():
