@@ -117,9 +117,39 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
                                          const Eigen::VectorXd& y, double t);
   /// The two elements on either side, or, where slopes change too, one more.
   EventReach reach_of(const std::vector<PendingEvent>& dues, const BeamPart& part) const;
+  /// What an event changes, and of what it has to be told.
+  struct EventScope {
+    EventType type;
+    bool observes_all;         ///< an impact, or a mass that gets a node or loses it, changes more than a mesh; frames
+                               ///< have energies of their own
+    bool transfers;            ///< velocities follow from those of the mesh before,
+    bool conserves;            ///< and keep the energy
+    bool changes_nodes_alone;  ///< the rest of the state stays as it is
+    bool goes_on;              ///< accelerations do
+    BeamPart part;
+    EventReach reach;
+  };
+  EventScope scope_of(const std::vector<PendingEvent>& dues) const;
+  struct BeforeEvent {
+    Energy energy, own;  ///< by the ledger's points and by the model's, as far as they are looked at
+    Eigen::VectorXd momenta;
+    double work;  ///< of supports [J]
+  };
+  BeforeEvent look_before(const EventScope& scope, const Eigen::VectorXd& y, double t);
+  /// Makes of the chain of the first record what the events make of it.
+  void change_chain(const std::vector<PendingEvent>& dues, const EventScope& scope,
+                    std::vector<EventRecord<D>>& records, Eigen::VectorXd& y, double t);
   /// Gives the new mesh in `y` the velocities of the beam before, of the state old_.
   void transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
                            const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t);
+  /// That, and what else an event does to velocities.
+  void change_velocities(const EventScope& scope, const BeforeEvent& before, const std::shared_ptr<Frames>& old_frames,
+                         EventRecord<D>& record, Eigen::VectorXd& y, double t);
+  /// Writes what energies and momenta jump by.
+  void book_jumps(const EventScope& scope, const BeforeEvent& before, EventRecord<D>& record, const Eigen::VectorXd& y,
+                  double t);
+  /// Tells of the events, of which the first record holds what happened.
+  void tell(std::vector<EventRecord<D>>& records) const;
   /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
   /// gone; the iterations it took.
   int relax_after(const std::vector<PendingEvent>& dues, ChainState<D>& chain, double t, double excess) const;

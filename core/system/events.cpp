@@ -258,6 +258,111 @@ void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const Even
 }
 
 template <int D>
+typename BeamSystem<D>::EventScope BeamSystem<D>::scope_of(const std::vector<PendingEvent>& dues) const {
+  const LengthControl& control = model().length_control;
+  const EventType type = dues.front().type;
+  EventScope scope;
+  scope.type = type;
+  scope.observes_all =
+      type == EventType::contact || type == EventType::end_merge || rider().has_value() || Beam::frames() != nullptr;
+  scope.transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
+  scope.conserves = scope.transfers && control.velocities == VelocityTransfer::conservative;
+  scope.changes_nodes_alone = (remeshes(type) || type == EventType::passage) && !scope.observes_all;
+  scope.goes_on = type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
+  const bool is_local = scope.changes_nodes_alone && !scope.conserves && places().size() == 1 && links_.all().empty() &&
+                        mesh().elements() > control.most_whole;
+  if (is_local) scope.part = part_around_joint();
+  scope.reach = reach_of(dues, scope.part);
+  return scope;
+}
+
+template <int D>
+typename BeamSystem<D>::BeforeEvent BeamSystem<D>::look_before(const EventScope& scope, const Eigen::VectorXd& y,
+                                                               double t) {
+  return {scope.observes_all ? observe(y, t, ledger_points).energy : Energy{},
+          scope.observes_all || scope.conserves ? observe(y, t, own_points).energy : Energy{},
+          velocities_.momenta(y, t, scope.part), layout().tallies.of(y).supports};
+}
+
+template <int D>
+void BeamSystem<D>::change_chain(const std::vector<PendingEvent>& dues, const EventScope& scope,
+                                 std::vector<EventRecord<D>>& records, Eigen::VectorXd& y, double t) {
+  EventRecord<D>& record = records.front();
+  if (dues.size() == 1) {
+    record.merged = change(dues.front(), record.after, y, t);
+  } else {
+    change_mesh(dues, records, t);
+  }
+  if (Beam::frames() != nullptr) Beam::turn_sections(record.before, y, record.after);
+  if (remeshes(scope.type) && relaxes(model().length_control)) {
+    const Energy stored = energy_jump(*this, record.before, record.after, scope.reach, t, own_points);
+    record.relaxation = relax_after(dues, record.after, t, stored.axial + stored.bending);
+  }
+}
+
+template <int D>
+void BeamSystem<D>::change_velocities(const EventScope& scope, const BeforeEvent& before,
+                                      const std::shared_ptr<Frames>& old_frames, EventRecord<D>& record,
+                                      Eigen::VectorXd& y, double t) {
+  if (scope.transfers) {
+    EventReach after = scope.reach;
+    after.highest += record.after.mesh.elements() - record.before.mesh.elements();
+    transfer_velocities(record, after, old_frames, y, t);
+  } else if (scope.type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
+    velocities_.project(record.before, record.after, scope.reach.lowest, scope.reach.lowest, y, t);
+  }
+  if (scope.conserves) {
+    const auto gained = [&] {
+      Beam::take_rates(y, record.after);
+      if (scope.observes_all) return (observe(y, t, own_points).energy - before.own).total();
+      return energy_jump(*this, record.before, record.after, scope.reach, t, own_points).total();
+    };
+    velocities_.restore(before.momenta, gained, y, t);
+  }
+  if (scope.transfers || scope.type == EventType::end_merge) Beam::take_rates(y, record.after);
+}
+
+template <int D>
+void BeamSystem<D>::book_jumps(const EventScope& scope, const BeforeEvent& before, EventRecord<D>& record,
+                               const Eigen::VectorXd& y, double t) {
+  if (scope.observes_all) {
+    record.jump = observe(y, t, ledger_points).energy - before.energy;
+    record.discrete_jump = (observe(y, t, own_points).energy - before.own).total();
+  } else {
+    const auto jumps =
+        energy_jumps(*this, record.before, record.after, scope.reach, t, std::array{ledger_points, own_points});
+    record.jump = jumps[0];
+    record.discrete_jump = jumps[1].total();
+  }
+  if (scope.conserves) {
+    const Energy& own = before.own;
+    const double size = std::abs(own.kinetic) + own.axial + own.bending + std::abs(own.gravity);
+    record.restored = std::abs(record.discrete_jump) <= restored_energy * size;
+  }
+  if (model().driven()) {  // what supports do in an impact is no jump
+    const double work = layout().tallies.of(y).supports - before.work;
+    record.jump.kinetic -= work;
+    record.jump.supplied -= work;
+    record.discrete_jump -= work;
+  }
+  if (scope.type != EventType::separation) {
+    record.momentum_jump = velocities_.momenta(y, t, scope.part) - before.momenta;
+  }
+}
+
+template <int D>
+void BeamSystem<D>::tell(std::vector<EventRecord<D>>& records) const {
+  if (!on_event) return;
+  const EventRecord<D>& first = records.front();
+  on_event(first);
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    records[i].before = records[i].after = first.after;
+    records[i].momentum_jump = Eigen::VectorXd::Zero(first.momentum_jump.size());
+    on_event(records[i]);
+  }
+}
+
+template <int D>
 void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const auto started = std::chrono::steady_clock::now();
   Beam::impose(y, t);
@@ -269,99 +374,32 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   const bool ramped = ramp_.due(model().gravity_ramp);
   if (ramped) ramp_.advance(t, moment(y, t));
   const std::vector<PendingEvent> dues = guards_.due(index, y, t);
-  const EventType type = dues.front().type;
-  const bool leaving = type == EventType::separation;
-  if (leaving && has_joint()) check_leaving(dues.front(), t);
+  if (dues.front().type == EventType::separation && has_joint()) check_leaving(dues.front(), t);
 
-  const LengthControl& control = model().length_control;
-  // an impact, or a mass that gets a node or loses it, changes more than a mesh; frames have energies of their own
-  const bool observes_all =
-      type == EventType::contact || type == EventType::end_merge || rider().has_value() || Beam::frames() != nullptr;
-  const bool transfers = remeshes(type) && control.velocities != VelocityTransfer::nodal;
-  const bool conserves = transfers && control.velocities == VelocityTransfer::conservative;
-  const bool changes_nodes_alone = (remeshes(type) || type == EventType::passage) && !observes_all;
-  const bool is_local = changes_nodes_alone && !conserves && places().size() == 1 && links_.all().empty() &&
-                        mesh().elements() > control.most_whole;
-  const BeamPart part = is_local ? part_around_joint() : BeamPart{};
-  const EventReach reach = reach_of(dues, part);
-  std::vector<EventRecord<D>> records = records_of(dues, part, y, t);
+  const EventScope scope = scope_of(dues);
+  std::vector<EventRecord<D>> records = records_of(dues, scope.part, y, t);
   EventRecord<D>& record = records.front();
-  const Energy energy_before = observes_all ? observe(y, t, ledger_points).energy : Energy{};
-  const Energy own_before = observes_all || conserves ? observe(y, t, own_points).energy : Energy{};
-  const Eigen::VectorXd momenta_before = velocities_.momenta(y, t, part);
-  const double work_before = layout().tallies.of(y).supports;
+  const BeforeEvent before = look_before(scope, y, t);
+  change_chain(dues, scope, records, y, t);
 
-  if (dues.size() == 1) {
-    record.merged = change(dues.front(), record.after, y, t);
-  } else {
-    change_mesh(dues, records, t);
-  }
-  if (Beam::frames() != nullptr) Beam::turn_sections(record.before, y, record.after);
-  if (remeshes(type) && relaxes(control)) {
-    const Energy stored = energy_jump(*this, record.before, record.after, reach, t, own_points);
-    record.relaxation = relax_after(dues, record.after, t, stored.axial + stored.bending);
-  }
-  const bool goes_on = type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
   const std::vector<JointPlace> places_before = places();
   const Layout<D> layout_before = layout();
   const std::shared_ptr<Frames> old_frames = Beam::shared_frames();
   take(record.after);
   Beam::orient(t);
-  if (changes_nodes_alone) {
+  if (scope.changes_nodes_alone) {
     Beam::write_nodes(record.after, y);
   } else {
     old_.swap(y);
     Beam::write_state(record.after, old_, y);
   }
+  change_velocities(scope, before, old_frames, record, y, t);
+  book_jumps(scope, before, record, y, t);
 
-  if (transfers) {
-    EventReach after = reach;
-    after.highest += record.after.mesh.elements() - record.before.mesh.elements();
-    transfer_velocities(record, after, old_frames, y, t);
-  } else if (type == EventType::end_merge) {  // nodes keep their velocities, the mass keeps its momentum
-    velocities_.project(record.before, record.after, reach.lowest, reach.lowest, y, t);
-  }
-  if (conserves) {
-    const auto gained = [&] {
-      Beam::take_rates(y, record.after);
-      if (observes_all) return (observe(y, t, own_points).energy - own_before).total();
-      return energy_jump(*this, record.before, record.after, reach, t, own_points).total();
-    };
-    velocities_.restore(momenta_before, gained, y, t);
-  }
-  if (transfers || type == EventType::end_merge) Beam::take_rates(y, record.after);
-  if (observes_all) {
-    record.jump = observe(y, t, ledger_points).energy - energy_before;
-    record.discrete_jump = (observe(y, t, own_points).energy - own_before).total();
-  } else {
-    const auto jumps =
-        energy_jumps(*this, record.before, record.after, reach, t, std::array{ledger_points, own_points});
-    record.jump = jumps[0];
-    record.discrete_jump = jumps[1].total();
-  }
-  if (conserves) {
-    const double size =
-        std::abs(own_before.kinetic) + own_before.axial + own_before.bending + std::abs(own_before.gravity);
-    record.restored = std::abs(record.discrete_jump) <= restored_energy * size;
-  }
-  if (model().driven()) {  // what supports do in an impact is no jump
-    const double work = layout().tallies.of(y).supports - work_before;
-    record.jump.kinetic -= work;
-    record.jump.supplied -= work;
-    record.discrete_jump -= work;
-  }
-  if (!leaving) record.momentum_jump = velocities_.momenta(y, t, part) - momenta_before;
   if (ramped) ramp_.restart(t, moment(y, t));
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (on_event) {
-    on_event(record);
-    for (std::size_t i = 1; i < records.size(); ++i) {  // what happened with it is in the first one
-      records[i].before = records[i].after = record.after;
-      records[i].momentum_jump = Eigen::VectorXd::Zero(record.momentum_jump.size());
-      on_event(records[i]);
-    }
-  }
-  if (goes_on) accelerations_.last_event().remember({std::move(record.before), places_before, layout_before});
+  tell(records);
+  if (scope.goes_on) accelerations_.last_event().remember({std::move(record.before), places_before, layout_before});
   spare_chain_ = std::move(record.after);
 }
 
@@ -377,6 +415,16 @@ template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector
 template EventReach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&, const BeamPart&) const;
 template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
+template typename BeamSystem<2>::EventScope BeamSystem<2>::scope_of(const std::vector<PendingEvent>&) const;
+template typename BeamSystem<2>::BeforeEvent BeamSystem<2>::look_before(const EventScope&, const Eigen::VectorXd&,
+                                                                        double);
+template void BeamSystem<2>::change_chain(const std::vector<PendingEvent>&, const EventScope&,
+                                          std::vector<EventRecord<2>>&, Eigen::VectorXd&, double);
+template void BeamSystem<2>::change_velocities(const EventScope&, const BeforeEvent&, const std::shared_ptr<Frames>&,
+                                               EventRecord<2>&, Eigen::VectorXd&, double);
+template void BeamSystem<2>::book_jumps(const EventScope&, const BeforeEvent&, EventRecord<2>&, const Eigen::VectorXd&,
+                                        double);
+template void BeamSystem<2>::tell(std::vector<EventRecord<2>>&) const;
 template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
 template double BeamSystem<3>::clear_of_end() const;
@@ -390,6 +438,16 @@ template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector
 template EventReach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&, const BeamPart&) const;
 template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
+template typename BeamSystem<3>::EventScope BeamSystem<3>::scope_of(const std::vector<PendingEvent>&) const;
+template typename BeamSystem<3>::BeforeEvent BeamSystem<3>::look_before(const EventScope&, const Eigen::VectorXd&,
+                                                                        double);
+template void BeamSystem<3>::change_chain(const std::vector<PendingEvent>&, const EventScope&,
+                                          std::vector<EventRecord<3>>&, Eigen::VectorXd&, double);
+template void BeamSystem<3>::change_velocities(const EventScope&, const BeforeEvent&, const std::shared_ptr<Frames>&,
+                                               EventRecord<3>&, Eigen::VectorXd&, double);
+template void BeamSystem<3>::book_jumps(const EventScope&, const BeforeEvent&, EventRecord<3>&, const Eigen::VectorXd&,
+                                        double);
+template void BeamSystem<3>::tell(std::vector<EventRecord<3>>&) const;
 template void BeamSystem<3>::handle_event(int, Eigen::VectorXd&, double);
 
 }  // namespace vlbeam
