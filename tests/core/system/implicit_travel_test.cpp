@@ -49,61 +49,59 @@ constexpr std::pair<Formulation, AngleField> choices[] = {{Formulation::variatio
 template <class Dimension>
 class ImplicitTravelTest : public ::testing::Test {
  protected:
+  /// Calls check(flow, q, v) with a random state for each of the choices.
+  template <class Check>
+  void with_each(const Check& check) {
+    constexpr int D = Dimension::value;
+    for (const auto& [formulation, field] : choices) {
+      const BeamModel<D> model = whirling<D>(formulation, field);
+      BeamSystem<D> beam(model, straight_chain(model));
+      ImplicitBeam<D> flow(beam.accelerations());
+      const Eigen::Index n = beam.coordinates();
+      const Eigen::VectorXd y = random_state(beam, random_);
+      check(flow, Eigen::VectorXd(y.head(n)), Eigen::VectorXd(y.segment(n, n)));
+    }
+  }
+  Eigen::VectorXd numbers(Eigen::Index count) {
+    return Eigen::VectorXd::NullaryExpr(count, [&] { return static_cast<double>(random_.uniform(-1, 1)); });
+  }
+
   Random random_{5};
 };
 TYPED_TEST_SUITE(ImplicitTravelTest, Dimensions, DimensionNames);
 
 TYPED_TEST(ImplicitTravelTest, ResidualVanishesAtTheAccelerationsOfTheExplicitForm) {
-  constexpr int D = TypeParam::value;
-  for (const auto& [formulation, field] : choices) {
-    const BeamModel<D> model = whirling<D>(formulation, field);
-    BeamSystem<D> beam(model, straight_chain(model));
-    ImplicitBeam<D> flow(beam.accelerations());
-    const Eigen::Index n = beam.coordinates();
-    const Eigen::VectorXd y = random_state(beam, this->random_);
-    const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
+  this->with_each([&](auto& flow, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+    const Eigen::Index n = q.size();
     Eigen::VectorXd a(n), r(n), scale(n);
     flow.acceleration(q, v, 0.1, a);
     flow.residual(q, v, Eigen::VectorXd::Zero(n), 0.1, scale);
     flow.residual(q, v, a, 0.1, r);
     EXPECT_LE(r.norm(), 1e-11 * scale.norm());
-  }
+  });
 }
 
 TYPED_TEST(ImplicitTravelTest, InertiaIsWhatMoreAccelerationAddsToTheResidual) {
-  constexpr int D = TypeParam::value;
-  for (const auto& [formulation, field] : choices) {
-    const BeamModel<D> model = whirling<D>(formulation, field);
-    BeamSystem<D> beam(model, straight_chain(model));
-    ImplicitBeam<D> flow(beam.accelerations());
-    const Eigen::Index n = beam.coordinates();
-    const Eigen::VectorXd y = random_state(beam, this->random_);
-    const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
-    const Eigen::VectorXd more =
-        Eigen::VectorXd::NullaryExpr(n, [&] { return static_cast<double>(this->random_.uniform(-2, 2)); });
+  this->with_each([&](auto& flow, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+    const Eigen::Index n = q.size();
+    const Eigen::VectorXd more = this->numbers(n);
     Eigen::VectorXd r(n), r_of_more(n), inertia(n);
     flow.residual(q, v, more, 0.1, r_of_more);
     flow.residual(q, v, Eigen::VectorXd::Zero(n), 0.1, r);
     ASSERT_TRUE(flow.inertia(q, more, 0.1, inertia));
     EXPECT_GT(inertia.norm(), 0.1);
     EXPECT_LE((r_of_more - r - inertia).norm(), 1e-12 * (r.norm() + inertia.norm()));
-  }
+  });
 }
 
 TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
-  constexpr int D = TypeParam::value;
-  for (const auto& [formulation, field] : choices) {
-    const BeamModel<D> model = whirling<D>(formulation, field);
-    BeamSystem<D> beam(model, straight_chain(model));
-    ImplicitBeam<D> flow(beam.accelerations());
-    const Eigen::Index n = beam.coordinates();
-    const Eigen::VectorXd y = random_state(beam, this->random_);
-    const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
-    const Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(n, [&] { return this->random_.uniform(-1, 1); });
+  this->with_each([&](auto& flow, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+    const Eigen::Index n = q.size();
+    const Eigen::VectorXd a = this->numbers(n);
     const double by_v = 30, by_a = 900, h = 1e-6;
     ASSERT_TRUE(flow.linearize(q, v, a, 0.1, {1, by_v, by_a}));
     // along a direction that the supports allow: one that the solver returns
-    Eigen::VectorXd direction = Eigen::VectorXd::NullaryExpr(n, [&] { return this->random_.uniform(-1, 1); });
+    Eigen::VectorXd direction = this->numbers(n);
     Eigen::VectorXd plus(n), minus(n);
     flow.residual(q, v, direction, 0.1, plus);  // projects
     flow.residual(q, v, Eigen::VectorXd::Zero(n), 0.1, minus);
@@ -114,7 +112,7 @@ TYPED_TEST(ImplicitTravelTest, TangentIsTheDerivativeOfTheResidual) {
     ASSERT_TRUE(flow.linearize(q, v, a, 0.1, {1, by_v, by_a}));
     flow.solve(back);
     EXPECT_LE(relative_difference(back, direction), 1e-6);
-  }
+  });
 }
 
 TYPED_TEST(ImplicitTravelTest, GeneralizedAlphaFollowsAnExplicitMethod) {
