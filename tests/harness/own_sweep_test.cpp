@@ -75,6 +75,9 @@ TEST(OwnSweep, RefusesWithTheKey) {
   EXPECT_TRUE(has(refusal(sweep_of({{"/beam/elements", 3}})), "a list of values"));
   EXPECT_TRUE(has(refusal(sweep_of({{"/beam/elements", {{"from", 1}, {"to", 2}}}})), "/count"));
   EXPECT_TRUE(has(refusal(sweep_of({{"elements", {2}}})), "this pointer"));
+  for (const std::string far : {"/loads/6666636666", "/loads/7/magnitude", "/supports/99999999999999999999/type"}) {
+    EXPECT_TRUE(has(refusal(sweep_of({{far, {2}}})), "the next one")) << far;
+  }
   Json json = sweep_of({{"/beam/elements", {2, 3}}, {"/duration", {0.01}}});
   json["combine"] = "zip";
   EXPECT_TRUE(has(refusal(json), "as many of each"));
