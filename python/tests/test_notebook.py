@@ -118,12 +118,12 @@ def notebook(monkeypatch):
     return handle
 
 
-@pytest.mark.parametrize("call, words", [
-    (lambda s: vlbeam.run(s), "run: "), (lambda s: vlbeam.converge(s, "end.y", 1e-3), "converge: "),
-    (lambda s: vlbeam.sweep(s, {"/beam/elements": [20] * 4}, jobs=1), "sweep: ")])
-def test_a_bar_in_notebooks(notebook, call, words):
+@pytest.mark.parametrize("call, words, step", [  # steps short enough for a busy machine to show some of the way
+    (lambda s: vlbeam.run(s), "run: ", 2e-6), (lambda s: vlbeam.converge(s, "end.y", 1e-3), "converge: ", 1e-5),
+    (lambda s: vlbeam.sweep(s, {"/beam/elements": [20] * 4}, jobs=1), "sweep: ", 1e-5)])
+def test_a_bar_in_notebooks(notebook, call, words, step):
     scene = vlbeam.scene("falling_beam")
-    scene.integrator.generalized_alpha(step=2e-5)
+    scene.integrator.generalized_alpha(step=step)
     call(scene)
     assert len(notebook.shown) > 2 and words in notebook.shown[0] and notebook.shown[0].startswith("<progress")
     assert notebook.shown[-1] == ""  # it goes away
