@@ -7,6 +7,20 @@ ShapeTable<double> shape_of(const Weights<double>& w, double u) {
   return w == unit_weights ? hermite_shape(u) : rational_shape(w, u);
 }
 
+template <class Rule>
+FixedInertia inertia_by(const Rule& rule, double l, const Weights<double>& w) {
+  FixedInertia inertia{};
+  for (const auto& point : rule) {
+    const auto f = shape_of(w, point.u);
+    const std::array<double, 4> s{f[0][0], l * f[1][0], f[2][0], l * f[3][0]};
+    for (std::size_t i = 0; i < 4; ++i) {
+      inertia.load[i] += point.weight * l * s[i];
+      for (std::size_t j = 0; j < 4; ++j) inertia.mass[i][j] += point.weight * l * s[i] * s[j];
+    }
+  }
+  return inertia;
+}
+
 }  // namespace
 
 FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const BeamRule& rule) {
@@ -20,16 +34,11 @@ FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const BeamRul
 }
 
 FixedInertia fixed_inertia(double l, const Weights<double>& w, const BeamRule& rule) {
-  FixedInertia inertia{};
-  for (const auto& [u, weight, feels] : with_mass(rule)) {
-    const auto f = shape_of(w, u);
-    const std::array<double, 4> s{f[0][0], l * f[1][0], f[2][0], l * f[3][0]};
-    for (std::size_t i = 0; i < 4; ++i) {
-      inertia.load[i] += weight * l * s[i];
-      for (std::size_t j = 0; j < 4; ++j) inertia.mass[i][j] += weight * l * s[i] * s[j];
-    }
-  }
-  return inertia;
+  return inertia_by(with_mass(rule), l, w);
+}
+
+FixedInertia fixed_inertia(double l, const Weights<double>& w, const QuadratureRule& rule) {
+  return inertia_by(rule, l, w);
 }
 
 }  // namespace vlbeam

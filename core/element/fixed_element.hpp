@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/element/beam_rule.hpp"
+#include "core/element/quadrature.hpp"
 #include "core/element/section.hpp"
 #include "core/element/shape_functions.hpp"
 
@@ -56,6 +57,7 @@ struct FixedInertiaOf {
 using FixedInertia = FixedInertiaOf<double>;
 
 FixedInertia fixed_inertia(double l, const Weights<double>& w, const BeamRule& rule);
+FixedInertia fixed_inertia(double l, const Weights<double>& w, const QuadratureRule& rule);
 
 /// Elastic and viscous forces of a fixed-length element on (r_A, s_A, r_B, s_B); that on r_B is minus that on r_A.
 template <class Real, int D>

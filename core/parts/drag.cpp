@@ -1,35 +1,29 @@
 #include "core/parts/drag.hpp"
 
+#include "core/element/fixed_element.hpp"
+
 namespace vlbeam {
 namespace {
 
-/// Integrals of the products of two shape functions, of r_A, s_A, r_B and s_B, of element k, which has a fixed length.
-Eigen::Matrix4d overlaps(const Mesh& mesh, int k, int points) {
+/// The mass matrix of element k, which has a fixed length, of 1 kg/m: by r_A, s_A, r_B, s_B.
+std::array<std::array<double, 4>, 4> unit_mass(const Mesh& mesh, int k, int points) {
   const auto i = static_cast<std::size_t>(k);
-  const Weights<double>& weights = mesh.weights[i].w;
-  const double length = mesh.x[i + 1] - mesh.x[i];
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  for (const auto& [u, share] : gauss_legendre(points)) {
-    const ShapeTable<double> f = shape_at(weights, weights == unit_weights, u);
-    const Eigen::Vector4d s(f[0][0], length * f[1][0], f[2][0], length * f[3][0]);
-    sum += share * length * s * s.transpose();
-  }
-  return sum;
+  return fixed_inertia(mesh.x[i + 1] - mesh.x[i], mesh.weights[i].w, gauss_legendre(points)).mass;
 }
 
 }  // namespace
 
 template <int D>
 Tally Drag<D>::add_proportional_force(const ChainView<D>& beam, int k, double* out) const {
-  const Eigen::Matrix4d mass = linear.normal * overlaps(beam.mesh, k, quadrature_points);
+  const auto mass = unit_mass(beam.mesh, k, quadrature_points);
   const auto e = element_nodes<D>(beam.rate, k);
   const std::array<Vec<double, D>, 4> v{e.r_a - stream, e.s_a, e.r_b - stream, e.s_b};
   Tally power;
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     Vec<double, D> f = Vec<double, D>::Zero();
-    for (int j = 0; j < 4; ++j) f -= mass(i, j) * v[static_cast<std::size_t>(j)];
-    Eigen::Map<Vec<double, D>>(out + beam.vector(k, i)) += f;
-    power.dissipated -= f.dot(v[static_cast<std::size_t>(i)]);
+    for (std::size_t j = 0; j < 4; ++j) f -= linear.normal * mass[i][j] * v[j];
+    Eigen::Map<Vec<double, D>>(out + beam.vector(k, static_cast<int>(i))) += f;
+    power.dissipated -= f.dot(v[i]);
     if (i % 2 == 0) power.loads += f.dot(stream);
   }
   return power;
@@ -37,10 +31,13 @@ Tally Drag<D>::add_proportional_force(const ChainView<D>& beam, int k, double* o
 
 template <int D>
 PointMatrix<D> Drag<D>::proportional_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const {
-  const Eigen::Matrix4d mass = by.v * linear.normal * overlaps(beam.mesh, k, quadrature_points);
+  const auto mass = unit_mass(beam.mesh, k, quadrature_points);
   PointMatrix<D> matrix = PointMatrix<D>::Zero();
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) matrix.template block<D, D>(D * i, D * j).diagonal().setConstant(mass(i, j));
+    for (int j = 0; j < 4; ++j) {
+      const double damping = by.v * linear.normal * mass[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      matrix.template block<D, D>(D * i, D * j).diagonal().setConstant(damping);
+    }
   }
   return matrix;
 }

@@ -48,8 +48,8 @@ class KeyTree {
   const Json& tree() const { return tree_; }
 
  private:
-  /// What stands at one of the table's pointers, put there if nothing does. The library's own pointers, which any text
-  /// may be, take three times as long, and a twentieth of a short run.
+  /// What stands at one of the table's pointers, put there if nothing does. To make pointers of the library of all
+  /// these texts would be a twentieth of a short run.
   Json& at(std::string_view pointer) {
     Json* node = &tree_;
     while (!pointer.empty()) {

@@ -12,24 +12,24 @@
 namespace vlbeam {
 namespace {
 
-/// Refuses an entry of a list beyond the next one: the lists between would be filled up to it, and memory with them.
+/// Refuses an entry of a list beyond the next one: the list would be filled up to it, and memory with that.
 void refuse_gaps(const Json& scene, const Json::json_pointer& pointer) {
   std::vector<std::string> keys;
   for (Json::json_pointer rest = pointer; !rest.empty(); rest.pop_back()) keys.push_back(rest.back());
-  const Json* node = &scene;  // null where there is nothing yet
-  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-    const bool is_list = node == nullptr || node->is_null() || node->is_array();
-    const std::size_t entries = node != nullptr && node->is_array() ? node->size() : 0;
-    const bool is_number =
-        !key->empty() && std::all_of(key->begin(), key->end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  std::ranges::reverse(keys);
+  const Json nothing;
+  const Json* node = &scene;
+  for (const std::string& key : keys) {
     constexpr std::size_t digits = 9;  // of no list's size are there more
-    if (is_list && is_number && (key->size() > digits || std::stoul(*key) > entries)) {
-      throw InvalidInput(pointer.to_string(), "entry " + *key + " of a list of " + std::to_string(entries),
+    const bool is_number =
+        !key.empty() && std::ranges::all_of(key, [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool is_list = node->is_array() || node->is_null();  // which a number makes a list
+    if (is_list && is_number && (key.size() > digits || std::stoul(key) > node->size())) {
+      throw InvalidInput(pointer.to_string(), "entry " + key + " of a list of " + std::to_string(node->size()),
                          "it must be one that is there, or the next one");
     }
-    const bool leads_on = node != nullptr && (node->is_array() ? is_number && std::stoul(*key) < entries
-                                                               : node->is_object() && node->contains(*key));
-    node = !leads_on ? nullptr : node->is_array() ? &node->at(std::stoul(*key)) : &node->at(*key);
+    const Json::json_pointer child = Json::json_pointer() / key;
+    node = node->contains(child) ? &node->at(child) : &nothing;
   }
 }
 
