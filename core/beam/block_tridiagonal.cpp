@@ -1,5 +1,6 @@
 #include "core/beam/block_tridiagonal.hpp"
 
+#include <atomic>
 #include <cmath>
 
 #include "core/beam/block_kernels.hpp"
@@ -84,7 +85,6 @@ void BorderedBlockTridiagonal<B>::reset(int nodes) {
     }
   });
   middle_ = solves_ && !is_long() ? nodes - 1 : nodes / 2;
-  inverse_.resize(solves_ ? 0 : n);
   pivots_.resize(solves_ ? n : 0);
   border.clear();
   corner.setZero();
@@ -115,8 +115,8 @@ template <int B>
 bool BorderedBlockTridiagonal<B>::factor_pivot(int k, const Block& pivot) {
   const auto i = static_cast<std::size_t>(k);
   if (!solves_) {
-    inverse_[i] = inverse_of(pivot);
-    return inverse_[i].allFinite();
+    diagonal[i] = inverse_of(pivot);
+    return diagonal[i].allFinite();
   }
   Pivot& own = pivots_[i];
   set_scales(pivot, own.scale);
@@ -136,9 +136,9 @@ void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
     forth = (own.scale.asDiagonal() * own.scaled.transpose().partialPivLu().solve(scaled)).transpose();
     pivot.noalias() -= forth * back;
   } else if constexpr (B == 4) {
-    fastest_block_kernels().eliminate(inverse_[before].data(), back.data(), forth.data(), pivot.data());
+    fastest_block_kernels().eliminate(diagonal[before].data(), back.data(), forth.data(), pivot.data());
   } else {
-    forth = forth * inverse_[before];
+    forth = forth * diagonal[before];
     pivot.noalias() -= forth * back;
   }
 }
@@ -146,23 +146,25 @@ void BorderedBlockTridiagonal<B>::eliminate(int node, int from, Block& pivot) {
 template <int B>
 bool BorderedBlockTridiagonal<B>::factor() {
   const int last = nodes() - 1;
-  std::array<bool, 2> sound{true, true};
+  std::atomic<bool> sound = true;
   const auto factor_node = [&](int k, int before) {
     Block pivot = diagonal[static_cast<std::size_t>(k)];
     if (before >= 0 && before <= last) eliminate(k, before, pivot);
-    return factor_pivot(k, pivot);
+    if (!factor_pivot(k, pivot)) sound = false;  // only then: threads that write to one place wait for each other
   };
   side_by_side(
-      is_long(), middle_, [&](int i) { sound[0] = factor_node(i, i - 1) && sound[0]; }, last - middle_,
-      [&](int i) { sound[1] = factor_node(last - i, last - i + 1) && sound[1]; });
-  if (!sound[0] || !sound[1]) return false;
+      is_long(), middle_, [&](int i) { factor_node(i, i - 1); }, last - middle_,
+      [&](int i) { factor_node(last - i, last - i + 1); });
+  if (!sound) return false;
   Block pivot = diagonal[static_cast<std::size_t>(middle_)];
   if (middle_ > 0) eliminate(middle_, middle_ - 1, pivot);
   if (middle_ < last) eliminate(middle_, middle_ + 1, pivot);
   if (!factor_pivot(middle_, pivot)) return false;
   if (border.empty()) return true;
   const std::size_t stride = B * diagonal.size();
-  columns_.assign(stride * border.size(), 0.0);
+  columns_.resize(stride * border.size());
+  in_pieces(static_cast<std::ptrdiff_t>(columns_.size()), 1,
+            [&](std::ptrdiff_t at, std::ptrdiff_t count) { std::fill_n(columns_.begin() + at, count, 0.0); });
   rest_ = corner.topLeftCorner(borders(), borders());
   for (int j = 0; j < borders(); ++j) {
     const Border& from = border[static_cast<std::size_t>(j)];
@@ -208,16 +210,10 @@ int BorderedBlockTridiagonal<B>::negative_pivots(double zero) const {
       for (int i = first; i < end; ++i) largest = std::max(largest, std::abs(diagonal[k](i, i)));
       for (int i = first; i < end; ++i) size[i] = std::sqrt(largest);
     }
-    if (solves_) {
-      const Vector by = (pivots_[k].scale.cwiseProduct(size)).cwiseInverse();
-      const Block scaled = by.asDiagonal() * pivots_[k].scaled * by.asDiagonal();
-      const Block even = (scaled + scaled.transpose()) / 2;
-      for (const double value : eigenvalues(even)) count += value < -zero ? 1 : 0;
-      continue;
-    }
-    const Block scaled = size.asDiagonal() * inverse_[k] * size.asDiagonal();
+    const Vector by = (pivots_[k].scale.cwiseProduct(size)).cwiseInverse();
+    const Block scaled = by.asDiagonal() * pivots_[k].scaled * by.asDiagonal();
     const Block even = (scaled + scaled.transpose()) / 2;
-    for (const double value : eigenvalues(even)) count += value < 0 && value > -1 / zero ? 1 : 0;
+    for (const double value : eigenvalues(even)) count += value < -zero ? 1 : 0;
   }
   if (border.empty()) return count;
   const Eigen::VectorXd sizes = corner.diagonal().head(borders()).cwiseAbs().cwiseMax(rest_.diagonal().cwiseAbs());
@@ -269,7 +265,7 @@ void BorderedBlockTridiagonal<B>::apply_pivot(std::size_t k, Columns&& x) const 
     const Vector scaled = own.scale.cwiseProduct(x);
     x = own.scale.cwiseProduct(own.lu.solve(scaled));
   } else {
-    x = inverse_[k] * x.eval();
+    x = diagonal[k] * x.eval();
   }
 }
 
@@ -278,7 +274,7 @@ template <int B>
 void BorderedBlockTridiagonal<B>::substitute_by_kernels(double* x, int first) const {
   const BlockKernels& kernels = fastest_block_kernels();
   const double *const below = lower.front().data(), *const above = upper.front().data(),
-                      *const inverse = inverse_.front().data();
+                      *const inverse = diagonal.front().data();
   const auto at_once_or_by_turns = [&](const auto& sweep, const BlockRun& a, const BlockRun& b) {
     if (!is_long()) return sweep(a, b);
     at_once(2, [&](std::ptrdiff_t side) { sweep(side == 0 ? a : BlockRun{}, side == 0 ? BlockRun{} : b); });

@@ -50,15 +50,16 @@ class BorderedBlockTridiagonal {
   void solve_pivots() { solves_ = true; }
 
   /// Block LU from both ends to the middle, at once where there are many nodes and threads; then the small system that
-  /// the border leaves. Returns false where a pivot is singular or not finite.
+  /// the border leaves. Inverse pivots take the place of the diagonal, if pivots are not solved. Returns false where a
+  /// pivot is singular or not finite.
   bool factor();
 
   /// Solves in place; `x` holds B numbers a node, then the border's unknowns.
   void solve(double* x) const;
 
-  /// Of the last factored matrix, which is symmetric: how many of its eigenvalues are negative, by Sylvester's law
-  /// those of its pivots, the last of which is the small matrix that the border leaves (Haynsworth 1968). One below
-  /// `zero` of its block's diagonal counts as none.
+  /// Of the last factored matrix, which is symmetric, with pivots that are solved: how many of its eigenvalues are
+  /// negative, by Sylvester's law those of its pivots, the last of which is the small matrix that the border leaves
+  /// (Haynsworth 1968). One below `zero` of its block's diagonal counts as none.
   int negative_pivots(double zero) const;
 
   /// Writes the matrix, not yet factored, into the leading part of a dense one of zeros.
@@ -95,7 +96,6 @@ class BorderedBlockTridiagonal {
 
   bool solves_ = false;
   int middle_ = -1;                                 ///< node where the factorizations from both ends meet
-  std::vector<Block> inverse_;                      ///< of the pivots
   std::vector<Pivot> pivots_;                       ///< where they are solved
   std::vector<double> columns_;                     ///< the border's columns, solved
   Eigen::MatrixXd rest_;                            ///< of the corner, once the nodes are eliminated

@@ -11,7 +11,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr std::ptrdiff_t numbers_in_pack = 4 * Pack::width;  // where pieces of a span are to end
+// What forces, and tangents, of a pack cost, in numbers to be copied: where pieces of a span are to end.
+constexpr std::ptrdiff_t cost_of_forces = 8 * Pack::width, cost_of_tangents = 16 * Pack::width;
 
 /// Gives all elements of a pack as many points: those of fewer repeat their last one, with zero weight.
 void even_out(std::vector<FixedBasis<double>>& lanes) {
@@ -237,12 +238,11 @@ void Span<D>::factor(int known) {
 template <int D>
 double Span<D>::add_forces(const double* q, const double* rate, const Vector& gravity, double* force) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
-  return sum_in_meeting_pieces<double>(std::ssize(packs_), numbers_in_pack,
-                                       [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-                                         const Packs packs = some_packs(first, n);
-                                         if (curved_at_rest_) kernels.rest_forces(packs, section_, q, 1, force);
-                                         return kernels.forces(packs, section_, q, rate, gravity, force);
-                                       });
+  return sum_in_meeting_pieces<double>(std::ssize(packs_), cost_of_forces, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    const Packs packs = some_packs(first, n);
+    if (curved_at_rest_) kernels.rest_forces(packs, section_, q, 1, force);
+    return kernels.forces(packs, section_, q, rate, gravity, force);
+  });
 }
 
 template <int D>
@@ -250,7 +250,7 @@ double Span<D>::add_residual(const double* q, const double* rate, const double* 
                              double* residual, int most) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
   const std::ptrdiff_t packs = most < count() ? (most + Pack::width - 1) / Pack::width : std::ssize(packs_);
-  return sum_in_meeting_pieces<double>(packs, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+  return sum_in_meeting_pieces<double>(packs, cost_of_forces, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     const Packs some = some_packs(first, n);
     if (curved_at_rest_) kernels.rest_forces(some, section_, q, -1, residual);
     return kernels.residual(some, section_, q, rate, a, gravity, residual);
@@ -261,7 +261,7 @@ template <int D>
 void Span<D>::add_inertia(const double* a, double* out, int left_out) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
   const std::ptrdiff_t from = left_out / Pack::width;
-  in_meeting_pieces(std::ssize(packs_) - from, numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+  in_meeting_pieces(std::ssize(packs_) - from, cost_of_forces, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     kernels.inertia(some_packs(from + first, n), a, out);
   });
 }
@@ -270,7 +270,7 @@ template <int D>
 void Span<D>::add_tangent(const double* q, const double* rate, const TangentWeights& by, NodeTangent<D>* diagonal,
                           NodeTangent<D>* upper, NodeTangent<D>* lower) const {
   const SpanKernels<D>& kernels = span_kernels<D>();
-  in_meeting_pieces(std::ssize(packs_), numbers_in_pack, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+  in_meeting_pieces(std::ssize(packs_), cost_of_tangents, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     const Packs packs = some_packs(first, n);
     kernels.tangents(packs, section_, q, rate, by, diagonal, upper, lower);
     if (curved_at_rest_) kernels.rest_tangents(packs, section_, q, by.q, diagonal, upper, lower);

@@ -39,8 +39,12 @@ struct AlphaStep {
   Eigen::VectorXd d;                         ///< what the positions at the end are off these
   Eigen::VectorXd q, v, a;                   ///< at its end
 
-  /// `a0` is the method's own acceleration at the start, `true_a0` that of the equations of motion.
-  void predict(const AlphaRule& rule, const Eigen::VectorXd& a0, const Eigen::VectorXd& true_a0, double h) {
+  /// `a0` is the method's own acceleration at the start, `true_a0` that of the equations of motion, `increment` an
+  /// expression of vectors.
+  template <class Increment>
+  void predict(const AlphaRule& rule, const Eigen::VectorXd& a0, const Eigen::VectorXd& true_a0, double h,
+               const Increment& increment) {
+    d.resize(base_q.size());
     for (Eigen::VectorXd* vector : {&predicted_v, &predicted_a, &q, &v, &a}) vector->resize(base_q.size());
     in_pieces(base_q.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
       const auto start_a = a0.segment(first, count), true_a = true_a0.segment(first, count);
@@ -49,6 +53,7 @@ struct AlphaStep {
           base_v.segment(first, count) + h * ((1 - rule.gamma) * start_a + rule.gamma * next_a);
       predicted_a.segment(first, count) =
           ((1 - rule.alpha_m) * next_a + rule.alpha_m * start_a - rule.alpha_f * true_a) / (1 - rule.alpha_f);
+      assign_piece(d, increment, first, count);
     });
   }
 
@@ -72,8 +77,7 @@ struct StepEnd {
   Tally power;                        ///< [W]
 
   void take(const StepEnd& other) {
-    assign(true_acceleration, other.true_acceleration);
-    assign(a, other.a);
+    assign_both(true_acceleration, other.true_acceleration, a, other.a);
     h = other.h;
     power = other.power;
   }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/dynamics/assign.hpp"
 #include "core/pieces.hpp"
 
 namespace vlbeam {
@@ -240,15 +241,15 @@ EventAim::Shot EventAim::shoot(const Eigen::VectorXd& y0, double t0, double long
     const double next = t - guard.value / slope_ - t0;
     if (!(next > 0 && next <= longest)) break;
     main_.resume_nearby(main_);
-    y = y0;
+    assign(y, y0);
     t = t0;
     double dt = next;
-    if (!main_.try_step(ode_, y, t, dt) || !y.allFinite()) break;
+    if (!main_.try_step(ode_, y, t, dt) || !all_finite(y)) break;
   }
   missed_from_ = t0;
   guard_ = -1;
   main_.resume(main_);
-  y = y0;
+  assign(y, y0);
   t = t0;
   return Shot::missed;
 }

@@ -89,31 +89,43 @@ inline bool are_planar_nodes(const FieldRun& a, const FieldRun& b) {
   return a.width == 2 && b.width == 2 && a.stride == 4 && b.stride == 4 && b.first == a.first + 2 && a.count == b.count;
 }
 
-/// Largest magnitude of each kind, of finite entries.
-inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::VectorXd& x) {
-  FieldNorms norms{};
+/// Largest magnitude of each kind in some vectors, of finite entries.
+template <std::size_t N>
+std::array<FieldNorms, N> field_norms(const std::vector<FieldRun>& runs,
+                                      const std::array<const Eigen::VectorXd*, N>& vectors) {
+  std::array<FieldNorms, N> norms{};
   std::size_t done = 0;
   if (runs.size() > 1 && are_planar_nodes(runs[0], runs[1])) {  // most of all there is, in one pass
-    std::atomic<double> position = 0, slope = 0;
+    std::array<std::atomic<double>, N> position{}, slope{};
     in_pieces(runs[0].count, runs[0].stride, [&](Eigen::Index first, Eigen::Index count) {
-      std::array<double, 4> largest;
-      step_kernels().largest(count, x.data() + runs[0].first + 4 * first, largest);
-      raise(position, std::max(largest[0], largest[1]));
-      raise(slope, std::max(largest[2], largest[3]));
+      for (std::size_t i = 0; i < N; ++i) {
+        std::array<double, 4> largest;
+        step_kernels().largest(count, vectors[i]->data() + runs[0].first + 4 * first, largest);
+        raise(position[i], std::max(largest[0], largest[1]));
+        raise(slope[i], std::max(largest[2], largest[3]));
+      }
     });
-    norms[static_cast<std::size_t>(runs[0].field)] = position;
-    norms[static_cast<std::size_t>(runs[1].field)] = slope;
+    for (std::size_t i = 0; i < N; ++i) {
+      norms[i][static_cast<std::size_t>(runs[0].field)] = position[i];
+      norms[i][static_cast<std::size_t>(runs[1].field)] = slope[i];
+    }
     done = 2;
   }
   for (; done < runs.size(); ++done) {
     const FieldRun& run = runs[done];
-    std::atomic<double> largest = norms[static_cast<std::size_t>(run.field)];
-    in_pieces(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
-      raise(largest, largest_magnitude(run.part(first, count), x));
-    });
-    norms[static_cast<std::size_t>(run.field)] = largest;
+    for (std::size_t i = 0; i < N; ++i) {
+      double& norm = norms[i][static_cast<std::size_t>(run.field)];
+      std::atomic<double> largest = norm;
+      in_pieces(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
+        raise(largest, largest_magnitude(run.part(first, count), *vectors[i]));
+      });
+      norm = largest;
+    }
   }
   return norms;
+}
+inline FieldNorms field_norms(const std::vector<FieldRun>& runs, const Eigen::VectorXd& x) {
+  return field_norms<1>(runs, {&x}).front();
 }
 
 inline bool all_finite(const Eigen::VectorXd& x) {

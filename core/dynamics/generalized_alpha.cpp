@@ -70,11 +70,12 @@ class GeneralizedAlpha final : public Stepper {
       shorter_.failed(dt);
       return false;
     }
-    assign(next_a_, rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d);
+    assign_both(next_a_, rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d,  //
+                error_, rule_.error_constant(h) * (next_a_ - start_.a));
     stalled_ = false;
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
-    if (options_.newton_tolerance == 0) choose_tolerance(h);
+    if (options_.newton_tolerance == 0) choose_tolerance();
     if (!nearby) shorter_.taken(h, options_.step);
     double next = shorter_.longest(options_.step);
     if (options_.adaptive) {
@@ -100,9 +101,8 @@ class GeneralizedAlpha final : public Stepper {
     begin(y, t, length(dt));
     assign(there, y);
     const Eigen::VectorXd& a = end_.true_acceleration;
-    assign(other_q_, step_.base_q + tau * (step_.base_v + (tau / 2) * a));
-    assign(other_v_, step_.base_v + tau * a);
-    system_.contract(other_q_, other_v_, there);
+    assign_both(step_.q, step_.base_q + tau * (step_.base_v + (tau / 2) * a), step_.v, step_.base_v + tau * a);
+    system_.contract(step_.q, step_.v, there);
     return true;
   }
 
@@ -115,9 +115,10 @@ class GeneralizedAlpha final : public Stepper {
   void keep_for_event(const Stepper& other, bool at_start) override {
     const auto& to_event = dynamic_cast<const GeneralizedAlpha&>(other);
     const StepEnd& last = at_start ? to_event.start_ : to_event.end_;
-    assign(before_event_.true_acceleration, last.true_acceleration);
+    before_event_.true_acceleration.resize(last.true_acceleration.size());
     // the step to the event may have been a short one: what `a` is ahead of that is taken from the whole one
-    assign(before_event_.a, before_event_.true_acceleration + (start_.a - start_.true_acceleration));
+    assign_both(before_event_.true_acceleration, last.true_acceleration,  //
+                before_event_.a, before_event_.true_acceleration + (start_.a - start_.true_acceleration));
     before_event_.h = start_.h;
     crosses_event_ = true;
   }
@@ -141,13 +142,12 @@ class GeneralizedAlpha final : public Stepper {
     memory(noise_step_);
     if (memory.reads()) {
       stop_.set_fields(system_.fields());
-      for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(system_.coordinates());
     }
     stop_.exchange(memory);
     memory(tangent_by_a_);
     if (tangent_by_a_ == 0) return;
     tangent_.exchange(memory);
-    if (memory.reads()) linearize();
+    if (memory.reads()) system_.linearize(tangent_.q, tangent_.v, tangent_.a, tangent_.t, tangent_.by);
   }
 
   void resume(const Stepper& other) override {
@@ -161,14 +161,14 @@ class GeneralizedAlpha final : public Stepper {
     if (&main != this) {
       system_.follow(main.system_);
       stop_.set_fields(main.stop_.fields());
-      allowed_ = main.allowed_;
-      from_q_ = main.from_q_;
+      assign(allowed_, main.allowed_);
+      assign(from_q_, main.from_q_);
       motion_ = main.motion_;
       motion_until_event_ = main.motion_until_event_;
       calm_ = main.calm_;
       kept_ = {};
     }
-    end_ = main.start_;
+    end_.take(main.start_);
     shorter_ = main.shorter_;
     tolerance_ = main.tolerance_;
     is_smooth_ = main.is_smooth_;
@@ -184,6 +184,7 @@ class GeneralizedAlpha final : public Stepper {
   void begin(const Eigen::VectorXd& y, double t, double h) {
     const Eigen::Index n = system_.coordinates();
     r_.resize(n);
+    next_a_.resize(n);
     system_.expand(y, step_.base_q, step_.base_v);
     if (!started_) start(t, h, n);
   }
@@ -194,8 +195,7 @@ class GeneralizedAlpha final : public Stepper {
     assign(end_.a, end_.true_acceleration);
     end_.h = 0;
     tangent_by_a_ = 0;
-    assign(step_.q, step_.base_q);
-    assign(step_.v, step_.base_v);
+    assign_both(step_.q, step_.base_q, step_.v, step_.base_v);
     if (crosses_event_) go_on(t, h);
     crosses_event_ = false;
     double dissipation = 0;
@@ -205,16 +205,19 @@ class GeneralizedAlpha final : public Stepper {
     end_.power = system_.supplied_power(step_.q, step_.v, end_.true_acceleration, t);
     end_.power.dissipated = dissipation;
     stop_.set_fields(system_.fields());
-    allowed_.setConstant(n, options_.tolerances.atol);
+    if (options_.adaptive) start_control(n);
+    started_ = true;
+  }
+
+  void start_control(Eigen::Index n) {
+    assign(allowed_, Eigen::VectorXd::Constant(n, options_.tolerances.atol));
     if (const auto& by_field = options_.tolerances.by_field) {
       for_each_coordinate(stop_.fields(), [&](Field field, Eigen::Index i) {
         allowed_[i] = by_field->of[static_cast<std::size_t>(field)];
       });
     }
-    for (auto* vector : {&other_q_, &other_v_, &other_a_, &other_r_}) vector->resize(n);
     assign(from_q_, step_.base_q);
     motion_until_event_ = motion_;
-    started_ = true;
   }
 
   /// Lets the method go on through an event with its accelerations of before. Those of the equations of motion tell, in
@@ -223,36 +226,33 @@ class GeneralizedAlpha final : public Stepper {
   /// where events are as frequent, gives such modes energy. Of that change the method takes what its step can follow,
   /// by its own tangent S = K + by_v C + by_a M: in slow modes all but a share of (frequency x step)^2.
   void go_on(double t, double h) {
-    assign(other_a_, end_.true_acceleration);
-    assign(next_a_, end_.true_acceleration);
-    if (!system_.carry(before_event_.true_acceleration, t, other_a_)) return;
+    assign_both(other_, end_.true_acceleration, next_a_, end_.true_acceleration);
+    if (!system_.carry(before_event_.true_acceleration, t, other_)) return;
     system_.carry(before_event_.a, t, next_a_);
-    assign(next_a_, next_a_ - other_a_);
-    system_.residual(step_.base_q, step_.base_v, other_a_, t, r_);
-    tangent_.set(step_.base_q, step_.base_v, other_a_, t, {1, rule_.by_v(h), rule_.by_a(h)});
-    if (!linearize()) return;
-    if (counters_) ++counters_->tangents;
-    tangent_by_a_ = rule_.by_a(h);
+    assign(next_a_, next_a_ - other_);
+    system_.residual(step_.base_q, step_.base_v, other_, t, r_);
+    if (!make_tangent(step_.base_q, step_.base_v, other_, t, h)) return;
     system_.solve(r_);
     if (!all_finite(r_)) return;
-    assign(end_.true_acceleration, other_a_ - rule_.by_a(h) * r_);
-    assign(end_.a, end_.true_acceleration + next_a_);
+    assign_both(end_.true_acceleration, other_ - rule_.by_a(h) * r_, end_.a, end_.true_acceleration + next_a_);
     end_.h = before_event_.h;
-    assign(step_.q, step_.q - r_);  // with these accelerations forces balance there, those of supports among them
-    assign(step_.v, step_.v - rule_.by_v(h) * r_);
+    // with these accelerations forces balance there, those of supports among them
+    assign_both(step_.q, step_.q - r_, step_.v, step_.v - rule_.by_v(h) * r_);
   }
 
   /// The velocity goes on, and the acceleration, too, where that is smooth: else it would throw stiff modes, whose
   /// period is shorter than the step, far off, and Newton would start from a torn mesh.
   void predict(double t, double h) {
-    step_.predict(rule_, start_.a, start_.true_acceleration, h);
+    const auto with_increment = [&](const auto& increment) {
+      step_.predict(rule_, start_.a, start_.true_acceleration, h, increment);
+    };
     if (nearby_) {
       const double ratio = h / solved_h_;
-      step_.d *= ratio * ratio;
+      with_increment((ratio * ratio) * step_.d);
     } else if (is_smooth_) {
-      assign(step_.d, (0.5 * h * h) * start_.a);
+      with_increment((0.5 * h * h) * start_.a);
     } else {
-      assign(step_.d, Eigen::VectorXd::Zero(step_.base_q.size()));
+      with_increment(Eigen::VectorXd::Zero(step_.base_q.size()));
     }
     nearby_ = false;
     step_.complete(rule_, h);
@@ -294,10 +294,7 @@ class GeneralizedAlpha final : public Stepper {
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       dissipation = system_.residual(step_.q, step_.v, step_.a, t, r_);
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
-        tangent_.set(step_.q, step_.v, step_.a, t, {1, rule_.by_v(h), rule_.by_a(h)});
-        if (!linearize()) return false;
-        if (counters_) ++counters_->tangents;
-        tangent_by_a_ = rule_.by_a(h);
+        if (!make_tangent(step_.q, step_.v, step_.a, t, h)) return false;
         stop_.new_tangent();
         fresh = true;
         with_this_tangent = 0;
@@ -316,7 +313,7 @@ class GeneralizedAlpha final : public Stepper {
         return true;
       }
       if (verdict == NewtonStop::Verdict::stagnates && stop_.negligible(step_.q)) {
-        measure_noise(t);
+        measure_noise(t, h);
         if (stop_.settle()) return true;
       }
       if (++with_this_tangent > 1 || kind == NewtonKind::full) {
@@ -331,17 +328,24 @@ class GeneralizedAlpha final : public Stepper {
     return false;
   }
 
-  bool linearize() { return system_.linearize(tangent_.q, tangent_.v, tangent_.a, tangent_.t, tangent_.by); }
+  /// Of a step of length h.
+  bool make_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t, double h) {
+    const TangentWeights by{1, rule_.by_v(h), rule_.by_a(h)};
+    if (options_.checkpoints) tangent_.set(q, v, a, t, by);
+    if (!system_.linearize(q, v, a, t, by)) return false;
+    if (counters_) ++counters_->tangents;
+    tangent_by_a_ = by.a;
+    return true;
+  }
 
   /// What rounding of all that the residual depends on does to the solution.
-  void measure_noise(double t) {
+  void measure_noise(double t, double h) {
     system_.residual(step_.q, step_.v, step_.a, t, r_);
-    NewtonStop::perturb(step_.q, other_q_);
-    NewtonStop::perturb(step_.v, other_v_);
-    NewtonStop::perturb(step_.a, other_a_);
-    other_r_.resize(r_.size());
-    system_.residual(other_q_, other_v_, other_a_, t, other_r_);
-    r_ -= other_r_;
+    for (Eigen::VectorXd* vector : {&step_.q, &step_.v, &step_.a}) NewtonStop::perturb(*vector);
+    other_.resize(r_.size());
+    system_.residual(step_.q, step_.v, step_.a, t, other_);
+    step_.complete(rule_, h);  // as they were
+    assign(r_, r_ - other_);
     system_.solve(r_);
     stop_.set_noise(r_, step_.q);
   }
@@ -356,7 +360,6 @@ class GeneralizedAlpha final : public Stepper {
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
   double error_ratio(double t, double h) {
     const Eigen::Index count = step_.q.size() - system_.multipliers();
-    assign(error_, rule_.error_constant(h) * (next_a_ - start_.a));
     if (options_.error_estimate == ErrorEstimate::filtered) filter_error(t + h, h, count);
     const double scale = share_of_motion();
     std::atomic<double> largest = 0;
@@ -373,9 +376,8 @@ class GeneralizedAlpha final : public Stepper {
 
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
-  void choose_tolerance(double h) {
-    assign(error_, rule_.error_constant(h) * (next_a_ - start_.a));
-    const FieldNorms errors = field_norms(stop_.fields(), error_), increments = field_norms(stop_.fields(), step_.d);
+  void choose_tolerance() {
+    const auto [errors, increments] = field_norms<2>(stop_.fields(), {&error_, &step_.d});
     double least = std::numeric_limits<double>::infinity();
     for (const Field field : {Field::position, Field::slope, Field::mark, Field::mass, Field::angle}) {
       const auto f = static_cast<std::size_t>(field);
@@ -387,16 +389,14 @@ class GeneralizedAlpha final : public Stepper {
   /// By the tangent: of fast modes, which the step does not follow, it counts next to nothing. The residual is linear
   /// in the accelerations, and next to 0 at the end of the step: with more acceleration it is the inertia of this.
   void filter_error(double t, double h, Eigen::Index count) {
-    other_a_.resize(step_.q.size());
-    assign_to(other_a_.head(count), rule_.by_a(h) * error_.head(count));
-    other_a_.tail(system_.multipliers()).setZero();
-    other_r_.resize(step_.q.size());
-    if (!system_.inertia(step_.q, other_a_, t, other_r_)) {
-      assign(other_a_, step_.a + other_a_);
-      system_.residual(step_.q, step_.v, other_a_, t, other_r_);
+    other_.resize(step_.q.size());
+    assign_to(other_.head(count), rule_.by_a(h) * error_.head(count));
+    other_.tail(system_.multipliers()).setZero();
+    if (!system_.inertia(step_.q, other_, t, error_)) {
+      assign(other_, step_.a + other_);
+      system_.residual(step_.q, step_.v, other_, t, error_);
     }
-    system_.solve(other_r_);
-    assign(error_, other_r_);
+    system_.solve(error_);
   }
 
   /// Of the tolerances, by the largest displacement so far. At an event nodes become others: what they move from then
@@ -404,8 +404,8 @@ class GeneralizedAlpha final : public Stepper {
   double share_of_motion() {
     const double whole = options_.tolerances.motion;
     if (whole == 0) return 1;
-    assign(other_q_, step_.q - from_q_);
-    const FieldNorms moved = field_norms(stop_.fields(), other_q_);
+    assign(other_, step_.q - from_q_);
+    const FieldNorms moved = field_norms(stop_.fields(), other_);
     for (const Field field : {Field::position, Field::mark, Field::mass}) {
       motion_ = std::max(motion_, motion_until_event_ + moved[static_cast<std::size_t>(field)]);
     }
@@ -430,15 +430,15 @@ class GeneralizedAlpha final : public Stepper {
       given.dissipated = h * *lost;
     }
     system_.tallies().add(given, y);
-    assign(end_.true_acceleration, step_.a);
-    assign(end_.a, next_a_);
+    end_.true_acceleration.swap(step_.a);  // the next step makes its own
+    end_.a.swap(next_a_);
     end_.h = h;
     if (counters_) {
       const ConstraintResidual residual = system_.constraint_residual(step_.q, step_.v, t + h);
       auto& largest = counters_->constraints;
       largest.position = std::max(largest.position, residual.position);
       largest.velocity = std::max(largest.velocity, residual.velocity);
-      const auto multipliers = step_.a.tail(system_.multipliers());
+      const auto multipliers = end_.true_acceleration.tail(system_.multipliers());
       counters_->multipliers.assign(multipliers.begin(), multipliers.end());
     }
     t += h;
@@ -458,11 +458,11 @@ class GeneralizedAlpha final : public Stepper {
   double tolerance_;         ///< of Newton's iteration, of the increment
   int calm_ = 0;             ///< steps that may not be longer than the one before
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
-  TangentPoint tangent_;
-  StepEnd start_, end_;  ///< at the start and at the end of the last step
+  TangentPoint tangent_;     ///< where checkpoints are kept
+  StepEnd start_, end_;      ///< at the start and at the end of the last step
   AlphaStep step_;
   Eigen::VectorXd next_a_, r_;
-  Eigen::VectorXd other_q_, other_v_, other_a_, other_r_;  ///< perturbed by rounding
+  Eigen::VectorXd other_;  ///< memory of what needs one more
   NewtonStop stop_;
   Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates
   Eigen::VectorXd error_;                       ///< estimated, of the positions

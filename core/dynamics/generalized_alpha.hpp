@@ -21,6 +21,7 @@ struct GeneralizedAlphaOptions {
   Tolerances tolerances;                              ///< of an adaptive step
   ErrorEstimate error_estimate = ErrorEstimate::all;  ///< of an adaptive step
   double first_step = 0;                              ///< [s]; 0: the longest
+  bool checkpoints = false;                           ///< it may be asked for what it keeps (Stepper::exchange)
 };
 
 /// Generalized-alpha method for M(q) q'' = Q (Arnold & Bruels 2007). Second order, also where the length of the step

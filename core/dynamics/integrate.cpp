@@ -121,7 +121,9 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     throw ModelError("integrator", "a method of SUNDIALS, with checkpoints",
                      "it keeps its history to itself: take another method");
   }
-  const Method method(ode, options, counters.newton);
+  IntegrationOptions of_method = options;
+  of_method.generalized_alpha.checkpoints = checkpoints != nullptr;
+  const Method method(ode, of_method, counters.newton);
   Stepper* const stepper = method.stepper.get();
   SideStepper side(ode, options, counters.newton);
   EventSearch search(ode, *stepper, side, options);

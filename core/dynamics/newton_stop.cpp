@@ -25,15 +25,6 @@ FieldNorms sizes_of(const std::vector<FieldRun>& fields, const Eigen::VectorXd& 
   return sizes;
 }
 
-/// A mark that is wrong moves points of the beam by as much, and no more matters: one that hardly moves itself has
-/// corrections that are rounding from the first one on.
-FieldNorms increments(const std::vector<FieldRun>& fields, const Eigen::VectorXd& d) {
-  FieldNorms norms = field_norms(fields, d);
-  double& mark = norms[static_cast<std::size_t>(Field::mark)];
-  mark = std::max(mark, norms[static_cast<std::size_t>(Field::position)]);
-  return norms;
-}
-
 }  // namespace
 
 double relative_to_coordinates(const std::vector<FieldRun>& fields, const Eigen::VectorXd& x,
@@ -59,8 +50,17 @@ NewtonStop::Verdict NewtonStop::judge(const Eigen::VectorXd& r, const Eigen::Vec
                                       double slow) {
   const double previous = error_;
   before_ = correction_;
-  correction_ = field_norms(fields_, r);
-  if (++corrections_ <= 3) increment_ = increments(fields_, d);  // later ones change it by next to nothing
+  if (++corrections_ <= 3) {
+    const auto [correction, increment] = field_norms<2>(fields_, {&r, &d});
+    correction_ = correction;
+    increment_ = increment;
+    // A mark that is wrong moves points of the beam by as much, and no more matters: one that hardly moves itself has
+    // corrections that are rounding from the first one on.
+    double& mark = increment_[static_cast<std::size_t>(Field::mark)];
+    mark = std::max(mark, increment_[static_cast<std::size_t>(Field::position)]);
+  } else {  // the increment changes by next to nothing
+    correction_ = field_norms(fields_, r);
+  }
   error_ = relative_error(1);
   contraction_ = previous > 0 ? error_ / previous : 0;
   if (std::isnan(contraction_)) contraction_ = 1;  // corrections of a field that does not move at all
@@ -106,13 +106,14 @@ bool NewtonStop::grows(double limit, const Eigen::VectorXd& q) const {
   return false;
 }
 
-void NewtonStop::perturb(const Eigen::VectorXd& x, Eigen::VectorXd& perturbed) {
+void NewtonStop::perturb(Eigen::VectorXd& x) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  perturbed.resize(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const bool up = (static_cast<std::uint32_t>(i) * 2654435761U >> 31U) != 0;  // without a pattern
-    perturbed[i] = x[i] * (up ? 1 + eps : 1 - eps);
-  }
+  in_pieces(x.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      const bool up = (static_cast<std::uint32_t>(i) * 2654435761U >> 31U) != 0;  // without a pattern
+      x[i] *= up ? 1 + eps : 1 - eps;
+    }
+  });
 }
 
 void NewtonStop::set_noise(const Eigen::VectorXd& change, const Eigen::VectorXd& q) {

@@ -72,8 +72,8 @@ class NewtonStop {
   /// Whether a correction that may not be rounding is more than `limit` times the one before, in its field.
   bool grows(double limit, const Eigen::VectorXd& q) const;
 
-  /// `x` but for rounding.
-  static void perturb(const Eigen::VectorXd& x, Eigen::VectorXd& perturbed);
+  /// Changes what `x` is by rounding.
+  static void perturb(Eigen::VectorXd& x);
   /// `change` is what a perturbation of all that the residual depends on does to the solution, near q.
   void set_noise(const Eigen::VectorXd& change, const Eigen::VectorXd& q);
 

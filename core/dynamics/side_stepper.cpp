@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/assign.hpp"
 #include "core/dynamics/in_tolerances.hpp"
 #include "core/dynamics/sundials_stepper.hpp"
 
@@ -40,17 +41,17 @@ void shorten(double& dt, double tried, Stepper& stepper) {
 }
 
 const Eigen::VectorXd& SideStepper::step_to(const Eigen::VectorXd& start, double from, double to) {
-  y_ = start;
+  assign(y_, start);
   double t = from, dt = to - from;
   for (int tries = 0; t < to; ++tries) {
     if (tries == most_side_steps) throw SideStepUnderflow{t, dt};
     const bool last = dt >= to - t;
     if (last) dt = to - t;
     const double tried = dt, t_before = t;
-    before_ = y_;
+    assign(before_, y_);
     if (!stepper_->try_step(ode_, y_, t, dt)) {
       shorten(dt, tried, *stepper_);
-    } else if (!y_.allFinite()) {
+    } else if (!all_finite(y_)) {
       y_ = before_;
       t = t_before;
       dt = tried / 10;

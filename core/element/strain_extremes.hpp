@@ -22,6 +22,10 @@ struct StrainExtremes {
       least = std::min(least, value);
       largest = std::max(largest, value);
     }
+    void add(const Bounds& others) {
+      least = std::min(least, others.least);
+      largest = std::max(largest, others.largest);
+    }
     void add(const Pack& values) {
       for (int i = 0; i < Pack::width; ++i) add(values[i]);
     }
@@ -30,6 +34,13 @@ struct StrainExtremes {
   Bounds strain;         ///< axial, as the strain law measures it [-]
   Bounds force;          ///< along the axis, damping included [N]
   double curvature = 0;  ///< largest, as the strain law measures it [1/m]
+
+  /// Those of other points.
+  void add(const StrainExtremes& others) {
+    strain.add(others.strain);
+    force.add(others.force);
+    curvature = std::max(curvature, others.curvature);
+  }
 
   /// `rest` is null for a straight, unstrained rest shape. With packs, four points.
   template <class Real, int D>

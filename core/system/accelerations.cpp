@@ -53,8 +53,7 @@ void Accelerations<D>::rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, do
   const bool imposes = beam_.imposes();
   if (imposes) {
     imposed_ = y;
-    beam_.impose(imposed_, t);
-    beam_.orient(t);
+    impose(t);
   }
   const Eigen::Index count = beam_.coordinates();
   const double *const q = imposes ? imposed_.data() : y.data(), *const rate = q + count;
@@ -66,6 +65,28 @@ void Accelerations<D>::rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, do
   } else {  // outside the domain: the step is repeated, shorter
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+template <int D>
+void Accelerations<D>::accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
+  ++evaluations_;
+  const Eigen::Index count = beam_.coordinates();
+  const double *at = q.data(), *rate = v.data();
+  if (beam_.imposes()) {
+    imposed_.resize(2 * count);
+    assign_both_to(imposed_.head(count), q.head(count), imposed_.tail(count), v.head(count));
+    impose(t);
+    at = imposed_.data();
+    rate = at + count;
+  }
+  assign_to(a.head(count), Eigen::VectorXd::Zero(count));
+  if (!solve(at, rate, t, a.data())) a.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+template <int D>
+void Accelerations<D>::impose(double t) {
+  beam_.impose(imposed_, t);
+  beam_.orient(t);
 }
 
 template <int D>

@@ -29,6 +29,8 @@ class Accelerations {
 
   /// Writes y' at (y, t); not a number where the mass matrix is singular or nodes tangle.
   void rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t);
+  /// Writes the accelerations at q and v, as many of each as the beam has coordinates; the same where there are none.
+  void accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a);
   /// Forces along links, as evaluated last: positive where they push [N].
   const Eigen::VectorXd& link_forces() const { return link_forces_; }
   /// The same at a state.
@@ -44,6 +46,8 @@ class Accelerations {
   void adopt();
 
  private:
+  /// Imposes what is prescribed at time t on what imposed_ holds.
+  void impose(double t);
   /// Writes the accelerations; returns powers, nothing where there is no solution.
   std::optional<Tally> solve(const double* q, const double* rate, double t, double* a);
   // Forces in `a` become accelerations; `pull` is what moving supports do.
@@ -65,7 +69,8 @@ class Accelerations {
   Flow<D> flow_;
   JointElements elements_;               ///< of rates()
   std::vector<JointMotion<D>> motions_;  ///< the same
-  Eigen::VectorXd imposed_, link_forces_;
+  Eigen::VectorXd imposed_;              ///< coordinates and velocities
+  Eigen::VectorXd link_forces_;
   std::size_t evaluations_ = 0;
 };
 

@@ -5,11 +5,11 @@
 
 namespace vlbeam {
 
-/// Adds energies and momenta of the elements `first` to `last` - 1 of a chain, point masses on them included, by
-/// `points` Gauss points an element, or own_points; the model is that of the beam.
+/// Energies and momenta of the elements `first` to `last` - 1 of a chain, point masses on them included, by `points`
+/// Gauss points an element, or own_points; the model is that of the beam. With the extremes of `strains`, or without.
 template <int D>
-void observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
-                      Observation<D>& seen);
+Observation<D> observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
+                                int points, bool strains);
 
 /// Energies alone of the same.
 template <int D>

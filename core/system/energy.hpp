@@ -25,6 +25,7 @@ struct Energy {
     supplied += other.supplied;
     return *this;
   }
+  friend Energy operator+(Energy a, const Energy& b) { return a += b; }
   friend Energy operator-(const Energy& a, const Energy& b) {
     return {a.kinetic - b.kinetic,       a.axial - b.axial,     a.bending - b.bending,  a.gravity - b.gravity,
             a.dissipated - b.dissipated, a.torsion - b.torsion, a.supplied - b.supplied};

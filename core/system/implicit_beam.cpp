@@ -34,8 +34,7 @@ void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen
   const Eigen::Index n = coordinates(), own = beam_.coordinates();
   q.resize(n);
   v.resize(n);
-  assign_to(q.head(own), y.head(own));
-  assign_to(v.head(own), y.segment(own, own));
+  assign_both_to(q.head(own), y.head(own), v.head(own), y.segment(own, own));
   q.tail(n - own).setZero();  // multipliers
   v.tail(n - own).setZero();
 }
@@ -43,13 +42,8 @@ void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen
 template <int D>
 void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
   const Eigen::Index own = beam_.coordinates();
-  y_.resize(beam_.layout().state());
-  y_.tail(beam_.layout().tallies.count()).setZero();
-  dydt_.resize(beam_.layout().state());
-  contract(q, v, y_);
-  accelerations_.rates(y_, dydt_, t);
   a.resize(q.size());
-  assign_to(a.head(own), dydt_.segment(own, own));
+  accelerations_.accelerations(q, v, t, a);
   a.tail(q.size() - own).setZero();
   if (multipliers() == 0) return;
   a.tail(links_.count()) = -accelerations_.link_forces() / reference_mass_;
@@ -207,11 +201,10 @@ std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd&
                                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
                                                           double h, double t) {
   if (!beam_.model().section.damped() || !beam_.travel(t + h / 2)) return std::nullopt;
-  y_ = 0.5 * (q0 + q1);
-  dydt_ = (q1 - q0) / h;
-  a_ = 0.5 * (a0 + a1);
+  assign_both(middle_q_, 0.5 * (q0 + q1), middle_v_, (q1 - q0) / h);
+  assign(a_, 0.5 * (a0 + a1));
   free_.resize(q0.size());
-  const double lost = equations_.residual(y_, dydt_, a_, t + h / 2, free_);
+  const double lost = equations_.residual(middle_q_, middle_v_, a_, t + h / 2, free_);
   beam_.travel(t + h);
   return lost;
 }

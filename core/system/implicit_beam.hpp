@@ -38,8 +38,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
   void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override {
     const Eigen::Index own = beam_.coordinates();
-    assign_to(y.head(own), q.head(own));
-    assign_to(y.segment(own, own), v.head(own));
+    assign_both_to(y.head(own), q.head(own), y.segment(own, own), v.head(own));
   }
   void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
   bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const override;
@@ -60,9 +59,6 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                  const TangentWeights& by) override;
   void solve(Eigen::VectorXd& r) const override;
-  /// Of what linearize() factored, where forces have a potential, without a sliding mass: the number of directions in
-  /// which the energy falls. `zero` is what counts as no fall, over what a coordinate alone does.
-  int negative_pivots(double zero) const { return tangent_.negative_pivots(zero); }
   void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                const TangentWeights& by, Eigen::MatrixXd& dense) override;
   Eigen::Index curved_constraints() const override { return kinks_.count(); }
@@ -162,10 +158,11 @@ class ImplicitBeam final : public SecondOrderSystem {
     Eigen::Matrix2d inverse;
   };
   NutTangent nut_;
-  Eigen::VectorXd y_, dydt_, free_;
+  Eigen::VectorXd middle_q_, middle_v_;  ///< of power_lost_between()
+  Eigen::VectorXd free_;
   typename CurrentBeam<D>::JointElements elements_;  ///< of inertia()
   mutable Eigen::VectorXd carried_;                  ///< memory of carry()
-  Eigen::VectorXd a_, column_, weightless_;          // of the Jacobian
+  Eigen::VectorXd a_, column_, weightless_;          // of the Jacobian; the first of power_lost_between(), too
   Eigen::MatrixXd stiffness_, damping_;
 };
 

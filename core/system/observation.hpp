@@ -44,6 +44,23 @@ struct Observation {
     mass_moment += sums.mass_moment;
     mass += sums.mass;
   }
+  /// Of two parts, both with extremes, or both without.
+  friend Observation operator+(Observation a, const Observation& b) {
+    a.energy += b.energy;
+    a.beam_length += b.beam_length;
+    a.beam_length_rate += b.beam_length_rate;
+    a.momentum += b.momentum;
+    a.angular_momentum += b.angular_momentum;
+    a.mass_moment += b.mass_moment;
+    a.mass += b.mass;
+    a.spin_momentum += b.spin_momentum;
+    a.load_work += b.load_work;
+    a.end_work += b.end_work;
+    a.mesh_work += b.mesh_work;
+    a.mass_in += b.mass_in;
+    if (a.extremes && b.extremes) a.extremes->add(*b.extremes);
+    return a;
+  }
   /// A lumped mass at r that moves with v.
   void add_mass(double m, const Vec<double, D>& r, const Vec<double, D>& v, const Vec<double, D>& gravity) {
     energy.kinetic += 0.5 * m * v.squaredNorm();

@@ -16,9 +16,11 @@ class BlockTridiagonal : public ::testing::Test {
   static constexpr int B = Size::value;
   using Matrix = BorderedBlockTridiagonal<B>;
 
-  /// Random entries, the diagonal blocks with `shift` more on their diagonal; `symmetric` where wanted.
-  Matrix random_matrix(int nodes, int borders, double shift, bool symmetric) {
+  /// Random entries, the diagonal blocks with `shift` more on their diagonal; where wanted, `symmetric` and with pivots
+  /// that are solved.
+  Matrix random_matrix(int nodes, int borders, double shift, bool symmetric, bool solves) {
     Matrix m;
+    if (solves) m.solve_pivots();
     m.reset(nodes);
     for (int k = 0; k < nodes; ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -106,7 +108,7 @@ TYPED_TEST(BlockTridiagonal, SolvesWhatItHolds) {
   constexpr double dominant = 3 * TypeParam::value;
   for (const int nodes : {1, 2, 3, 9}) {
     for (const int borders : {0, 1, 3}) {
-      auto m = this->random_matrix(nodes, borders, dominant, false);
+      auto m = this->random_matrix(nodes, borders, dominant, false, false);
       const Eigen::MatrixXd a = this->dense(m);
       Eigen::VectorXd b(a.rows());
       for (double& x : b) x = this->number();
@@ -122,7 +124,7 @@ TYPED_TEST(BlockTridiagonal, SolvesWhatItHolds) {
 TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvalues) {
   for (const double shift : {-2.0, 0.0, 1.0, 2.0, 3.0 * TypeParam::value}) {
     for (const int borders : {0, 2}) {
-      auto m = this->random_matrix(7, borders, shift, true);
+      auto m = this->random_matrix(7, borders, shift, true, true);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all(this->dense(m), Eigen::EigenvaluesOnly);
       ASSERT_TRUE(m.factor());
       EXPECT_EQ(m.negative_pivots(1e-13), (all.eigenvalues().array() < 0).count()) << shift << ", " << borders;
@@ -134,18 +136,7 @@ TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvalues) {
 TYPED_TEST(BlockTridiagonal, SolvesALongOneFromBothEnds) {
   constexpr int W = TypeParam::value, nodes = static_cast<int>(long_range) / W + 5;
   for (const bool solves : {false, true}) {
-    auto m = this->random_matrix(nodes, 3, 3.0 * W, false);
-    if (solves) {
-      const auto blocks = m;
-      m.solve_pivots();
-      m.reset(nodes);
-      m = [&] {
-        auto filled = m;
-        filled.diagonal = blocks.diagonal, filled.upper = blocks.upper, filled.lower = blocks.lower;
-        filled.border = blocks.border, filled.corner = blocks.corner;
-        return filled;
-      }();
-    }
+    auto m = this->random_matrix(nodes, 3, 3.0 * W, false, solves);
     m.border[2].first = nodes - 4;  // behind the middle
     m.border[0].far = nodes - 2;
     for (double& x : m.border[0].far_column) x = this->number();
@@ -196,7 +187,7 @@ TYPED_TEST(BlockTridiagonal, SolvesALongOneFromBothEnds) {
 /// Blocks that are dominant have as many negative eigenvalues as there are negative numbers on the diagonal.
 TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvaluesOfALongOne) {
   constexpr int W = TypeParam::value, nodes = static_cast<int>(long_range) / W + 5;
-  auto m = this->random_matrix(nodes, 0, 0, true);
+  auto m = this->random_matrix(nodes, 0, 0, true, true);
   int negative = 0;
   for (auto& block : m.diagonal) {
     for (int i = 0; i < W; ++i) {
@@ -210,7 +201,7 @@ TYPED_TEST(BlockTridiagonal, CountsNegativeEigenvaluesOfALongOne) {
 }
 
 TYPED_TEST(BlockTridiagonal, AFixedUnknownOfTheBorderKeepsToItself) {
-  auto m = this->random_matrix(5, 2, 3.0 * TypeParam::value, false);
+  auto m = this->random_matrix(5, 2, 3.0 * TypeParam::value, false, false);
   m.fix(0, 4);
   const Eigen::MatrixXd a = this->dense(m);
   const Eigen::Index at = a.rows() - 2;
@@ -223,7 +214,7 @@ TYPED_TEST(BlockTridiagonal, AFixedUnknownOfTheBorderKeepsToItself) {
 }
 
 TYPED_TEST(BlockTridiagonal, RefusesASingularPivot) {
-  auto m = this->random_matrix(4, 0, 1, false);
+  auto m = this->random_matrix(4, 0, 1, false, false);
   m.diagonal[0].setZero();
   EXPECT_FALSE(m.factor());
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/length_control/length_control.hpp"
+#include "core/pieces.hpp"
 #include "core/system/beam_observation.hpp"
 #include "core/system/event_ledger.hpp"
 #include "tests/core/support/chain_models.hpp"
@@ -16,8 +17,7 @@ TYPED_TEST_SUITE(EnergyJump, Dimensions);
 /// Energies of all elements and of what slides.
 template <int D>
 Energy whole(const CurrentBeam<D>& beam, const ChainState<D>& chain, int points) {
-  Observation<D> seen;
-  observe_elements(beam, chain, 0, chain.mesh.elements(), 0, points, seen);
+  Observation<D> seen = observe_elements(beam, chain, 0, chain.mesh.elements(), 0, points, false);
   for (const auto& joint : chain.joints) {
     const SlidingJoint& law = beam.model().joints[static_cast<std::size_t>(joint.index)].law;
     seen.add_mass(law.mass, position<D>(chain.q.data(), joint.node), position<D>(chain.rate.data(), joint.node),
@@ -52,6 +52,35 @@ TYPED_TEST(EnergyJump, IsTheDifferenceOfTheWholeBeamsEnergies) {
       EXPECT_EQ(both[1].total(), jump.total()) << "whatever else is asked for";
       EXPECT_EQ(both[0].kinetic, energy_jump(beam, before, after, {4, 8}, 0, 25).kinetic);
     }
+  }
+}
+
+/// So long that pieces of it are observed at once: by parts that are too short for that, one behind the other.
+TYPED_TEST(EnergyJump, ALongBeamIsObservedAsItsPartsAre) {
+  constexpr int D = TypeParam::value, elements = static_cast<int>(long_range) / node_size<D> + 100;
+  Random random(6);
+  const ChainShape shape{.elements = elements, .joint = 6};
+  auto model = model_of<D>(shape, random);
+  model.masses.points = {{0.5 * shape.element_length, 0.4}};
+  const auto chain = random_chain<D>(shape, random);
+  const CurrentBeam<D> beam(model, chain);
+  Observation<D> parts;
+  parts.extremes.emplace();
+  for (int first = 0; first < elements; first += 500) {
+    parts = parts + observe_elements(beam, chain, first, std::min(first + 500, elements), 0, 5, true);
+  }
+  for (const int threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    const Observation<D> seen = observe_elements(beam, chain, 0, elements, 0, 5, true);
+    EXPECT_NEAR(seen.energy.kinetic, parts.energy.kinetic, 1e-12 * parts.energy.kinetic);
+    EXPECT_NEAR(seen.energy.axial, parts.energy.axial, 1e-12 * parts.energy.axial);
+    EXPECT_NEAR(seen.energy.bending, parts.energy.bending, 1e-12 * parts.energy.bending);
+    EXPECT_NEAR(seen.mass, parts.mass, 1e-12 * parts.mass);
+    EXPECT_NEAR(seen.beam_length, parts.beam_length, 1e-12 * parts.beam_length);
+    EXPECT_LE((seen.mass_moment - parts.mass_moment).norm(), 1e-12 * parts.mass_moment.norm());
+    EXPECT_EQ(seen.extremes->strain.least, parts.extremes->strain.least);
+    EXPECT_EQ(seen.extremes->force.largest, parts.extremes->force.largest);
+    EXPECT_EQ(seen.extremes->curvature, parts.extremes->curvature);
   }
 }
 
