@@ -14,6 +14,12 @@ struct PointMass {
   double mass;  ///< [kg]
 };
 
+/// What the nodal vectors (r_A, s_A, r_B, s_B) of an element of length l share in the place at u of it, 0 to 1.
+inline std::array<double, 4> shares_at(const Weights<double>& weights, double l, double u) {
+  const auto f = rational_shape(weights, u);
+  return {f[0][0], l * f[1][0], f[2][0], l * f[3][0]};
+}
+
 /// Adds those on element k, of fixed length, to its mass matrix (order r_A, s_A, r_B, s_B); false where there are none.
 /// A mass on a node belongs to the element behind it, as Mesh::element_at() has it.
 inline bool add_point_masses(const std::vector<PointMass>& masses, const Mesh& mesh, int k,
@@ -24,8 +30,7 @@ inline bool add_point_masses(const std::vector<PointMass>& masses, const Mesh& m
     any = true;
     const auto i = static_cast<std::size_t>(k);
     const double l = mesh.x[i + 1] - mesh.x[i];
-    const auto f = rational_shape(mesh.weights[i].w, (point.x - mesh.x[i]) / l);
-    const std::array<double, 4> s{f[0][0], l * f[1][0], f[2][0], l * f[3][0]};
+    const std::array<double, 4> s = shares_at(mesh.weights[i].w, l, (point.x - mesh.x[i]) / l);
     for (std::size_t row = 0; row < 4; ++row) {
       for (std::size_t column = 0; column < 4; ++column) matrix[row][column] += point.mass * s[row] * s[column];
     }

@@ -5,6 +5,7 @@
 
 #include "core/dynamics/assign.hpp"
 #include "core/dynamics/memory.hpp"
+#include "core/dynamics/step_kernels.hpp"
 #include "core/dynamics/tallies.hpp"
 #include "core/pieces.hpp"
 #include "core/tangent_weights.hpp"
@@ -46,13 +47,10 @@ struct AlphaStep {
                const Increment& increment) {
     d.resize(base_q.size());
     for (Eigen::VectorXd* vector : {&predicted_v, &predicted_a, &q, &v, &a}) vector->resize(base_q.size());
+    const StepKernels::Rule of_step{h, rule.carried(), rule.gamma, rule.alpha_m, rule.alpha_f};
     in_pieces(base_q.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
-      const auto start_a = a0.segment(first, count), true_a = true_a0.segment(first, count);
-      const auto next_a = rule.carried() * start_a;
-      predicted_v.segment(first, count) =
-          base_v.segment(first, count) + h * ((1 - rule.gamma) * start_a + rule.gamma * next_a);
-      predicted_a.segment(first, count) =
-          ((1 - rule.alpha_m) * next_a + rule.alpha_m * start_a - rule.alpha_f * true_a) / (1 - rule.alpha_f);
+      step_kernels().predict(count, of_step, base_v.data() + first, a0.data() + first, true_a0.data() + first,
+                             predicted_v.data() + first, predicted_a.data() + first);
       assign_piece(d, increment, first, count);
     });
   }

@@ -364,12 +364,9 @@ class GeneralizedAlpha final : public Stepper {
     const double scale = share_of_motion();
     std::atomic<double> largest = 0;
     in_pieces(count, 1, [&](Eigen::Index first, Eigen::Index n) {
-      double most = 0;
-      for (Eigen::Index i = first; i < first + n; ++i) {
-        const double size = std::max(std::abs(step_.base_q[i]), std::abs(step_.q[i]));
-        most = std::max(most, std::abs(error_[i]) / (scale * allowed_[i] + options_.tolerances.rtol * size));
-      }
-      raise(largest, most);
+      raise(largest,
+            step_kernels().error_ratio(n, error_.data() + first, allowed_.data() + first, step_.base_q.data() + first,
+                                       step_.q.data() + first, scale, options_.tolerances.rtol));
     });
     return largest;
   }

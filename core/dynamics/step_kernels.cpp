@@ -9,6 +9,17 @@ namespace {
 // Arrays that do not overlap, said of parameters of functions of their own: GCC believes it nowhere else, and works on
 // one coordinate at a time then.
 
+[[gnu::noinline]] void predict_each(std::ptrdiff_t count, const StepKernels::Rule rule, const double* __restrict base_v,
+                                    const double* __restrict a0, const double* __restrict true_a0,
+                                    double* __restrict predicted_v, double* __restrict predicted_a) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double next = rule.carried * a0[i];
+    predicted_v[i] = base_v[i] + rule.h * ((1 - rule.gamma) * a0[i] + rule.gamma * next);
+    predicted_a[i] =
+        ((1 - rule.alpha_m) * next + rule.alpha_m * a0[i] - rule.alpha_f * true_a0[i]) / (1 - rule.alpha_f);
+  }
+}
+
 [[gnu::noinline]] void take(std::ptrdiff_t count, const double* __restrict correction, double* __restrict d) {
   for (std::ptrdiff_t i = 0; i < count; ++i) d[i] -= correction[i];
 }
@@ -22,6 +33,11 @@ namespace {
     v[i] = predicted_v[i] + by_v * d[i];
     a[i] = predicted_a[i] + by_a * d[i];
   }
+}
+
+void predict(std::ptrdiff_t count, const StepKernels::Rule& rule, const double* base_v, const double* a0,
+             const double* true_a0, double* predicted_v, double* predicted_a) {
+  predict_each(count, rule, base_v, a0, true_a0, predicted_v, predicted_a);
 }
 
 void complete(std::ptrdiff_t count, const StepKernels::Rates& by, const double* correction,
@@ -40,8 +56,34 @@ void largest(std::ptrdiff_t count, const double* groups, std::array<double, 4>& 
   larger(one, other).store(result.data());
 }
 
+double error_ratio(std::ptrdiff_t count, const double* error, const double* allowed, const double* from,
+                   const double* to, double scale, double rtol) {
+  Pack most(0);
+  const auto look = [&](const Pack& e, const Pack& tolerance, const Pack& start, const Pack& end) {
+    const Pack size = larger(larger(Pack(0), start), end);
+    most = larger(most, e / (Pack(scale) * tolerance + Pack(rtol) * size));
+  };
+  for (; count >= Pack::width; count -= Pack::width) {
+    look(Pack::load(error), Pack::load(allowed), Pack::load(from), Pack::load(to));
+    error += Pack::width, allowed += Pack::width, from += Pack::width, to += Pack::width;
+  }
+  if (count > 0) {  // what lacks to a pack has no error
+    Pack e(0), tolerance(1), start(0), end(0);
+    for (int i = 0; i < count; ++i) {
+      e.set(i, error[i]);
+      tolerance.set(i, allowed[i]);
+      start.set(i, from[i]);
+      end.set(i, to[i]);
+    }
+    look(e, tolerance, start, end);
+  }
+  double ratio = 0;
+  for (int i = 0; i < Pack::width; ++i) ratio = most[i] > ratio ? most[i] : ratio;
+  return ratio;
+}
+
 }  // namespace
 
-StepKernels kernels_of_steps() { return {&complete, &largest}; }
+StepKernels kernels_of_steps() { return {&predict, &complete, &largest, &error_ratio}; }
 
 }  // namespace vlbeam::VLBEAM_KERNELS

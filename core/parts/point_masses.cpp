@@ -8,8 +8,13 @@ void PointMasses<D>::add_weight(const ChainView<D>& beam, const Vector& gravity,
     const PointMass& point = points[i];
     const int k = element_of(beam, i);
     if (beam.at_joint(k)) continue;
-    add_point_force<D>(beam, k, point_at<double, D>(beam.kinematics(k), point.x),
-                       {point.mass * gravity, Vector::Zero()}, force);
+    const MovingKinematics<double, D> element = beam.kinematics(k);
+    const double l = element.length(), u = (point.x - element.coordinates().x_a) / l;
+    const std::array<double, 4> shares = shares_at(element.weights(), l, u);
+    const Vector weight = point.mass * gravity;
+    for (int n = 0; n < 4; ++n) {
+      Eigen::Map<Vector>(force + beam.vector(k, n)) += shares[static_cast<std::size_t>(n)] * weight;
+    }
   }
 }
 

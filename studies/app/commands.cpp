@@ -136,16 +136,15 @@ int run_command(const RunArguments& arguments) {
     Progress progress(printable(scene.title.empty() ? arguments.scene : scene.title));
     constexpr int many_steps = 2000;
     int steps = 0;
-    std::string slow;
     result = simulate(
         scene,
         [&](double t) {
-          if (in_time) {
-            if (++steps % many_steps == 0) slow = why_slow(scene, t / steps);
-            progress.update(t / scene.duration, "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow));
-          } else {
-            progress.update(t, "load factor " + std::to_string(t));
-          }
+          ++steps;
+          progress.update(in_time ? t / scene.duration : t, [&] {
+            if (!in_time) return "load factor " + std::to_string(t);
+            const std::string slow = steps < many_steps ? "" : why_slow(scene, t / steps);
+            return "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow);
+          });
           return !interrupted();
         },
         checks ? &checkpoints : nullptr);

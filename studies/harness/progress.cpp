@@ -15,15 +15,10 @@ Progress::~Progress() {
   if (terminal_ && shown_ != Clock::time_point{}) std::cerr << erase_line << std::flush;
 }
 
-void Progress::update(double fraction, const std::string& detail) {
-  if (!terminal_) return;
-  const std::scoped_lock lock(mutex_);
-  const auto now = Clock::now();
-  if (now - shown_ < std::chrono::milliseconds(200)) return;
-  shown_ = now;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  std::cerr << '\r' << title_ << ": " << static_cast<int>(100 * fraction) << " %";
-  if (!detail.empty()) std::cerr << ", " << detail;
+void Progress::show(double fraction, const std::string& detail) {
+  shown_ = Clock::now();
+  const double elapsed = std::chrono::duration<double>(shown_ - start_).count();
+  std::cerr << '\r' << title_ << ": " << static_cast<int>(100 * fraction) << " %, " << detail;
   if (fraction > 0 && elapsed > 1)
     std::cerr << ", about " << duration_text(elapsed * (1 - fraction) / fraction) << " left";
   std::cerr << "\033[K" << std::flush;

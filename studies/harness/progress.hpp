@@ -15,11 +15,19 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `fraction` of the work that is done, in [0, 1]; `detail` says it in words ("3/20 runs").
-  void update(double fraction, const std::string& detail = "");
+  /// `fraction` of the work that is done, in [0, 1]; detail(), called where it is shown, says it in words ("3/20
+  /// runs").
+  template <class Detail>
+  void update(double fraction, const Detail& detail) {
+    if (!terminal_) return;
+    const std::scoped_lock lock(mutex_);
+    if (Clock::now() - shown_ >= std::chrono::milliseconds(200)) show(fraction, detail());
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  void show(double fraction, const std::string& detail);
 
   std::string title_;
   bool terminal_;

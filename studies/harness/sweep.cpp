@@ -20,6 +20,9 @@ void run_tasks(const std::string& title, const std::vector<double>& costs, int j
 
   const double all = std::accumulate(costs.begin(), costs.end(), 0.0);
   Progress progress(title);
+  const auto in_words = [&order](std::size_t finished) {
+    return [&order, finished] { return std::to_string(finished) + "/" + std::to_string(order.size()) + " runs"; };
+  };
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> finished{0};
   std::atomic<double> done{0};
@@ -30,12 +33,11 @@ void run_tasks(const std::string& title, const std::vector<double>& costs, int j
     for (std::size_t i = next++; i < order.size() && !interrupted(); i = next++) {
       task(order[i]);
       const double so_far = done += costs[order[i]];
-      progress.update(all > 0 ? so_far / all : 0,
-                      std::to_string(++finished) + "/" + std::to_string(order.size()) + " runs");
+      progress.update(all > 0 ? so_far / all : 0, in_words(++finished));
     }
   };
 
-  progress.update(0, "0/" + std::to_string(order.size()) + " runs");
+  progress.update(0, in_words(0));
   std::vector<std::jthread> others;
   for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
   work();

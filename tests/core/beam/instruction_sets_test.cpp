@@ -211,15 +211,36 @@ TEST(InstructionSets, GiveTheEndOfAStepTheSameBits) {
     const StepKernels::Arrays step{array(1), array(2), array(3), array(4), array(5), array(6), array(7), array(8)};
     const StepKernels kernels = step_kernels(set);
     kernels.complete(count, {0.1, 7, 300}, array(0), step);
-    Eigen::VectorXd all(2 * numbers.size());
+    Eigen::VectorXd all(3 * numbers.size());
     all.head(numbers.size()) = numbers;
     kernels.complete(count, {0.2, 7, 300}, nullptr, step);
+    all.segment(numbers.size(), numbers.size()) = numbers;
+    kernels.predict(count, {0.1, -0.4, 0.6, 0.3, 0.45}, array(0), array(1), array(2), array(3), array(4));
     all.tail(numbers.size()) = numbers;
+    const auto next = -0.4 * start.segment(count, count);  // the method's own acceleration at the end
+    EXPECT_LE(
+        (numbers.segment(3 * count, count) - start.head(count) - 0.1 * (0.4 * start.segment(count, count) + 0.6 * next))
+            .norm(),
+        1e-14);
+    EXPECT_LE(((1 - 0.45) * numbers.segment(4 * count, count) + 0.45 * start.segment(2 * count, count) -
+               (1 - 0.3) * next - 0.3 * start.segment(count, count))
+                  .norm(),
+              1e-14);
     std::array<double, 4> largest;
     kernels.largest(count, start.data(), largest);
     for (int i = 0; i < 4; ++i) {
       const auto of_each = Eigen::Map<const Eigen::Matrix4Xd>(start.data(), 4, count).row(i);
       EXPECT_EQ(largest[static_cast<std::size_t>(i)], of_each.cwiseAbs().maxCoeff());
+    }
+    const Eigen::ArrayXd sizes = start.array().abs();
+    for (const int some : {1, 3, 4, count}) {
+      const auto ratios = sizes.head(some) / (0.5 * sizes.segment(count, some) +
+                                              0.1 * sizes.segment(2 * count, some).max(sizes.segment(3 * count, some)));
+      const double* const at = start.data();
+      const Eigen::VectorXd allowed = sizes.segment(count, count);
+      EXPECT_EQ(kernels.error_ratio(some, at, allowed.data(), at + 2 * count, at + 3 * count, 0.5, 0.1),
+                ratios.maxCoeff())
+          << some;
     }
     return all;
   };
