@@ -365,7 +365,7 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   }
 
   bool turns_ = false;
-  /// Of its blocks the last row and column, all else only once they are factored.
+  /// Until it is factored, of its blocks the last row and column alone.
   BorderedBlockTridiagonal<D == 3 ? B + 1 : B> wide_;
   std::vector<OfAngles> of_angles_;  ///< of the border, as far as any was added
   mutable Eigen::VectorXd work_;

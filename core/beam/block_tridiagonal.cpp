@@ -1,6 +1,7 @@
 #include "core/beam/block_tridiagonal.hpp"
 
 #include <atomic>
+#include <cassert>
 #include <cmath>
 
 #include "core/beam/block_kernels.hpp"
@@ -201,6 +202,7 @@ void BorderedBlockTridiagonal<B>::solve(double* x) const {
 
 template <int B>
 int BorderedBlockTridiagonal<B>::negative_pivots(double zero) const {
+  assert(solves_);
   int count = 0;
   for (std::size_t k = 0; k < diagonal.size(); ++k) {
     Vector size;  // places, slopes and, of an odd number, an angle have units of their own

@@ -50,8 +50,8 @@ class BorderedBlockTridiagonal {
   void solve_pivots() { solves_ = true; }
 
   /// Block LU from both ends to the middle, at once where there are many nodes and threads; then the small system that
-  /// the border leaves. Inverse pivots take the place of the diagonal, if pivots are not solved. Returns false where a
-  /// pivot is singular or not finite.
+  /// the border leaves. The factors take the place of the matrix. Returns false where a pivot is singular or not
+  /// finite.
   bool factor();
 
   /// Solves in place; `x` holds B numbers a node, then the border's unknowns.

@@ -11,7 +11,7 @@
 namespace vlbeam {
 namespace {
 
-// What forces, and tangents, of a pack cost, in numbers to be copied: where pieces of a span are to end.
+// What a pack's forces or inertia, and its tangents, cost, in numbers to be copied: where pieces of a span are to end.
 constexpr std::ptrdiff_t cost_of_forces = 8 * Pack::width, cost_of_tangents = 16 * Pack::width;
 
 /// Gives all elements of a pack as many points: those of fewer repeat their last one, with zero weight.

@@ -25,9 +25,11 @@ void assign_to(Eigen::Ref<Eigen::VectorXd> to, const Expression& expression) {
   in_pieces(to.size(), 1, [&](Eigen::Index first, Eigen::Index count) { assign_piece(to, expression, first, count); });
 }
 
-/// Writes two of one size in one pass. Each entry of the second is computed once that of the first is written.
+/// Writes two expressions of one size in one pass. An entry of the second may depend on the same entry of the first,
+/// which is written before it.
 template <class A, class B>
 void assign_both_to(Eigen::Ref<Eigen::VectorXd> a, const A& of_a, Eigen::Ref<Eigen::VectorXd> b, const B& of_b) {
+  eigen_assert(a.size() == b.size());
   in_pieces(a.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
     assign_piece(a, of_a, first, count);
     assign_piece(b, of_b, first, count);
@@ -41,7 +43,7 @@ void assign(Eigen::VectorXd& to, const Expression& expression) {
   assign_to(to, expression);
 }
 
-/// The same to two that get their size.
+/// The same to two that get their size. If the second expression reads the first vector, that has its size already.
 template <class A, class B>
 void assign_both(Eigen::VectorXd& a, const A& of_a, Eigen::VectorXd& b, const B& of_b) {
   a.resize(of_a.size());

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "core/dynamics/alpha_step.hpp"
 #include "core/dynamics/assign.hpp"
@@ -124,6 +125,7 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   void exchange(Memory& memory) override {
+    if (!memory.reads() && !options_.checkpoints) throw std::logic_error("generalized-alpha without checkpoints");
     system_.exchange(memory);
     memory(started_);
     memory(crosses_event_);
@@ -140,9 +142,7 @@ class GeneralizedAlpha final : public Stepper {
     memory(from_q_);
     memory(motion_until_event_);
     memory(noise_step_);
-    if (memory.reads()) {
-      stop_.set_fields(system_.fields());
-    }
+    if (memory.reads()) stop_.set_fields(system_.fields());
     stop_.exchange(memory);
     memory(tangent_by_a_);
     if (tangent_by_a_ == 0) return;
@@ -459,7 +459,7 @@ class GeneralizedAlpha final : public Stepper {
   StepEnd start_, end_;      ///< at the start and at the end of the last step
   AlphaStep step_;
   Eigen::VectorXd next_a_, r_;
-  Eigen::VectorXd other_;  ///< memory of what needs one more
+  Eigen::VectorXd other_;  ///< working memory of one function at a time
   NewtonStop stop_;
   Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates
   Eigen::VectorXd error_;                       ///< estimated, of the positions

@@ -122,7 +122,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
                      "it keeps its history to itself: take another method");
   }
   IntegrationOptions of_method = options;
-  of_method.generalized_alpha.checkpoints = checkpoints != nullptr;
+  of_method.generalized_alpha.checkpoints = checkpoints != nullptr && checkpoints->keep;
   const Method method(ode, of_method, counters.newton);
   Stepper* const stepper = method.stepper.get();
   SideStepper side(ode, options, counters.newton);

@@ -72,7 +72,7 @@ class NewtonStop {
   /// Whether a correction that may not be rounding is more than `limit` times the one before, in its field.
   bool grows(double limit, const Eigen::VectorXd& q) const;
 
-  /// Changes what `x` is by rounding.
+  /// Changes each number of `x` by a rounding error.
   static void perturb(Eigen::VectorXd& x);
   /// `change` is what a perturbation of all that the residual depends on does to the solution, near q.
   void set_noise(const Eigen::VectorXd& change, const Eigen::VectorXd& q);

@@ -32,7 +32,7 @@ struct StepKernels {
   /// numbers.
   void (*largest)(std::ptrdiff_t count, const double* groups, std::array<double, 4>& largest);
   /// Of `count` coordinates, which a step takes from somewhere to somewhere, the largest error over what is allowed:
-  /// scale allowed + rtol times the larger of their magnitudes.
+  /// scale allowed + rtol times the larger magnitude of both places.
   double (*error_ratio)(std::ptrdiff_t count, const double* error, const double* allowed, const double* from,
                         const double* to, double scale, double rtol);
 };

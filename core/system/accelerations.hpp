@@ -29,7 +29,8 @@ class Accelerations {
 
   /// Writes y' at (y, t); not a number where the mass matrix is singular or nodes tangle.
   void rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t);
-  /// Writes the accelerations at q and v, as many of each as the beam has coordinates; the same where there are none.
+  /// Writes the accelerations at q and v, of each as many as the beam has coordinates, at the start of `a`, which has
+  /// its size; where there are none all of it becomes not a number.
   void accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a);
   /// Forces along links, as evaluated last: positive where they push [N].
   const Eigen::VectorXd& link_forces() const { return link_forces_; }

@@ -6,7 +6,8 @@
 namespace vlbeam {
 
 /// Energies and momenta of the elements `first` to `last` - 1 of a chain, point masses on them included, by `points`
-/// Gauss points an element, or own_points; the model is that of the beam. With the extremes of `strains`, or without.
+/// Gauss points an element, or own_points; the model is that of the beam. Extremes of strains where `strains` asks for
+/// them.
 template <int D>
 Observation<D> observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
                                 int points, bool strains);

@@ -79,7 +79,7 @@ int dispatch(int argc, char** argv) {
       ->needs(checkpoint);
   run->add_option("--restart", run_arguments.restart, "Go on from this checkpoint of the scene, with the same digits");
   run->add_option("--threads", run_arguments.threads,
-                  "At work on a beam of more than about 4000 elements; digits do not depend on it (default: one a "
+                  "At work on a beam of more than about 1000 elements; digits do not depend on it (default: one a "
                   "processor, four at most)")
       ->check(CLI::Range(1, 1024));
   run->add_flag("--force", run_arguments.force, "A run that fails may replace an earlier result");

@@ -55,7 +55,7 @@ TYPED_TEST(EnergyJump, IsTheDifferenceOfTheWholeBeamsEnergies) {
   }
 }
 
-/// So long that pieces of it are observed at once: by parts that are too short for that, one behind the other.
+/// It is so long that pieces of it are observed at once; its parts are too short for that.
 TYPED_TEST(EnergyJump, ALongBeamIsObservedAsItsPartsAre) {
   constexpr int D = TypeParam::value, elements = static_cast<int>(long_range) / node_size<D> + 100;
   Random random(6);
