@@ -14,7 +14,7 @@ struct PointMass {
   double mass;  ///< [kg]
 };
 
-/// What the nodal vectors (r_A, s_A, r_B, s_B) of an element of length l share in the place at u of it, 0 to 1.
+/// How much each nodal vector (r_A, s_A, r_B, s_B) of an element of length l counts in the place at u of it, 0 to 1.
 inline std::array<double, 4> shares_at(const Weights<double>& weights, double l, double u) {
   const auto f = rational_shape(weights, u);
   return {f[0][0], l * f[1][0], f[2][0], l * f[3][0]};

@@ -33,34 +33,35 @@ struct Observation {
   double spin_momentum = 0;                                  ///< about the axis [kg m^2/s]
   double load_work = 0, end_work = 0, mesh_work = 0;         ///< what Tally has of it, where counted [J]
   double mass_in = 0;                                        ///< the same [kg]
-  std::optional<StrainExtremes> extremes;                    ///< at the points of the rule and the elements' ends
+  std::optional<StrainExtremes> extremes = {};               ///< at the points of the rule and the elements' ends
 
   void add(const ElementSums<double, D>& sums) {
-    energy += energy_of(sums);
-    beam_length += sums.length;
-    beam_length_rate += sums.length_rate;
-    momentum += sums.momentum;
-    angular_momentum += sums.angular_momentum;
-    mass_moment += sums.mass_moment;
-    mass += sums.mass;
+    *this += {.energy = energy_of(sums),
+              .beam_length = sums.length,
+              .beam_length_rate = sums.length_rate,
+              .momentum = sums.momentum,
+              .angular_momentum = sums.angular_momentum,
+              .mass_moment = sums.mass_moment,
+              .mass = sums.mass};
   }
-  /// Of two parts, both with extremes, or both without.
-  friend Observation operator+(Observation a, const Observation& b) {
-    a.energy += b.energy;
-    a.beam_length += b.beam_length;
-    a.beam_length_rate += b.beam_length_rate;
-    a.momentum += b.momentum;
-    a.angular_momentum += b.angular_momentum;
-    a.mass_moment += b.mass_moment;
-    a.mass += b.mass;
-    a.spin_momentum += b.spin_momentum;
-    a.load_work += b.load_work;
-    a.end_work += b.end_work;
-    a.mesh_work += b.mesh_work;
-    a.mass_in += b.mass_in;
-    if (a.extremes && b.extremes) a.extremes->add(*b.extremes);
-    return a;
+  /// Adds another part. Extremes are kept where this one has a place for them.
+  Observation& operator+=(const Observation& part) {
+    energy += part.energy;
+    beam_length += part.beam_length;
+    beam_length_rate += part.beam_length_rate;
+    momentum += part.momentum;
+    angular_momentum += part.angular_momentum;
+    mass_moment += part.mass_moment;
+    mass += part.mass;
+    spin_momentum += part.spin_momentum;
+    load_work += part.load_work;
+    end_work += part.end_work;
+    mesh_work += part.mesh_work;
+    mass_in += part.mass_in;
+    if (extremes && part.extremes) extremes->add(*part.extremes);
+    return *this;
   }
+  friend Observation operator+(Observation a, const Observation& b) { return a += b; }
   /// A lumped mass at r that moves with v.
   void add_mass(double m, const Vec<double, D>& r, const Vec<double, D>& v, const Vec<double, D>& gravity) {
     energy.kinetic += 0.5 * m * v.squaredNorm();

@@ -67,7 +67,7 @@ TYPED_TEST(EnergyJump, ALongBeamIsObservedAsItsPartsAre) {
   Observation<D> parts;
   parts.extremes.emplace();
   for (int first = 0; first < elements; first += 500) {
-    parts = parts + observe_elements(beam, chain, first, std::min(first + 500, elements), 0, 5, true);
+    parts += observe_elements(beam, chain, first, std::min(first + 500, elements), 0, 5, true);
   }
   for (const int threads : {1, 2, 7}) {
     const ThreadLimit limit(threads);
