@@ -30,12 +30,20 @@ struct NodeBlock {
     }
     return result;
   }
+
+  bool operator==(const NodeBlock& other) const {
+    return (rr == other.rr).all() && (rs == other.rs).all() && (ss == other.ss).all();
+  }
 };
 
 /// General 2 x 2 block: row (position, slope) of one node, column of another.
 template <class Entry>
 struct CouplingBlock {
   Entry rr, rs, sr, ss;
+
+  bool operator==(const CouplingBlock& other) const {
+    return (rr == other.rr).all() && (rs == other.rs).all() && (sr == other.sr).all() && (ss == other.ss).all();
+  }
 };
 
 }  // namespace vlbeam

@@ -96,41 +96,28 @@ Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, 
       support_(support),
       section_(section),
       curved_at_rest_(rest != nullptr) {
-  const int known = before != nullptr ? take_over(*before, mesh, unchanged) : 0;
+  const int known = before != nullptr ? take_over(*before, unchanged) : 0;
   build_packs(mesh, rules, rest, masses);
   factor(known);
 }
 
-/// Tables of a curved rest shape depend on its nodes, too, which only unchanged elements share.
 template <int D>
-int Span<D>::take_over(Span& before, const Mesh& mesh, int unchanged) {
+int Span<D>::take_over(Span& before, int unchanged) {
   if (step_ != before.step_ || (support_.free_position != before.support_.free_position).any() ||
       (support_.free_slope != before.support_.free_slope).any()) {
     return 0;
   }
-  const int common = std::min(count(), before.count());
-  int known = std::min(unchanged, common);
-  while (known < common && before.elements_[static_cast<std::size_t>(known)] == as_tabulated(mesh, element(known)))
-    ++known;
-  elements_ = std::move(before.elements_);
-  elements_.resize(static_cast<std::size_t>(known));
-  const int tabulated = curved_at_rest_ ? std::min(unchanged, known) : known;
+  const int known = std::min({unchanged, count(), before.count()});
   packs_ = std::move(before.packs_);
-  packs_.resize(static_cast<std::size_t>(tabulated / Pack::width));
+  packs_.resize(static_cast<std::size_t>(known / Pack::width));
   for (std::size_t p = 0; outer_ != before.outer_ && p < packs_.size(); ++p) {
     packs_[p].first = first_of(static_cast<int>(p), Pack::width);
   }
   pivots_ = std::move(before.pivots_);
-  pivots_.resize(static_cast<std::size_t>(known));
+  const auto last = std::ranges::lower_bound(pivots_, known, {}, &PivotRun::end);
+  pivots_.erase(known > 0 ? last + 1 : last, pivots_.end());
+  if (known > 0) pivots_.back().end = known;
   return known;
-}
-
-template <int D>
-void Span<D>::reserve(int elements) {
-  const auto count = static_cast<std::size_t>(elements);
-  elements_.reserve(count);
-  packs_.reserve(count / Pack::width + 1);
-  pivots_.reserve(count);
 }
 
 template <int D>
@@ -144,8 +131,6 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double
     return std::any_of(masses.begin(), masses.end(),
                        [&](const PointMass& point) { return mesh.element_at(point.x) == k; });
   };
-  for (int i = static_cast<int>(elements_.size()); i < count(); ++i)
-    elements_.push_back(as_tabulated(mesh, element(i)));
   for (int done = static_cast<int>(packs_.size()) * Pack::width; done < this->count(); done += Pack::width) {
     const int count = std::min(Pack::width, this->count() - done), first = first_of(done / Pack::width, count);
     bool is_uniform = count == Pack::width && rest == nullptr;
@@ -212,7 +197,7 @@ void Span<D>::factor(int known) {
   };
   if (known > 0) {
     const FixedInertia last = inertia(known - 1);
-    carry_on(last, pivots_.back());
+    carry_on(last, pivots_.back()[known - 1]);
   }
   for (int i = known; i < count(); ++i) {
     const FixedInertia of = inertia(i);
@@ -229,10 +214,20 @@ void Span<D>::factor(int known) {
     }
     pivot.next = {inv.rr * c.rr + inv.rs * c.sr, inv.rr * c.rs + inv.rs * c.ss, inv.rs * c.rr + inv.ss * c.sr,
                   inv.rs * c.rs + inv.ss * c.ss};
-    pivots_.push_back(pivot);
+    add_pivot(pivot, i);
     carry_on(of, pivot);
   }
   open_mass_ = block;
+}
+
+template <int D>
+void Span<D>::add_pivot(const Pivot& pivot, int node) {
+  const bool goes_on =
+      !pivots_.empty() && (node < pivots_.back().first + PivotRun::turns || pivots_.back()[node] == pivot);
+  if (!goes_on) pivots_.emplace_back(pivot, node);
+  PivotRun& run = pivots_.back();
+  run.pivots[static_cast<std::size_t>(node) % PivotRun::turns] = pivot;
+  run.end = node + 1;
 }
 
 template <int D>
@@ -293,17 +288,18 @@ typename Span<D>::Vector Span<D>::first_moment(const double* q) const {
 template <int D>
 void Span<D>::reduce(double* force, int left_out) const {
   Components carry_r = Components::Zero(), carry_s = Components::Zero();
-  int node = this->node(left_out);
-  for (const Pivot& pivot : std::span(pivots_).subspan(static_cast<std::size_t>(left_out))) {
-    auto f_r = position<D>(force, node);
-    auto f_s = slope<D>(force, node);
+  auto run = std::ranges::upper_bound(pivots_, left_out, {}, &PivotRun::end);
+  for (int i = left_out; i < count(); ++i) {
+    if (i == run->end) ++run;
+    const auto& next = (*run)[i].next;
+    auto f_r = position<D>(force, node(i));
+    auto f_s = slope<D>(force, node(i));
     const Components y_r = support_.into_frame(f_r).array() - carry_r;
     const Components y_s = support_.into_frame(f_s).array() - carry_s;
     f_r = y_r.matrix();
     f_s = y_s.matrix();
-    carry_r = pivot.next.rr * y_r + pivot.next.sr * y_s;
-    carry_s = pivot.next.rs * y_r + pivot.next.ss * y_s;
-    node += step_;
+    carry_r = next.rr * y_r + next.sr * y_s;
+    carry_s = next.rs * y_r + next.ss * y_s;
   }
   position<D>(force, open_) -= support_.out_of_frame(carry_r.matrix());
   slope<D>(force, open_) -= support_.out_of_frame(carry_s.matrix());
@@ -313,14 +309,15 @@ template <int D>
 void Span<D>::substitute(double* force, int left_out) const {
   Components a_r = support_.into_frame(position<D>(force, open_)).array();
   Components a_s = support_.into_frame(slope<D>(force, open_)).array();
-  int node = open_ - step_;
-  for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend() - left_out; ++pivot, node -= step_) {
-    auto f_r = position<D>(force, node);
-    auto f_s = slope<D>(force, node);
+  auto run = pivots_.rbegin();
+  for (int i = count() - 1; i >= left_out; --i) {
+    if (i < run->first) ++run;
+    const auto& [inv, next] = (*run)[i];
+    auto f_r = position<D>(force, node(i));
+    auto f_s = slope<D>(force, node(i));
     const Components y_r = f_r.array(), y_s = f_s.array();
-    const auto& inv = pivot->inverse;
-    const Components x_r = inv.rr * y_r + inv.rs * y_s - (pivot->next.rr * a_r + pivot->next.rs * a_s);
-    const Components x_s = inv.rs * y_r + inv.ss * y_s - (pivot->next.sr * a_r + pivot->next.ss * a_s);
+    const Components x_r = inv.rr * y_r + inv.rs * y_s - (next.rr * a_r + next.rs * a_s);
+    const Components x_s = inv.rs * y_r + inv.ss * y_s - (next.sr * a_r + next.ss * a_s);
     f_r = support_.out_of_frame(x_r.matrix());
     f_s = support_.out_of_frame(x_s.matrix());
     a_r = x_r;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -24,8 +25,8 @@ class Span {
   /// Elements of `mesh` between nodes `outer` and `open`, `open` on either side; `rest` holds the nodes of the
   /// rest shape, null for a straight, unstrained one; `masses` sit on the whole beam. Throws std::invalid_argument for
   /// a mass matrix that is not positive definite (too few quadrature points).
-  /// `before`, a span of the same beam on another mesh, gives away what holds for elements that both have next to the
-  /// outer node: the cost is that of the others. The first `unchanged` of them are taken without being compared.
+  /// `before`, a span of the same beam on another mesh, gives away what holds for its first `unchanged` elements,
+  /// counted from the outer node, which are as they were there, rest shapes included: the cost is that of the others.
   Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
        const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr,
        int unchanged = 0);
@@ -61,9 +62,6 @@ class Span {
   /// but so many outer ones.
   void substitute(double* force, int left_out = 0) const;
 
-  /// Takes memory for as many elements: one more does not copy them all then.
-  void reserve(int elements);
-
   int open() const { return open_; }
   const Support<D>& support() const { return support_; }
   /// The support stands otherwise, and fixes the same components of its frame: what is factored does not know the
@@ -80,17 +78,21 @@ class Span {
   struct Pivot {
     NodeBlock<D> inverse;
     CouplingBlock<Components> next;
+    bool operator==(const Pivot&) const = default;
   };
-  /// What an element's tables were made for.
-  struct Element {
-    double x_a, x_b;
-    Weights<double> weights;
-    bool operator==(const Element&) const = default;
+  /// The steps of neighbouring nodes, which repeat themselves by turns: where elements are equal, elimination soon
+  /// makes one step again and again, or, for rounding, two, four or eight.
+  struct PivotRun {
+    static constexpr int turns = 8;
+
+    /// Before its first node has one.
+    PivotRun(const Pivot& any, int node) : first(node), end(node) { pivots.fill(any); }
+
+    std::array<Pivot, turns> pivots;  ///< that of a node stands where its number leaves as a remainder
+    int first, end;                   ///< nodes, counted from the outer one
+
+    const Pivot& operator[](int node) const { return pivots[static_cast<std::size_t>(node) % turns]; }
   };
-  static Element as_tabulated(const Mesh& mesh, int k) {
-    const auto e = static_cast<std::size_t>(k);
-    return {mesh.x[e], mesh.x[e + 1], mesh.weights[e].w};
-  }
   /// Elements and nodes are counted from the outer node inwards.
   int element(int i) const { return step_ > 0 ? outer_ + i : outer_ - 1 - i; }
   int node(int i) const { return outer_ + step_ * i; }
@@ -104,17 +106,17 @@ class Span {
     return Packs(packs_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(n));
   }
   /// Takes from `before` what goes on to hold; returns for how many elements.
-  int take_over(Span& before, const Mesh& mesh, int unchanged);
+  int take_over(Span& before, int unchanged);
   void build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses);
   void factor(int known);
+  void add_pivot(const Pivot& pivot, int node);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
   BeamSection section_;
   bool curved_at_rest_;
-  std::vector<Element> elements_;
   std::vector<PackOfElements> packs_;
-  std::vector<Pivot> pivots_;  ///< without the open node
+  std::vector<PivotRun> pivots_;  ///< without the open node
   NodeBlock<D> open_mass_;
 };
 

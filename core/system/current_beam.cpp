@@ -1,6 +1,7 @@
 #include "core/system/current_beam.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "core/error.hpp"
 
@@ -19,6 +20,27 @@ void replace_part(const std::vector<Entry>& part, const BeamPart& where, std::pt
   } else {
     whole.erase(next, end);
   }
+}
+
+/// Elements at the start and at the end of a beam, with the nodes `rest` of its rest shape if that is curved, that are
+/// the same in the part of it that a chain holds.
+template <int D>
+BeamPart unchanged_elements(const Mesh& mesh, const std::vector<double>& rest, const ChainState<D>& chain) {
+  const Mesh& now = chain.mesh;
+  const auto same = [&](int before, int after) {
+    const auto i = static_cast<std::size_t>(before), k = static_cast<std::size_t>(after);
+    const auto nodes_of = [](const std::vector<double>& nodal, int element) {
+      return std::span(nodal).subspan(node_size<D> * static_cast<std::size_t>(element), 2 * node_size<D>);
+    };
+    return mesh.x[i] == now.x[k] && mesh.x[i + 1] == now.x[k + 1] && mesh.weights[i].w == now.weights[k].w &&
+           (!chain.curved_at_rest() || std::ranges::equal(nodes_of(rest, before), nodes_of(chain.rest, after)));
+  };
+  const int first = chain.part.before, end = mesh.elements() - chain.part.behind, count = now.elements();
+  const int common = std::min(end - first, count);
+  int at_start = 0, at_end = 0;
+  while (at_start < common && same(first + at_start, at_start)) ++at_start;
+  while (at_end < common && same(end - 1 - at_end, count - 1 - at_end)) ++at_end;
+  return {chain.part.before + at_start, chain.part.behind + at_end};
 }
 
 }  // namespace
@@ -60,6 +82,7 @@ Eigen::VectorXd CurrentBeam<D>::start(const ChainState<D>& chain) {
 template <int D>
 void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
+  const BeamPart unchanged = mesh_.x.empty() ? BeamPart{} : unchanged_elements(mesh_, rest_, chain);
   replace_part(chain.mesh.x, chain.part, 1, mesh_.x);
   replace_part(chain.mesh.weights, chain.part, 1, mesh_.weights);
   if (chain.curved_at_rest()) replace_part(chain.rest, chain.part, node_size<D>, rest_);
@@ -71,7 +94,7 @@ void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   for (const Joint& joint : joints_) index.push_back(joint.index);
   held_.adopt(model_, mesh_.last(), places_, index, sections_.frames ? layout_.angle() : -1);
   if (sections_.frames) adopt_frames();
-  adopt_elements(chain.part);
+  adopt_elements(unchanged);
   rider_.reset();
   if (chain.rider) {
     const auto k = static_cast<std::size_t>(chain.rider->element);
@@ -130,7 +153,7 @@ const SumTables& CurrentBeam<D>::tables(int points) const {
 }
 
 template <int D>
-void CurrentBeam<D>::adopt_elements(const BeamPart& changed) {
+void CurrentBeam<D>::adopt_elements(const BeamPart& unchanged) {
   const BeamSection section = model_.axis_section();
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
@@ -139,13 +162,11 @@ void CurrentBeam<D>::adopt_elements(const BeamPart& changed) {
                                        : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   const auto& masses = model_.masses.points;
-  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int unchanged) {
-    Span<D> next(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, unchanged);
-    if (!span) next.reserve(mesh_.elements());
-    span = std::move(next);
+  const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int known) {
+    span = Span<D>(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, known);
   };
-  renew(spans_.left, 0, left_open, model_.start, changed.before);
-  renew(spans_.right, mesh_.last(), right_open, model_.end, changed.behind);
+  renew(spans_.left, 0, left_open, model_.start, unchanged.before);
+  renew(spans_.right, mesh_.last(), right_open, model_.end, unchanged.behind);
   spans_.between.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;

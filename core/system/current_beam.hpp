@@ -303,8 +303,8 @@ class CurrentBeam {
   /// Puts where the joints are, and how they move, into a state.
   void write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const;
   void adopt_frames();
-  /// The same; outside of what has `changed` they are as they were.
-  void adopt_elements(const BeamPart& changed);
+  /// The same; so many at the start and at the end are as they were.
+  void adopt_elements(const BeamPart& unchanged);
   /// The frames of a chain, in the place of those there were.
   void take_frames(const ChainState<D>& chain);
 
