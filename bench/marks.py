@@ -4,15 +4,15 @@
     bench/marks.py PROGRAM [--vs PROGRAM] [--repeats 5] [--slow]
 
 Prints times, the least of the repeats, in milliseconds: processor time of whole processes, wall time of motions and
-events; with --vs the ratio to the other program, whose runs alternate with these, so that a busy machine slows both.
-All on one thread. --slow adds runs of 1000 to 1000000 elements (5 GB, minutes).
+events; of long beams their memory, too. With --vs also the ratio to the other program, whose runs alternate with these,
+so that a busy machine slows both. All on one thread. --slow adds runs of 1000 to 1000000 elements (a minute a program).
 """
 
 import argparse
 import functools
 import json
+import os
 import pathlib
-import resource
 import subprocess
 import sys
 import tempfile
@@ -66,25 +66,27 @@ def one_thread(program):
 
 
 def run(program, scene, folder):
-    """Processor time of the process, wall time of its motion and of one event [s], None without any;
-    nothing where the program does not know the scene."""
-    source, report = folder / "scene.json", folder / "report.json"
+    """Processor time of the process, wall time of its motion and of one event [s], None without any, and its memory
+    at most [B]; nothing where the program does not know the scene."""
+    source, report, errors = folder / "scene.json", folder / "report.json", folder / "errors.txt"
     source.write_text(json.dumps(scene), encoding="utf-8")
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([program, "run", source, "--report", report, "--force", *one_thread(program)], stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, text=True, close_fds=False)  # no copy of this process is made, and timed
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode == 2:
+    with open(errors, "wb") as stderr:
+        process = subprocess.Popen([program, "run", source, "--report", report, "--force", *one_thread(program)],
+                                   stdout=subprocess.DEVNULL, stderr=stderr,
+                                   close_fds=False)  # no copy of this process is made, and timed
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode == 2:
         return None
-    if done.returncode != 0:
-        sys.exit(f"{program} failed:\n{done.stderr}")
+    if process.returncode != 0:
+        sys.exit(f"{program} failed:\n{errors.read_text(encoding='utf-8')}")
     result = json.loads(report.read_text(encoding="utf-8"))
     events = len(result["events"])
-    whole = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return {
-        "whole process": whole,
+        "whole process": used.ru_utime + used.ru_stime,
         "motion": result["timing"]["motion"],
         "an event": result["timing"]["length_control"] / events if events else None,
+        "memory": 1024 * used.ru_maxrss,
     }
 
 
@@ -126,7 +128,11 @@ def main():
             best = least(scene, arguments.repeats if title in RUNS else 1)
             print(title if best else title + ": not known to all programs")
             for key in best[0] if best else []:
-                show("  " + key, [each[key] for each in best])
+                values = [each[key] for each in best]
+                if key != "memory":
+                    show("  " + key, values)
+                elif title in SLOW:
+                    show("  memory, kB an element", [value / 1e6 / scene["beam"]["elements"] for value in values])
         total = [0.0] * len(programs)
         known = 0
         for path in library:
