@@ -61,21 +61,20 @@ void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& m
 }
 
 template <int D>
-WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>& model, const ChainState<D>& chain,
+WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>& model, const JointNow<D>& joint,
                           const OuterForces<D>& forces, const Vec<double, D>& gravity, double t) {
   const SupportSpec& end = end_of(scene, at_start);
   const typename Drum<D>::End place{at_start, at_start ? 0 : beam_length(scene)};
-  const auto& joint = at_start ? chain.joints.front() : chain.joints.back();
   const double out = place.outwards();
   WinchSample sample{};
-  sample.length = out * (chain.mesh.x[static_cast<std::size_t>(joint.node)] - place.from);
+  sample.length = out * (joint.x - place.from);
   sample.rate = out * joint.rate;
   double push = 0;  // on the beam, along what is paid out
   if (end.feed) {
     Vec<double, D> line = Vec<double, D>::Zero();
     if (model.loads.line_force) line = model.loads.line_force(t);
     push = out * forces.guiding[static_cast<std::size_t>(joint.index)] -
-           energy_fed<D>(model.section.rhoA, joint.rate, gravity, line, position<D>(chain.q.data(), joint.node));
+           energy_fed<D>(model.section.rhoA, joint.rate, gravity, line, joint.position);
   } else {
     const auto& accelerations = forces.mark_accelerations;
     push = push_of(end)(t).value - turning_of(end) * out * (at_start ? accelerations.front() : accelerations.back());
@@ -88,9 +87,9 @@ WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>&
 
 template void add_winch(const Scene&, bool, double, BeamModel<2>&);
 template void add_winch(const Scene&, bool, double, BeamModel<3>&);
-template WinchSample look_at_winch(const Scene&, bool, const BeamModel<2>&, const ChainState<2>&, const OuterForces<2>&,
+template WinchSample look_at_winch(const Scene&, bool, const BeamModel<2>&, const JointNow<2>&, const OuterForces<2>&,
                                    const Vec<double, 2>&, double);
-template WinchSample look_at_winch(const Scene&, bool, const BeamModel<3>&, const ChainState<3>&, const OuterForces<3>&,
+template WinchSample look_at_winch(const Scene&, bool, const BeamModel<3>&, const JointNow<3>&, const OuterForces<3>&,
                                    const Vec<double, 3>&, double);
 
 }  // namespace vlbeam

@@ -14,9 +14,17 @@ TimeFunction travelling(double from, const TimeFunction& way);
 template <int D>
 void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& model);
 
-/// What the winch there does at an instant, by the accelerations and forces that belong to it.
+/// A joint on the beam at an instant.
 template <int D>
-WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>& model, const ChainState<D>& chain,
+struct JointNow {
+  int index;       ///< which of the model's
+  double x, rate;  ///< material coordinate [m] and its rate [m/s]
+  Vec<double, D> position;
+};
+
+/// What the winch there does at an instant, by its joint and the accelerations and forces that belong to it.
+template <int D>
+WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>& model, const JointNow<D>& joint,
                           const OuterForces<D>& forces, const Vec<double, D>& gravity, double t);
 
 }  // namespace vlbeam

@@ -84,7 +84,7 @@ class Run {
   RunResult operator()() {
     const auto options = integration_options(scene_, system_.model().section, system_.mesh().shortest());
     const auto initial = [this]() -> Eigen::VectorXd {
-      const Eigen::VectorXd y = system_.initial_state();
+      Eigen::VectorXd y = system_.release_initial_state();
       return scene_.flow && scene_.flow->steady ? steady_state(system_, y) : y;
     };
     run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
@@ -119,8 +119,7 @@ class Run {
       const Observation<D> own = system_.observe(y, t, own_points);
       Sample sample;
       sample.t = t;
-      const ChainState<D> chain = system_.chain(y, t);
-      sample.end = point_of<D>(position<D>(chain.q.data(), chain.mesh.last()));
+      sample.end = point_of<D>(position<D>(y.data(), system_.mesh().last()));
       sample.beam_length = seen.beam_length;
       sample.beam_length_rate = seen.beam_length_rate;
       sample.energy = seen.energy;
@@ -131,7 +130,7 @@ class Run {
       const OuterForces<D> forces = system_.forces(y, t);
       if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
       for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
-      look_at_mass(y, chain, forces, sample);
+      look_at_mass(y, forces, sample);
       if (result_.samples.empty()) {
         first_total_ = sample.discrete_total;
         sample.equilibrium = start_;
@@ -147,15 +146,14 @@ class Run {
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
 
-  void look_at_mass(const Eigen::VectorXd& y, const ChainState<D>& chain, const OuterForces<D>& forces,
-                    Sample& sample) {
+  void look_at_mass(const Eigen::VectorXd& y, const OuterForces<D>& forces, Sample& sample) {
     const std::size_t count = sliding_joints(scene_).size();  // the model's at its ends come behind them
     for (std::size_t i = 0; i < count; ++i) {
       const int index = static_cast<int>(i);
       SlidingSample joint;
-      joint.position = mark_of(chain, index);
+      joint.position = mark_of(y, index);
       if (const auto mass = system_.mass_motion(y, index)) joint.mass_position = point_of<D>(mass->r);
-      if (system_.on_beam(index)) joint.on_beam = joint_sample(y, chain, index, forces);
+      if (system_.on_beam(index)) joint.on_beam = joint_sample(y, index, forces);
       if (i == 0) {
         sample.joint_position = joint.position;
         sample.mass_position = joint.mass_position;
@@ -164,7 +162,10 @@ class Run {
       if (count > 1) sample.joints.push_back(joint);
     }
     const auto winch = [&](bool at_start) {
-      return look_at_winch<D>(scene_, at_start, system_.model(), chain, forces, system_.gravity(sample.t), sample.t);
+      const JointPlace& place = at_start ? system_.places().front() : system_.places().back();
+      const JointNow<D> joint{at_start ? system_.joint_index(0) : system_.joint_index(system_.places().size() - 1),
+                              y[place.mark], y[system_.coordinates() + place.mark], position<D>(y.data(), place.node)};
+      return look_at_winch<D>(scene_, at_start, system_.model(), joint, forces, system_.gravity(sample.t), sample.t);
     };
     if (scene_.start.pays_out()) sample.winches[0] = winch(true);
     if (scene_.end.pays_out()) sample.winches[1] = winch(false);
@@ -188,32 +189,27 @@ class Run {
     return std::make_shared<const FlowSample>(std::move(flow));
   }
 
-  /// Material coordinate of a joint, while it is on the beam.
-  static std::optional<double> mark_of(const ChainState<D>& chain, int index) {
-    if (chain.rider) return chain.rider->x;
-    const auto* const joint = find(chain, index);
-    if (joint == nullptr) return std::nullopt;
-    return chain.mesh.x[static_cast<std::size_t>(joint->node)];
+  /// Where the material coordinate of a joint that is on the beam stands in a state.
+  Eigen::Index mark(int index) const {
+    return system_.rider() ? system_.layout().mark() : system_.place_of(index).mark;
   }
-  static const typename ChainState<D>::Joint* find(const ChainState<D>& chain, int index) {
-    const auto found = std::find_if(chain.joints.begin(), chain.joints.end(),
-                                    [index](const auto& joint) { return joint.index == index; });
-    return found == chain.joints.end() ? nullptr : &*found;
+  /// Material coordinate of a joint, while it is on the beam.
+  std::optional<double> mark_of(const Eigen::VectorXd& y, int index) const {
+    return system_.on_beam(index) ? std::optional(y[mark(index)]) : std::nullopt;
   }
 
-  JointSample joint_sample(const Eigen::VectorXd& y, const ChainState<D>& chain, int index,
-                           const OuterForces<D>& forces) const {
+  JointSample joint_sample(const Eigen::VectorXd& y, int index, const OuterForces<D>& forces) const {
     const Vec<double, D>& force = forces.on_masses[static_cast<std::size_t>(index)];
     Vec<double, D> tangent;
-    const auto* const joint = find(chain, index);
-    if (chain.rider) {
+    if (system_.rider()) {
       tangent = system_.rider_motion(y.data(), y.data() + system_.coordinates()).r_x.normalized();
     } else {
-      tangent = slope<D>(chain.q.data(), joint->node).normalized();
-      if (joint->kink) tangent = between<Vec<double, D>>(tangent, joint->kink->slope.normalized());
+      const JointPlace& place = system_.place_of(index);
+      tangent = slope<D>(y.data(), place.node).normalized();
+      if (place.behind >= 0) tangent = between<Vec<double, D>>(tangent, y.segment<D>(place.behind).normalized());
     }
     const double along = force.dot(tangent);
-    return {chain.rider ? chain.rider->rate : joint->rate, point_of<D>(force), along, (force - along * tangent).norm(),
+    return {y[system_.coordinates() + mark(index)], point_of<D>(force), along, (force - along * tangent).norm(),
             forces.guiding[static_cast<std::size_t>(index)]};
   }
 

@@ -39,6 +39,8 @@ struct ChainView {
   }
   /// Whether an end of the element is a joint.
   bool at_joint(int element) const { return joint_at(element) != nullptr || joint_at(element + 1) != nullptr; }
+  /// Whether an end of element k moves along the beam.
+  bool moves(int k) const { return at_joint(k) || marks != nullptr; }
   /// Where the nodal vector i of element k stands: r_A, s_A, r_B, s_B.
   Eigen::Index vector(int k, int i) const {
     if (i == 1) {
@@ -61,8 +63,7 @@ struct ChainView {
     return {cubic(rate, k), a != nullptr ? rate[a->mark] : 0, b != nullptr ? rate[b->mark] : 0};
   }
   MovingKinematics<double, D> kinematics(int k) const {
-    const bool moving = at_joint(k) || marks != nullptr;
-    return {coordinates(k), rates(k), moving ? transport : WeightTransport::frozen, weights(k)};
+    return {coordinates(k), rates(k), moves(k) ? transport : WeightTransport::frozen, weights(k)};
   }
   const WeightFunction& weights(int k) const { return mesh.weights[static_cast<std::size_t>(k)]; }
 

@@ -1,6 +1,7 @@
 #include "core/dynamics/alpha_step.hpp"
 
 #include "core/dynamics/step_kernels.hpp"
+#include "core/pieces.hpp"
 
 namespace vlbeam {
 
@@ -17,14 +18,19 @@ const StepKernels& step_kernels() {
 }
 
 void AlphaStep::complete(const AlphaRule& rule, double h, const double* correction) {
-  const StepKernels& kernels = step_kernels();
-  const StepKernels::Rates by{h, rule.by_v(h), rule.by_a(h)};
-  in_pieces(d.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
-    kernels.complete(
-        count, by, correction == nullptr ? nullptr : correction + first,
-        {base_q.data() + first, base_v.data() + first, predicted_v.data() + first, predicted_a.data() + first,
-         d.data() + first, q.data() + first, v.data() + first, a.data() + first});
-  });
+  const StepKernels::Rule of_step{h,           rule.carried(), rule.gamma, rule.alpha_m, rule.alpha_f, rule.by_v(h),
+                                  rule.by_a(h)};
+  const auto part = [&](Eigen::Index at, Eigen::Index count, const double* from_q, const double* from_v) {
+    step_kernels().complete(count, of_step, correction == nullptr ? nullptr : correction + at,
+                            {from_q, from_v, start.a.data() + at, start.true_acceleration.data() + at, d.data() + at,
+                             q.data() + at, v.data() + at, end.true_acceleration.data() + at});
+  };
+  in_pieces(of_state_, 1,
+            [&](Eigen::Index at, Eigen::Index count) { part(at, count, base_q().data() + at, base_v().data() + at); });
+  const Eigen::Index others = d.size() - of_state_;
+  if (others == 0) return;
+  zero_.setZero(others);
+  part(of_state_, others, zero_.data(), zero_.data());
 }
 
 }  // namespace vlbeam

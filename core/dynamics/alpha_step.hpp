@@ -5,9 +5,7 @@
 
 #include "core/dynamics/assign.hpp"
 #include "core/dynamics/memory.hpp"
-#include "core/dynamics/step_kernels.hpp"
 #include "core/dynamics/tallies.hpp"
-#include "core/pieces.hpp"
 #include "core/tangent_weights.hpp"
 
 namespace vlbeam {
@@ -33,47 +31,17 @@ struct AlphaRule {
   double error_constant(double h) const { return h * h * std::abs(beta + 0.5 * (alpha_m - alpha_f) - 1.0 / 6); }
 };
 
-/// Start and end of a step, arrays of coordinates.
-struct AlphaStep {
-  Eigen::VectorXd base_q, base_v;            ///< at its start
-  Eigen::VectorXd predicted_v, predicted_a;  ///< at its end, where the positions are those of the velocity going on
-  Eigen::VectorXd d;                         ///< what the positions at the end are off these
-  Eigen::VectorXd q, v, a;                   ///< at its end
-
-  /// `a0` is the method's own acceleration at the start, `true_a0` that of the equations of motion, `increment` an
-  /// expression of vectors.
-  template <class Increment>
-  void predict(const AlphaRule& rule, const Eigen::VectorXd& a0, const Eigen::VectorXd& true_a0, double h,
-               const Increment& increment) {
-    d.resize(base_q.size());
-    for (Eigen::VectorXd* vector : {&predicted_v, &predicted_a, &q, &v, &a}) vector->resize(base_q.size());
-    const StepKernels::Rule of_step{h, rule.carried(), rule.gamma, rule.alpha_m, rule.alpha_f};
-    in_pieces(base_q.size(), 1, [&](Eigen::Index first, Eigen::Index count) {
-      step_kernels().predict(count, of_step, base_v.data() + first, a0.data() + first, true_a0.data() + first,
-                             predicted_v.data() + first, predicted_a.data() + first);
-      assign_piece(d, increment, first, count);
-    });
-  }
-
-  /// Takes a correction off the increment. The increment is kept by itself: next to the coordinates it would lose its
-  /// digits in short steps, and with them the accelerations theirs.
-  void correct(const AlphaRule& rule, const Eigen::VectorXd& correction, double h) {
-    complete(rule, h, correction.data());
-  }
-  /// The end of the step, from the increment.
-  void complete(const AlphaRule& rule, double h) { complete(rule, h, nullptr); }
-
- private:
-  void complete(const AlphaRule& rule, double h, const double* correction);
-};
-
-/// What a step leaves to the next one.
+/// Accelerations, arrays of coordinates, at an end of a step.
 struct StepEnd {
   Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
   Eigen::VectorXd a;                  ///< the method's own acceleration
   double h = 0;                       ///< [s], length of the step that `a` belongs to
   Tally power;                        ///< [W]
 
+  void resize(Eigen::Index coordinates) {
+    true_acceleration.resize(coordinates);
+    a.resize(coordinates);
+  }
   void take(const StepEnd& other) {
     assign_both(true_acceleration, other.true_acceleration, a, other.a);
     h = other.h;
@@ -85,6 +53,41 @@ struct StepEnd {
     memory(h);
     power.exchange(memory);
   }
+};
+
+/// Start and end of a step, arrays of coordinates.
+struct AlphaStep {
+  using State = Eigen::Map<const Eigen::VectorXd>;
+
+  StepEnd start, end;
+  Eigen::VectorXd d;     ///< what the positions at its end are off those of the velocity going on
+  Eigen::VectorXd q, v;  ///< at its end
+
+  /// It starts from the state y, which must stay there and as it is until the step is done. Coordinates that are no
+  /// part of the state, the last ones, start from 0.
+  void begin(const Eigen::VectorXd& y, Eigen::Index coordinates, Eigen::Index of_state) {
+    for (Eigen::VectorXd* vector : {&d, &q, &v}) vector->resize(coordinates);
+    state_ = y.data();
+    of_state_ = of_state;
+  }
+  /// Coordinates and velocities in that state.
+  State base_q() const { return {state_, of_state_}; }
+  State base_v() const { return {state_ + of_state_, of_state_}; }
+
+  /// Takes a correction off the increment. The increment is kept by itself: next to the coordinates it would lose its
+  /// digits in short steps, and with them the accelerations theirs.
+  void correct(const AlphaRule& rule, const Eigen::VectorXd& correction, double h) {
+    complete(rule, h, correction.data());
+  }
+  /// The end of the step, from the increment.
+  void complete(const AlphaRule& rule, double h) { complete(rule, h, nullptr); }
+
+ private:
+  void complete(const AlphaRule& rule, double h, const double* correction);
+
+  const double* state_ = nullptr;
+  Eigen::Index of_state_ = 0;
+  Eigen::VectorXd zero_;  ///< where other coordinates start
 };
 
 /// What the factored tangent was made at: it may be steps old.

@@ -27,6 +27,14 @@ bool is_at_root(const Guard& guard, int i) {
   return std::abs(guard.value) <= std::max(i < 4 ? guard_tolerance : event_tolerance, guard.rounding);
 }
 
+/// Lets a vector be what another one is, in the end.
+struct Restored {
+  Eigen::VectorXd& vector;
+  const Eigen::VectorXd& as;
+
+  ~Restored() { assign(vector, as); }
+};
+
 /// The cubic Hermite interpolant of a step's states.
 class Interpolant {
  public:
@@ -93,12 +101,13 @@ LocatedEvent locate(EventedOde& ode, SideStepper& side, const Stepper& main, con
 
 }  // namespace
 
-Eigen::VectorXd EventSearch::at(const WholeStep& step, double t) {
+const Eigen::VectorXd& EventSearch::at(const WholeStep& step, double t) {
   if (t == step.t1) return step.y1;
   try {
     return side_.at(main_, step.y0, step.t0, t);
   } catch (const SideStepUnderflow&) {
-    return Interpolant(ode_, step)(t - step.t0);
+    interpolated_ = Interpolant(ode_, step)(t - step.t0);
+    return interpolated_;
   }
 }
 
@@ -155,20 +164,21 @@ bool EventAim::all_stay_behind(const Guards& now, double t, double dt) const {
   return true;
 }
 
-double EventAim::take(const Eigen::VectorXd& y, double t, double dt) {
+double EventAim::take(const Eigen::VectorXd& start, double t, double dt, Eigen::VectorXd& y) {
   guard_ = -1;
   if (!takes_aim_ || t == missed_from_) return dt;
-  const Guards now = t == end_t_ ? at_end_ : ode_.guards(y, t);
+  const Guards now = t == end_t_ ? at_end_ : ode_.guards(start, t);
   const bool behind = all_stay_behind(now, t, dt);
   known_ = now;
   known_t_ = t;
   if (behind) return dt;
-  repeats_ = main_.extrapolate(y, t, dt, dt, ahead_);
+  repeats_ = main_.extrapolate(start, t, dt, dt, y);
   if (!repeats_) return dt;
-  const Guards then = ode_.guards(ahead_, t + dt);
+  const Restored at_last{y, start};
+  const Guards then = ode_.guards(y, t + dt);
   const auto foreseen = [&](std::size_t k, double tau) {
-    main_.extrapolate(y, t, dt, tau, ahead_);
-    return ode_.guards(ahead_, t + tau)[k].value;
+    main_.extrapolate(start, t, dt, tau, y);
+    return ode_.guards(y, t + tau)[k].value;
   };
   double first = dt;
   for (std::size_t k = 0; k < then.size(); ++k) {

@@ -34,14 +34,15 @@ class EventSearch {
   LocatedEvent first(const WholeStep& step, const Guards& at_end);
 
   /// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, an
-  /// interpolant has to do: a sample must not change the way of the run.
-  Eigen::VectorXd at(const WholeStep& step, double t);
+  /// interpolant has to do: a sample must not change the way of the run. Valid until the next call.
+  const Eigen::VectorXd& at(const WholeStep& step, double t);
 
  private:
   EventedOde& ode_;
   const Stepper& main_;
   SideStepper& side_;
   const IntegrationOptions& options_;
+  Eigen::VectorXd interpolated_;
 };
 
 /// Lets a step end at the event in it, where that can be foreseen: a whole step, which shows that there is one, and the
@@ -51,8 +52,9 @@ class EventAim {
   EventAim(EventedOde& ode, Stepper& main, const IntegrationOptions& options)
       : ode_(ode), main_(main), takes_aim_(options.locate_events) {}
 
-  /// How long the next step from (t, y) is to be, of at most `dt`: up to the first event that is expected in it, or dt.
-  double take(const Eigen::VectorXd& y, double t, double dt);
+  /// How long the next step from (t, start) is to be, of at most `dt`: up to the first event that is expected in it, or
+  /// dt. `y` is where the step will take place, and equals `start`: it looks ahead there.
+  double take(const Eigen::VectorXd& start, double t, double dt, Eigen::VectorXd& y);
   /// Whether the last call of take() has found an event to aim at.
   bool aims() const { return guard_ >= 0; }
 
@@ -96,7 +98,6 @@ class EventAim {
   double missed_from_ = never;  ///< [s]
   int guard_ = -1;
   double slope_ = 0;  ///< [1/s], of that guard where it turns
-  Eigen::VectorXd ahead_;
 };
 
 }  // namespace vlbeam

@@ -42,7 +42,9 @@ class GeneralizedAlpha final : public Stepper {
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const double h = length(dt);
     begin(y, t, h);
-    start_.take(end_);
+    if (!from_start_) std::swap(step_.start, step_.end);
+    from_start_ = true;
+    step_.end.resize(step_.d.size());
     const bool prescribed = system_.multipliers() > 0 || system_.driven();
     if (h < shortest_share * options_.step && !stalled_ && prescribed) {
       drift(y, t, h);
@@ -51,10 +53,19 @@ class GeneralizedAlpha final : public Stepper {
       dt = options_.step;
       return true;
     }
-    if (start_.h > 0 && h != start_.h) {
-      assign(start_.a, start_.true_acceleration + (h / start_.h) * (start_.a - start_.true_acceleration));
-      start_.h = h;
+    const double given_h = step_.start.h;
+    const bool another_h = given_h > 0 && h != given_h;
+    if (another_h) {  // the one that is given stays in step_.end until there is another one
+      assign(step_.end.a,
+             step_.start.true_acceleration + (h / given_h) * (step_.start.a - step_.start.true_acceleration));
+      step_.end.a.swap(step_.start.a);
+      step_.start.h = h;
     }
+    const auto give_up = [&] {
+      if (another_h) step_.start.a.swap(step_.end.a);
+      step_.start.h = given_h;
+      return false;
+    };
 
     double dissipation = 0;
     const bool nearby = nearby_;
@@ -69,10 +80,11 @@ class GeneralizedAlpha final : public Stepper {
       tangent_by_a_ = solved_h_ = 0;
       stalled_ = true;
       shorter_.failed(dt);
-      return false;
+      return give_up();
     }
-    assign_both(next_a_, rule_.carried() * start_.a + (1 / (h * h * rule_.beta)) * step_.d,  //
-                error_, rule_.error_constant(h) * (next_a_ - start_.a));
+    const auto next_a = rule_.carried() * step_.start.a + (1 / (h * h * rule_.beta)) * step_.d;
+    Eigen::VectorXd& error = r_;
+    assign(error, rule_.error_constant(h) * (next_a - step_.start.a));
     stalled_ = false;
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
@@ -85,7 +97,7 @@ class GeneralizedAlpha final : public Stepper {
       if (ratio > 1) {
         dt = h * factor;
         calm_ = calm_steps;
-        return false;
+        return give_up();
       }
       if (calm_ > 0) {
         --calm_;
@@ -93,6 +105,7 @@ class GeneralizedAlpha final : public Stepper {
       }
       next = std::min(next, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
     }
+    assign(step_.end.a, next_a);
     accept(y, t, h, dissipation);
     dt = next;
     return true;
@@ -100,27 +113,29 @@ class GeneralizedAlpha final : public Stepper {
 
   bool extrapolate(const Eigen::VectorXd& y, double t, double dt, double tau, Eigen::VectorXd& there) override {
     begin(y, t, length(dt));
-    assign(there, y);
-    const Eigen::VectorXd& a = end_.true_acceleration;
-    assign_both(step_.q, step_.base_q + tau * (step_.base_v + (tau / 2) * a), step_.v, step_.base_v + tau * a);
-    system_.contract(step_.q, step_.v, there);
+    const Eigen::Index own = step_.base_q().size(), others = y.size() - 2 * own;
+    there.resize(y.size());
+    const auto a = here().true_acceleration.head(own);
+    assign_both_to(there.head(own), step_.base_q() + tau * (step_.base_v() + (tau / 2) * a),  //
+                   there.segment(own, own), step_.base_v() + tau * a);
+    there.tail(others) = y.tail(others);
     return true;
   }
 
   void reset() override {
-    started_ = nearby_ = false;
+    started_ = nearby_ = from_start_ = false;
     solved_h_ = 0;
     tangent_by_a_ = 0;
   }
 
   void keep_for_event(const Stepper& other, bool at_start) override {
     const auto& to_event = dynamic_cast<const GeneralizedAlpha&>(other);
-    const StepEnd& last = at_start ? to_event.start_ : to_event.end_;
-    before_event_.true_acceleration.resize(last.true_acceleration.size());
+    const StepEnd& last = at_start ? to_event.step_.start : to_event.here();
+    StepEnd& before = step_.end;
+    if (&last != &before) assign(before.true_acceleration, last.true_acceleration);
     // the step to the event may have been a short one: what `a` is ahead of that is taken from the whole one
-    assign_both(before_event_.true_acceleration, last.true_acceleration,  //
-                before_event_.a, before_event_.true_acceleration + (start_.a - start_.true_acceleration));
-    before_event_.h = start_.h;
+    assign(before.a, before.true_acceleration + (step_.start.a - step_.start.true_acceleration));
+    before.h = step_.start.h;
     crosses_event_ = true;
   }
 
@@ -129,7 +144,7 @@ class GeneralizedAlpha final : public Stepper {
     system_.exchange(memory);
     memory(started_);
     memory(crosses_event_);
-    if (crosses_event_) before_event_.exchange(memory);
+    if (crosses_event_) step_.end.exchange(memory);
     memory(motion_);
     memory(calm_);
     shorter_.exchange(memory);
@@ -137,7 +152,8 @@ class GeneralizedAlpha final : public Stepper {
     memory(is_smooth_);
     memory(tolerance_);
     if (!started_) return;
-    end_.exchange(memory);
+    if (memory.reads()) from_start_ = false;
+    here().exchange(memory);
     memory(allowed_);
     memory(from_q_);
     memory(motion_until_event_);
@@ -168,7 +184,8 @@ class GeneralizedAlpha final : public Stepper {
       calm_ = main.calm_;
       kept_ = {};
     }
-    end_.take(main.start_);
+    if (&main != this) step_.start.take(main.step_.start);
+    from_start_ = true;
     shorter_ = main.shorter_;
     tolerance_ = main.tolerance_;
     is_smooth_ = main.is_smooth_;
@@ -184,28 +201,31 @@ class GeneralizedAlpha final : public Stepper {
   void begin(const Eigen::VectorXd& y, double t, double h) {
     const Eigen::Index n = system_.coordinates();
     r_.resize(n);
-    next_a_.resize(n);
-    system_.expand(y, step_.base_q, step_.base_v);
-    if (!started_) start(t, h, n);
+    step_.begin(y, n, n - system_.multipliers());
+    if (!started_) start(y, t, h);
   }
 
-  void start(double t, double h, Eigen::Index n) {
-    end_.true_acceleration.resize(n);
-    system_.acceleration(step_.base_q, step_.base_v, t, end_.true_acceleration);
-    assign(end_.a, end_.true_acceleration);
-    end_.h = 0;
+  void start(const Eigen::VectorXd& y, double t, double h) {
     tangent_by_a_ = 0;
-    assign_both(step_.q, step_.base_q, step_.v, step_.base_v);
-    if (crosses_event_) go_on(t, h);
-    crosses_event_ = false;
+    system_.expand(y, step_.q, step_.v);
+    Eigen::VectorXd& now = step_.start.true_acceleration;
+    now.resize(step_.q.size());
+    system_.acceleration(step_.q, step_.v, t, now);
+    if (!crosses_event_ || !go_on(t, h)) {
+      assign(step_.start.a, now);
+      step_.start.h = 0;
+      std::swap(step_.start, step_.end);
+    }
+    crosses_event_ = from_start_ = false;
     double dissipation = 0;
     if (system_.tallies().dissipated) {
-      dissipation = system_.residual(step_.base_q, step_.base_v, end_.true_acceleration, t, r_);
+      system_.expand(y, step_.d, other_);
+      dissipation = system_.residual(step_.d, other_, step_.end.true_acceleration, t, r_);
     }
-    end_.power = system_.supplied_power(step_.q, step_.v, end_.true_acceleration, t);
-    end_.power.dissipated = dissipation;
+    step_.end.power = system_.supplied_power(step_.q, step_.v, step_.end.true_acceleration, t);
+    step_.end.power.dissipated = dissipation;
     stop_.set_fields(system_.fields());
-    if (options_.adaptive) start_control(n);
+    if (options_.adaptive) start_control(step_.q.size());
     started_ = true;
   }
 
@@ -216,7 +236,8 @@ class GeneralizedAlpha final : public Stepper {
         allowed_[i] = by_field->of[static_cast<std::size_t>(field)];
       });
     }
-    assign(from_q_, step_.base_q);
+    from_q_.setZero(n);
+    from_q_.head(step_.base_q().size()) = step_.base_q();
     motion_until_event_ = motion_;
   }
 
@@ -224,35 +245,37 @@ class GeneralizedAlpha final : public Stepper {
   /// all modes, what the event has changed of the forces: a merged element that is 1e-9 m off its shape would throw a
   /// mode faster than the step a million times as far as it will swing, and a method that starts anew in each step,
   /// where events are as frequent, gives such modes energy. Of that change the method takes what its step can follow,
-  /// by its own tangent S = K + by_v C + by_a M: in slow modes all but a share of (frequency x step)^2.
-  void go_on(double t, double h) {
-    assign_both(other_, end_.true_acceleration, next_a_, end_.true_acceleration);
-    if (!system_.carry(before_event_.true_acceleration, t, other_)) return;
-    system_.carry(before_event_.a, t, next_a_);
-    assign(next_a_, next_a_ - other_);
-    system_.residual(step_.base_q, step_.base_v, other_, t, r_);
-    if (!make_tangent(step_.base_q, step_.base_v, other_, t, h)) return;
+  /// by its own tangent S = K + by_v C + by_a M: in slow modes all but a share of (frequency x step)^2. The
+  /// accelerations of before are in step_.end, where those with which it goes on take their place, and those of now in
+  /// step_.start. Returns false where it starts anew.
+  bool go_on(double t, double h) {
+    const Eigen::VectorXd& now = step_.start.true_acceleration;
+    Eigen::VectorXd &carried = step_.d, &ahead = step_.start.a;  // neither is needed yet
+    assign_both(carried, now, ahead, now);
+    if (!system_.carry(step_.end.true_acceleration, t, carried, r_)) return false;
+    system_.carry(step_.end.a, t, ahead, r_);
+    assign(ahead, ahead - carried);
+    system_.residual(step_.q, step_.v, carried, t, r_);
+    if (!make_tangent(step_.q, step_.v, carried, t, h)) return false;
     system_.solve(r_);
-    if (!all_finite(r_)) return;
-    assign_both(end_.true_acceleration, other_ - rule_.by_a(h) * r_, end_.a, end_.true_acceleration + next_a_);
-    end_.h = before_event_.h;
+    if (!all_finite(r_)) return false;
+    assign_both(step_.end.true_acceleration, carried - rule_.by_a(h) * r_,  //
+                step_.end.a, step_.end.true_acceleration + ahead);
     // with these accelerations forces balance there, those of supports among them
     assign_both(step_.q, step_.q - r_, step_.v, step_.v - rule_.by_v(h) * r_);
+    return true;
   }
 
   /// The velocity goes on, and the acceleration, too, where that is smooth: else it would throw stiff modes, whose
   /// period is shorter than the step, far off, and Newton would start from a torn mesh.
   void predict(double t, double h) {
-    const auto with_increment = [&](const auto& increment) {
-      step_.predict(rule_, start_.a, start_.true_acceleration, h, increment);
-    };
     if (nearby_) {
       const double ratio = h / solved_h_;
-      with_increment((ratio * ratio) * step_.d);
+      assign(step_.d, (ratio * ratio) * step_.d);
     } else if (is_smooth_) {
-      with_increment((0.5 * h * h) * start_.a);
+      assign(step_.d, (0.5 * h * h) * step_.start.a);
     } else {
-      with_increment(Eigen::VectorXd::Zero(step_.base_q.size()));
+      assign(step_.d, Eigen::VectorXd::Zero(step_.d.size()));
     }
     nearby_ = false;
     step_.complete(rule_, h);
@@ -270,7 +293,7 @@ class GeneralizedAlpha final : public Stepper {
       off += sum_in_pieces<Eigen::Array2d>(run.count, run.stride, [&](Eigen::Index first, Eigen::Index count) {
         Eigen::Array2d sum{0, 0};
         for_each_coordinate(std::array{run.part(first, count)}, [&](Field /*field*/, Eigen::Index i) {
-          const double by_acceleration = step_.d[i] - 0.5 * h * h * start_.a[i], by_velocity = step_.d[i];
+          const double by_acceleration = step_.d[i] - 0.5 * h * h * step_.start.a[i], by_velocity = step_.d[i];
           sum += Eigen::Array2d(by_acceleration * by_acceleration, by_velocity * by_velocity);
         });
         return sum;
@@ -292,9 +315,9 @@ class GeneralizedAlpha final : public Stepper {
     history_.clear();
     stop_.begin_step(nearby && !starts_fresh ? stop_.slowest() + std::abs(rule_.by_a(h) / tangent_by_a_ - 1) : 0);
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
-      dissipation = system_.residual(step_.q, step_.v, step_.a, t, r_);
+      dissipation = system_.residual(step_.q, step_.v, step_.end.true_acceleration, t, r_);
       if (tangent_by_a_ == 0 || kind == NewtonKind::full) {
-        if (!make_tangent(step_.q, step_.v, step_.a, t, h)) return false;
+        if (!make_tangent(step_.q, step_.v, step_.end.true_acceleration, t, h)) return false;
         stop_.new_tangent();
         fresh = true;
         with_this_tangent = 0;
@@ -340,12 +363,12 @@ class GeneralizedAlpha final : public Stepper {
 
   /// What rounding of all that the residual depends on does to the solution.
   void measure_noise(double t, double h) {
-    system_.residual(step_.q, step_.v, step_.a, t, r_);
-    for (Eigen::VectorXd* vector : {&step_.q, &step_.v, &step_.a}) NewtonStop::perturb(*vector);
-    other_.resize(r_.size());
-    system_.residual(step_.q, step_.v, step_.a, t, other_);
+    system_.residual(step_.q, step_.v, step_.end.true_acceleration, t, r_);
+    for (Eigen::VectorXd* vector : {&step_.q, &step_.v, &step_.end.true_acceleration}) NewtonStop::perturb(*vector);
+    Eigen::VectorXd rounded(r_.size());  // not kept: this is seldom asked for, and long beams need no vector more
+    system_.residual(step_.q, step_.v, step_.end.true_acceleration, t, rounded);
     step_.complete(rule_, h);  // as they were
-    assign(r_, r_ - other_);
+    assign(r_, r_ - rounded);
     system_.solve(r_);
     stop_.set_noise(r_, step_.q);
   }
@@ -365,7 +388,7 @@ class GeneralizedAlpha final : public Stepper {
     std::atomic<double> largest = 0;
     in_pieces(count, 1, [&](Eigen::Index first, Eigen::Index n) {
       raise(largest,
-            step_kernels().error_ratio(n, error_.data() + first, allowed_.data() + first, step_.base_q.data() + first,
+            step_kernels().error_ratio(n, r_.data() + first, allowed_.data() + first, step_.base_q().data() + first,
                                        step_.q.data() + first, scale, options_.tolerances.rtol));
     });
     return largest;
@@ -374,7 +397,7 @@ class GeneralizedAlpha final : public Stepper {
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
   void choose_tolerance() {
-    const auto [errors, increments] = field_norms<2>(stop_.fields(), {&error_, &step_.d});
+    const auto [errors, increments] = field_norms<2>(stop_.fields(), {&r_, &step_.d});
     double least = std::numeric_limits<double>::infinity();
     for (const Field field : {Field::position, Field::slope, Field::mark, Field::mass, Field::angle}) {
       const auto f = static_cast<std::size_t>(field);
@@ -387,13 +410,13 @@ class GeneralizedAlpha final : public Stepper {
   /// in the accelerations, and next to 0 at the end of the step: with more acceleration it is the inertia of this.
   void filter_error(double t, double h, Eigen::Index count) {
     other_.resize(step_.q.size());
-    assign_to(other_.head(count), rule_.by_a(h) * error_.head(count));
+    assign_to(other_.head(count), rule_.by_a(h) * r_.head(count));
     other_.tail(system_.multipliers()).setZero();
-    if (!system_.inertia(step_.q, other_, t, error_)) {
-      assign(other_, step_.a + other_);
-      system_.residual(step_.q, step_.v, other_, t, error_);
+    if (!system_.inertia(step_.q, other_, t, r_)) {
+      assign(other_, step_.end.true_acceleration + other_);
+      system_.residual(step_.q, step_.v, other_, t, r_);
     }
-    system_.solve(error_);
+    system_.solve(r_);
   }
 
   /// Of the tolerances, by the largest displacement so far. At an event nodes become others: what they move from then
@@ -411,35 +434,42 @@ class GeneralizedAlpha final : public Stepper {
 
   /// A step of next to no length, up to an event or a sample: the last accelerations go on.
   void drift(Eigen::VectorXd& y, double& t, double h) {
-    step_.q = step_.base_q + h * step_.base_v;
-    step_.v = step_.base_v + h * start_.true_acceleration;
-    system_.contract(step_.q, step_.v, y);
-    system_.tallies().add(h * start_.power, y);
+    const Eigen::Index own = step_.base_q().size();
+    y.head(own) += h * step_.base_v();
+    y.segment(own, own) += h * step_.start.true_acceleration.head(own);
+    system_.tallies().add(h * step_.start.power, y);
     t += h;
   }
 
   void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
-    system_.contract(step_.q, step_.v, y);
-    end_.power = system_.supplied_power(step_.q, step_.v, step_.a, t + h);
-    end_.power.dissipated = dissipation;
-    Tally given = 0.5 * h * (start_.power + end_.power);
-    if (const auto lost = system_.power_lost_between(step_.base_q, step_.q, start_.true_acceleration, step_.a, h, t)) {
-      given.dissipated = h * *lost;
+    StepEnd& end = step_.end;
+    end.power = system_.supplied_power(step_.q, step_.v, end.true_acceleration, t + h);
+    end.power.dissipated = dissipation;
+    end.h = h;
+    Tally given = 0.5 * h * (step_.start.power + end.power);
+    if (system_.tallies().dissipated) {
+      system_.expand(y, r_, other_);
+      const auto lost =
+          system_.power_lost_between(r_, step_.q, step_.start.true_acceleration, end.true_acceleration, h, t);
+      if (lost) given.dissipated = h * *lost;
     }
+    system_.contract(step_.q, step_.v, y);
     system_.tallies().add(given, y);
-    end_.true_acceleration.swap(step_.a);  // the next step makes its own
-    end_.a.swap(next_a_);
-    end_.h = h;
+    from_start_ = false;
     if (counters_) {
       const ConstraintResidual residual = system_.constraint_residual(step_.q, step_.v, t + h);
       auto& largest = counters_->constraints;
       largest.position = std::max(largest.position, residual.position);
       largest.velocity = std::max(largest.velocity, residual.velocity);
-      const auto multipliers = end_.true_acceleration.tail(system_.multipliers());
+      const auto multipliers = end.true_acceleration.tail(system_.multipliers());
       counters_->multipliers.assign(multipliers.begin(), multipliers.end());
     }
     t += h;
   }
+
+  /// Accelerations where the next step starts.
+  StepEnd& here() { return from_start_ ? step_.start : step_.end; }
+  const StepEnd& here() const { return from_start_ ? step_.start : step_.end; }
 
   SecondOrderSystem& system_;
   GeneralizedAlphaOptions options_;
@@ -456,15 +486,13 @@ class GeneralizedAlpha final : public Stepper {
   int calm_ = 0;             ///< steps that may not be longer than the one before
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;     ///< where checkpoints are kept
-  StepEnd start_, end_;      ///< at the start and at the end of the last step
   AlphaStep step_;
-  Eigen::VectorXd next_a_, r_;
-  Eigen::VectorXd other_;  ///< working memory of one function at a time
+  bool from_start_ = false;  ///< the next step starts where the last one did
+  Eigen::VectorXd r_;        ///< residual and correction, then the estimated error of the positions
+  Eigen::VectorXd other_;    ///< working memory of one function at a time
   NewtonStop stop_;
   Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates
-  Eigen::VectorXd error_;                       ///< estimated, of the positions
-  StepEnd before_event_;                        ///< where crosses_event_
-  bool crosses_event_ = false;                  ///< the next start is behind an event, through which it goes on
+  bool crosses_event_ = false;                  ///< the next start is behind an event: step_.end goes on through it
   Eigen::VectorXd from_q_;                      ///< where the coordinates started, or were at the last event
   double motion_ = 0, motion_until_event_ = 0;  ///< [m], largest displacement so far
   double noise_step_ = 0;                       ///< [s], that its noise belongs to

@@ -175,7 +175,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (beyond) --looks_beyond;
     if (last && !beyond) dt = t_end - t;
     const double whole = dt;
-    dt = aim.take(y, t, whole);
+    dt = aim.take(before, t, whole, y);
     const double tried = dt;
     if (!stepper->try_step(ode, y, t, dt)) {
       ++counters.rejected;
@@ -221,7 +221,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     }
     if (beyond && !(event.index >= 0 && event.t <= t_end)) {
       event = {};
-      y = Eigen::VectorXd(search.at({t_before, before, t, y}, t_end));
+      y = search.at({t_before, before, t, y}, t_end);
       t = t_end;
     }
     if (event.index >= 0) {

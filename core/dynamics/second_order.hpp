@@ -39,7 +39,11 @@ class SecondOrderSystem {
   virtual void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) = 0;
   /// Puts the accelerations (and multipliers) `before` the last event, an array of coordinates of then, in the place of
   /// those in `a`, which are consistent with the state after it. Returns false where they do not go on through it.
-  virtual bool carry(const Eigen::VectorXd& /*before*/, double /*t*/, Eigen::VectorXd& /*a*/) const { return false; }
+  /// `memory` may hold anything then.
+  virtual bool carry(const Eigen::VectorXd& /*before*/, double /*t*/, Eigen::VectorXd& /*a*/,
+                     Eigen::VectorXd& /*memory*/) const {
+    return false;
+  }
   /// r = M(q) a - Q(q, v, t); returns the power lost to damping [W].
   virtual double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                           Eigen::VectorXd& r) = 0;

@@ -9,41 +9,29 @@ namespace {
 // Arrays that do not overlap, said of parameters of functions of their own: GCC believes it nowhere else, and works on
 // one coordinate at a time then.
 
-[[gnu::noinline]] void predict_each(std::ptrdiff_t count, const StepKernels::Rule rule, const double* __restrict base_v,
-                                    const double* __restrict a0, const double* __restrict true_a0,
-                                    double* __restrict predicted_v, double* __restrict predicted_a) {
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double next = rule.carried * a0[i];
-    predicted_v[i] = base_v[i] + rule.h * ((1 - rule.gamma) * a0[i] + rule.gamma * next);
-    predicted_a[i] =
-        ((1 - rule.alpha_m) * next + rule.alpha_m * a0[i] - rule.alpha_f * true_a0[i]) / (1 - rule.alpha_f);
-  }
-}
-
 [[gnu::noinline]] void take(std::ptrdiff_t count, const double* __restrict correction, double* __restrict d) {
   for (std::ptrdiff_t i = 0; i < count; ++i) d[i] -= correction[i];
 }
 
-[[gnu::noinline]] void finish(std::ptrdiff_t count, double h, double by_v, double by_a, const double* __restrict d,
+[[gnu::noinline]] void finish(std::ptrdiff_t count, const StepKernels::Rule rule, const double* __restrict d,
                               const double* __restrict base_q, const double* __restrict base_v,
-                              const double* __restrict predicted_v, const double* __restrict predicted_a,
-                              double* __restrict q, double* __restrict v, double* __restrict a) {
+                              const double* __restrict a0, const double* __restrict true_a0, double* __restrict q,
+                              double* __restrict v, double* __restrict a) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    q[i] = base_q[i] + (h * base_v[i] + d[i]);
-    v[i] = predicted_v[i] + by_v * d[i];
-    a[i] = predicted_a[i] + by_a * d[i];
+    const double next = rule.carried * a0[i];
+    const double predicted_v = base_v[i] + rule.h * ((1 - rule.gamma) * a0[i] + rule.gamma * next);
+    const double predicted_a =
+        ((1 - rule.alpha_m) * next + rule.alpha_m * a0[i] - rule.alpha_f * true_a0[i]) / (1 - rule.alpha_f);
+    q[i] = base_q[i] + (rule.h * base_v[i] + d[i]);
+    v[i] = predicted_v + rule.by_v * d[i];
+    a[i] = predicted_a + rule.by_a * d[i];
   }
 }
 
-void predict(std::ptrdiff_t count, const StepKernels::Rule& rule, const double* base_v, const double* a0,
-             const double* true_a0, double* predicted_v, double* predicted_a) {
-  predict_each(count, rule, base_v, a0, true_a0, predicted_v, predicted_a);
-}
-
-void complete(std::ptrdiff_t count, const StepKernels::Rates& by, const double* correction,
+void complete(std::ptrdiff_t count, const StepKernels::Rule& rule, const double* correction,
               const StepKernels::Arrays& of) {
   if (correction != nullptr) take(count, correction, of.d);
-  finish(count, by.h, by.by_v, by.by_a, of.d, of.base_q, of.base_v, of.predicted_v, of.predicted_a, of.q, of.v, of.a);
+  finish(count, rule, of.d, of.base_q, of.base_v, of.a0, of.true_a0, of.q, of.v, of.a);
 }
 
 void largest(std::ptrdiff_t count, const double* groups, std::array<double, 4>& result) {
@@ -84,6 +72,6 @@ double error_ratio(std::ptrdiff_t count, const double* error, const double* allo
 
 }  // namespace
 
-StepKernels kernels_of_steps() { return {&predict, &complete, &largest, &error_ratio}; }
+StepKernels kernels_of_steps() { return {&complete, &largest, &error_ratio}; }
 
 }  // namespace vlbeam::VLBEAM_KERNELS

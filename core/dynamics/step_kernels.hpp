@@ -9,25 +9,18 @@ namespace vlbeam {
 
 /// What a step of generalized-alpha does to each coordinate, compiled for one instruction set.
 struct StepKernels {
-  struct Rates {
-    double h, by_v, by_a;
+  /// Of the method, and what velocities and accelerations change by with the increment of a step of length h.
+  struct Rule {
+    double h, carried, gamma, alpha_m, alpha_f, by_v, by_a;
   };
-  /// Of `count` numbers; no two overlap.
+  /// Of `count` numbers; no two overlap. Accelerations at the start are the method's own, a0, and the true ones.
   struct Arrays {
-    const double *base_q, *base_v, *predicted_v, *predicted_a;
+    const double *base_q, *base_v, *a0, *true_a0;
     double *d, *q, *v, *a;
   };
-  /// Of the method, and the length of the step.
-  struct Rule {
-    double h, carried, gamma, alpha_m, alpha_f;
-  };
-  /// The end of a step of `count` coordinates whose positions go on with the velocity: AlphaStep::predicted_v and
-  /// predicted_a, from the velocities and the accelerations at its start. No two overlap.
-  void (*predict)(std::ptrdiff_t count, const Rule& rule, const double* base_v, const double* a0, const double* true_a0,
-                  double* predicted_v, double* predicted_a);
-  /// d -= correction, unless that is null; q = base_q + h base_v + d, v = predicted_v + by_v d,
-  /// a = predicted_a + by_a d.
-  void (*complete)(std::ptrdiff_t count, const Rates& by, const double* correction, const Arrays& step);
+  /// d -= correction, unless that is null; then the end of a step whose positions are d off those of the velocity going
+  /// on.
+  void (*complete)(std::ptrdiff_t count, const Rule& rule, const double* correction, const Arrays& step);
   /// Of each of four neighbouring numbers the largest magnitude in `count` such groups, one behind the other; of finite
   /// numbers.
   void (*largest)(std::ptrdiff_t count, const double* groups, std::array<double, 4>& largest);

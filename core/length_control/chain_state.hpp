@@ -86,6 +86,8 @@ struct ChainState {
     }
     return nullptr;
   }
+  /// Index of the element that holds the material point x; of the first or the last one beyond the ends.
+  int element_at(double x) const { return mesh.element_at(x); }
   /// Rate of a node's material coordinate [m/s].
   double mark_rate(int node) const {
     if (!mark_rates.empty()) return mark_rates[static_cast<std::size_t>(node)];

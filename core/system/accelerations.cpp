@@ -68,7 +68,7 @@ void Accelerations<D>::rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, do
 }
 
 template <int D>
-void Accelerations<D>::accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
+void Accelerations<D>::accelerations(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a) {
   ++evaluations_;
   const Eigen::Index count = beam_.coordinates();
   const double *at = q.data(), *rate = v.data();

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/dynamics/assign.hpp"
 #include "core/system/beam_mass.hpp"
 #include "core/system/event_map.hpp"
 #include "core/system/flow.hpp"
@@ -31,7 +32,7 @@ class Accelerations {
   void rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t);
   /// Writes the accelerations at q and v, of each as many as the beam has coordinates, at the start of `a`, which has
   /// its size; where there are none all of it becomes not a number.
-  void accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a);
+  void accelerations(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
   /// Forces along links, as evaluated last: positive where they push [N].
   const Eigen::VectorXd& link_forces() const { return link_forces_; }
   /// The same at a state.

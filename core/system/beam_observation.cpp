@@ -1,5 +1,7 @@
 #include "core/system/beam_observation.hpp"
 
+#include <optional>
+
 #include "core/length_control/chain_motion.hpp"
 #include "core/pieces.hpp"
 
@@ -7,10 +9,26 @@ namespace vlbeam {
 
 namespace {
 
-/// The sum of what add(sum, observer, element, nodes of its rest shape or null) adds for these elements. `none` is that
-/// of none.
-template <int D, class Sum, class Add>
-Sum sum_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t, int points,
+template <int D>
+std::optional<NodalCubic<double, D>> rest_nodes(const ChainState<D>& chain, int k) {
+  return chain.curved_at_rest() ? std::optional(chain.rest_nodes(k)) : std::nullopt;
+}
+/// A view knows no rest shape: it is for beams that are straight at rest.
+template <int D>
+std::optional<NodalCubic<double, D>> rest_nodes(const ChainView<D>& /*chain*/, int /*k*/) {
+  return std::nullopt;
+}
+
+template <int D, class Chain>
+SummedElement<D> element_of(const CurrentBeam<D>& beam, const Chain& chain, int k) {
+  return {chain.coordinates(k), chain.rates(k), chain.moves(k) ? beam.model().transport : WeightTransport::frozen,
+          chain.mesh.weights[static_cast<std::size_t>(k)]};
+}
+
+/// The sum of what add(sum, observer, element, nodes of its rest shape or null) adds for these elements of a ChainState
+/// or a ChainView. `none` is that of none.
+template <int D, class Chain, class Sum, class Add>
+Sum sum_of_elements(const CurrentBeam<D>& beam, const Chain& chain, int first, int last, double t, int points,
                     const Sum& none, const Add& add) {
   const BeamSection section = beam.model().axis_section();
   const Observer<D> observer(section, beam.gravity(t), beam.tables(points),
@@ -18,36 +36,27 @@ Sum sum_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int 
   return sum_in_pieces<Sum>(last - first, node_size<D>, [&](std::ptrdiff_t start, std::ptrdiff_t count) {
     Sum sum = none;
     for (int k = first + static_cast<int>(start), end = k + static_cast<int>(count); k < end; ++k) {
-      const SummedElement<D> element{chain.coordinates(k), chain.rates(k),
-                                     chain.moves(k) ? beam.model().transport : WeightTransport::frozen,
-                                     chain.mesh.weights[static_cast<std::size_t>(k)]};
-      if (chain.curved_at_rest()) {
-        const NodalCubic<double, D> rest = chain.rest_nodes(k);
-        add(sum, observer, element, &rest);
-      } else {
-        add(sum, observer, element, nullptr);
-      }
+      const auto rest = rest_nodes(chain, k);
+      add(sum, observer, element_of(beam, chain, k), rest ? &*rest : nullptr);
     }
     return sum;
   });
 }
 
-template <int D>
-void add_point_masses(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
+template <int D, class Chain>
+void add_point_masses(const CurrentBeam<D>& beam, const Chain& chain, int first, int last, double t,
                       Observation<D>& seen) {
   for (const PointMass& point : beam.model().masses.points) {
-    const int k = chain.mesh.element_at(point.x);
+    const int k = chain.element_at(point.x);
     if (k < first || k >= last) continue;
-    const auto at = motion_at(chain, k, point.x, beam.model().transport);
+    const auto at = motion_at(element_of(beam, chain, k).kinematics(), point.x);
     seen.add_mass(point.mass, at.r, at.v, beam.gravity(t));
   }
 }
 
-}  // namespace
-
-template <int D>
-Observation<D> observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
-                                int points, bool strains) {
+template <int D, class Chain>
+Observation<D> observe_chain(const CurrentBeam<D>& beam, const Chain& chain, int first, int last, double t, int points,
+                             bool strains) {
   Observation<D> none;
   if (strains) none.extremes.emplace();
   Observation<D> seen =
@@ -56,6 +65,14 @@ Observation<D> observe_elements(const CurrentBeam<D>& beam, const ChainState<D>&
                          const NodalCubic<double, D>* rest) { observer.add(element, rest, sum); });
   add_point_masses(beam, chain, first, last, t, seen);
   return seen;
+}
+
+}  // namespace
+
+template <int D>
+Observation<D> observe_elements(const CurrentBeam<D>& beam, const ChainState<D>& chain, int first, int last, double t,
+                                int points, bool strains) {
+  return observe_chain(beam, chain, first, last, t, points, strains);
 }
 
 template <int D>
@@ -71,7 +88,11 @@ Energy energies_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& cha
 
 template <int D>
 Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y, double t, int points, bool strains) {
-  Observation<D> seen = observe_elements(beam, beam.chain(y, t), 0, beam.mesh().elements(), t, points, strains);
+  const bool needs_chain = beam.model().rest || beam.moving_mesh() != nullptr;
+  const int elements = beam.mesh().elements();
+  Observation<D> seen = needs_chain ? observe_chain(beam, beam.chain(y, t), 0, elements, t, points, strains)
+                                    : observe_chain(beam, beam.view(y.data(), y.data() + beam.coordinates()), 0,
+                                                    elements, t, points, strains);
   for (std::size_t i = 0; i < beam.model().joints.size(); ++i) {
     const auto mass = beam.mass_motion(y, static_cast<int>(i));
     if (mass) seen.add_mass(beam.model().joints[i].law.mass, mass->r, mass->v, beam.gravity(t));

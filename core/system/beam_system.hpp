@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/dynamics/integrate.hpp"
@@ -80,6 +81,8 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   std::function<bool(double t)> on_step;
 
   Eigen::VectorXd initial_state() const { return initial_; }
+  /// The same; it is not kept.
+  Eigen::VectorXd release_initial_state() { return std::move(initial_); }
   /// The equations between two events.
   Accelerations<D>& accelerations() { return accelerations_; }
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {

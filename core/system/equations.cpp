@@ -7,7 +7,7 @@
 namespace vlbeam {
 
 template <int D>
-double Equations<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t,
                               Eigen::VectorXd& r, Extent extent) const {
   const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
   const int most = extent == Extent::ends ? 1 : Span<D>::all;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/beam/beam_matrix.hpp"
+#include "core/dynamics/assign.hpp"
 #include "core/system/current_beam.hpp"
 #include "core/system/flow.hpp"
 
@@ -19,8 +20,8 @@ class Equations {
   explicit Equations(CurrentBeam<D>& beam) : beam_(beam), flow_(beam) {}
 
   /// Writes r of the coordinates of the state, at the start of an array that may be longer; returns the power lost [W].
-  double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                  Eigen::VectorXd& r, Extent extent = Extent::whole) const;
+  double residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,
+                  Extent extent = Extent::whole) const;
   /// Adds M a of elements all of whose nodes travel as prescribed, at the time of the last residual.
   void add_travelling_inertia(const Eigen::VectorXd& a, Eigen::VectorXd& r) const {
     flow_.add_inertia(a.data(), r.data());

@@ -40,7 +40,7 @@ void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen
 }
 
 template <int D>
-void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) {
+void ImplicitBeam<D>::find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a) {
   const Eigen::Index own = beam_.coordinates();
   a.resize(q.size());
   accelerations_.accelerations(q, v, t, a);
@@ -58,21 +58,23 @@ void ImplicitBeam<D>::acceleration(const Eigen::VectorXd& q, const Eigen::Vector
 
 /// What is held or given in time is as it is now.
 template <int D>
-bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const {
-  assign(carried_, a);
-  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried_)) return false;
-  assign(carried_, carried_ - a);
+bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a,
+                            Eigen::VectorXd& memory) const {
+  Eigen::VectorXd& carried = memory;
+  assign(carried, a);
+  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
+  assign(carried, carried - a);
   holding().at(t);
-  holding().project(carried_.data());
-  at_guides([&](std::size_t i) { carried_[places()[i].mark] = 0; });
-  assign(a, a + carried_);
+  holding().project(carried.data());
+  at_guides([&](std::size_t i) { carried[places()[i].mark] = 0; });
+  assign(a, a + carried);
   return true;
 }
 
 /// With what links do, and without what holds.
 template <int D>
-double ImplicitBeam<D>::free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                      double t, Eigen::VectorXd& r, typename Equations<D>::Extent extent) const {
+double ImplicitBeam<D>::free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t,
+                                      Eigen::VectorXd& r, typename Equations<D>::Extent extent) const {
   const double lost = equations_.residual(q, v, a, t, r, extent);
   links_.add_forces(q.data(), a.data() + first_link_multiplier(), reference_mass_, r.data());
   return lost;
@@ -266,7 +268,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
 }
 
 template <int D>
-Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v,
                                             double push) const {
   return beam_.nut().torque(*beam_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
 }
@@ -401,9 +403,13 @@ OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double 
 
 template <int D>
 OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
-  Eigen::VectorXd q, v, a;
-  expand(y, q, v);
-  acceleration(q, v, t, a);
+  Eigen::VectorXd own_q, own_v, a;
+  const bool of_state = multipliers() == 0;  // else there are more coordinates than those of the state
+  if (!of_state) expand(y, own_q, own_v);
+  const Eigen::Index n = coordinates();
+  const ConstVector q = of_state ? ConstVector(y.head(n)) : ConstVector(own_q),
+                    v = of_state ? ConstVector(y.segment(n, n)) : ConstVector(own_v);
+  find_acceleration(q, v, t, a);
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
   OuterForces<D> forces;

@@ -40,8 +40,10 @@ class ImplicitBeam final : public SecondOrderSystem {
     const Eigen::Index own = beam_.coordinates();
     assign_both_to(y.head(own), q.head(own), y.segment(own, own), v.head(own));
   }
-  void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override;
-  bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a) const override;
+  void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override {
+    find_acceleration(q, v, t, a);
+  }
+  bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a, Eigen::VectorXd& memory) const override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
   /// Of a beam without frames and nuts, at the time of the last residual.
@@ -97,7 +99,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   const std::vector<JointPlace>& places() const { return beam_.places(); }
   const Held<D>& holding() const { return beam_.holding(); }
   /// Lets the conditions on slopes be those that serve at q.
-  void choose_conditions(const Eigen::VectorXd& q) const {
+  void choose_conditions(const ConstVector& q) const {
     kinks_.choose(q.data(), [](Eigen::Index /*first*/, int /*count*/) {});
   }
   /// Calls function(which) for the joints on the beam whose material coordinate is prescribed: it has no equation.
@@ -117,12 +119,13 @@ class ImplicitBeam final : public SecondOrderSystem {
   Eigen::Index after_nodes() const { return layout().mark(); }
   /// Where the angles of a beam that spins stand.
   Eigen::Index angles() const { return layout().angle(); }
+  void find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
   /// Residual without constraints.
-  double free_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                       Eigen::VectorXd& r, typename Equations<D>::Extent extent = Equations<D>::Extent::whole) const;
+  double free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,
+                       typename Equations<D>::Extent extent = Equations<D>::Extent::whole) const;
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale);
   /// What the thread does to the angles as it pushes the nut of these coordinates [N].
-  Eigen::VectorXd nut_torque(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double push) const;
+  Eigen::VectorXd nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v, double push) const;
   /// Takes the nut's x out of the tangent, with `size` in its place.
   void take_nut(std::size_t which, double size);
   /// Completes it, once all else is factored.
@@ -161,7 +164,6 @@ class ImplicitBeam final : public SecondOrderSystem {
   Eigen::VectorXd middle_q_, middle_v_;  ///< of power_lost_between()
   Eigen::VectorXd free_;
   typename CurrentBeam<D>::JointElements elements_;  ///< of inertia()
-  mutable Eigen::VectorXd carried_;                  ///< memory of carry()
   Eigen::VectorXd a_, column_, weightless_;          // of the Jacobian; the first of power_lost_between(), too
   Eigen::MatrixXd stiffness_, damping_;
 };
