@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 
 #include "core/element/fixed_rest.hpp"
 #include "core/length_control/chain_motion.hpp"
@@ -11,8 +13,8 @@ namespace vlbeam {
 namespace {
 
 constexpr int most_relaxations = 40;
-constexpr double relaxed = 1e-12;  // predicted decrease of the energy, over what there is
-constexpr int halvings = 50;
+constexpr double relaxed = 1e-12;       // predicted decrease of the energy, over what there is
+constexpr int share_bits = 48;          // of a share of a step
 constexpr double shortest_step = 1e-3;  // of Newton's
 
 /// The strain energy of some elements of a chain as a function of what gives way at their nodes.
@@ -52,9 +54,17 @@ class Patch {
   }
 
   Eigen::Index size() const { return D * static_cast<Eigen::Index>(unknowns_.size()); }
-  void move(const Eigen::VectorXd& step) {
+  Eigen::VectorXd places() const {
+    Eigen::VectorXd all(size());
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-      Eigen::Map<Vector>(unknowns_[i]) += step.segment<D>(D * static_cast<Eigen::Index>(i));
+      all.segment<D>(D * static_cast<Eigen::Index>(i)) = Eigen::Map<const Vector>(unknowns_[i]);
+    }
+    return all;
+  }
+  void move_to(const Eigen::VectorXd& places) {
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      Eigen::Map<Vector> vector(unknowns_[i]);
+      vector = places.segment<D>(D * static_cast<Eigen::Index>(i));
     }
   }
 
@@ -128,13 +138,8 @@ class Patch {
   std::vector<Element> elements_;
 };
 
-}  // namespace
-
 template <int D>
-int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules& rules, const MovingLaw<D>& law,
-          double excess) {
-  if (!(excess > 0)) return 0;
-  Patch<D> patch(chain, giving, rules, law);
+int relax_patch(Patch<D>& patch, double excess) {
   if (patch.size() == 0) return 0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
@@ -150,37 +155,46 @@ int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules&
       factors.compute(stiffer);
     }
     if (factors.info() != Eigen::Success) return iteration;
-    const Eigen::VectorXd step = -factors.solve(gradient);
+    const Eigen::VectorXd from = patch.places(), step = -factors.solve(gradient);
+    const auto take = [&](double share) { patch.move_to(from + share * step); };
+    const auto energy_after = [&](double share) {
+      take(share);
+      return patch.energy();
+    };
     const double decrease = -gradient.dot(step);
     if (!(decrease > relaxed * energy)) {  // the energy no longer tells: the last step is Newton's own
-      if (decrease > 0 && decrease < excess) patch.move(step);
+      if (decrease > 0 && decrease < excess) take(1);
       return iteration;
     }
-    double share = 1;
-    for (;; share /= 2) {
-      patch.move(share * step);
-      const double now = patch.energy();
-      if (now < enough) {  // the share of this step after which just that is gone
-        double low = 0, high = share;
-        patch.move(-share * step);
-        for (int i = 0; i < halvings; ++i) {
-          const double middle = (low + high) / 2;
-          patch.move(middle * step);
-          (patch.energy() > enough ? low : high) = middle;
-          patch.move(-middle * step);
-        }
-        patch.move(low * step);
+    double share = 1, now = energy_after(share);
+    for (; !(now < energy); now = energy_after(share)) {
+      if (share < shortest_step) {
+        take(0);
         return iteration;
       }
-      if (now < energy) {
-        energy = now;
-        break;
-      }
-      patch.move(-share * step);
-      if (share < shortest_step) return iteration;
+      share /= 2;
     }
+    if (now < enough) {  // up to where just that is gone
+      std::uintmax_t evaluations = 50;
+      const auto within = boost::math::tools::toms748_solve(
+          [&](double of) { return energy_after(of) - enough; }, 0.0, share, energy - enough, now - enough,
+          boost::math::tools::eps_tolerance<double>(share_bits), evaluations);
+      take(within.first);
+      return iteration;
+    }
+    energy = now;
   }
   return most_relaxations;
+}
+
+}  // namespace
+
+template <int D>
+int relax(ChainState<D>& chain, std::vector<GivingNode> giving, const BeamRules& rules, const MovingLaw<D>& law,
+          double excess) {
+  if (!(excess > 0)) return 0;
+  Patch<D> patch(chain, giving, rules, law);
+  return relax_patch(patch, excess);
 }
 
 template int relax(ChainState<2>&, std::vector<GivingNode>, const BeamRules&, const MovingLaw<2>&, double);
