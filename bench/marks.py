@@ -103,10 +103,10 @@ def main():
     library = sorted(SCENES.glob("*.json"))
     print(f"{'':52}{'ms':>10}" + (f"{'other':>10}{'ratio':>8}" if arguments.vs else ""))
 
-    def show(name, times):
-        line = f"{name:52}{1e3 * times[0]:10.3f}"
-        if len(times) > 1:
-            line += f"{1e3 * times[1]:10.3f}{times[0] / times[1]:8.3f}"
+    def show(name, values, scale=1e3):
+        line = f"{name:52}{scale * values[0]:10.3f}"
+        if len(values) > 1:
+            line += f"{scale * values[1]:10.3f}{values[0] / values[1]:8.3f}"
         print(line, flush=True)
 
     with tempfile.TemporaryDirectory() as name:
@@ -116,23 +116,24 @@ def main():
             best = [{} for _ in programs]
             for _ in range(repeats):
                 for i, program in enumerate(programs):
-                    times = run(program, scene, folder)
-                    if times is None:
+                    measured = run(program, scene, folder)
+                    if measured is None:
                         return None
-                    for key, seconds in times.items():
-                        if seconds is not None:
-                            best[i][key] = min(seconds, best[i].get(key, seconds))
+                    for key, value in measured.items():
+                        if value is not None:
+                            best[i][key] = min(value, best[i].get(key, value))
             return best
 
         for title, scene in runs.items():
             best = least(scene, arguments.repeats if title in RUNS else 1)
             print(title if best else title + ": not known to all programs")
             for key in best[0] if best else []:
+                elements = scene["beam"]["elements"]
                 values = [each[key] for each in best]
                 if key != "memory":
                     show("  " + key, values)
-                elif title in SLOW:
-                    show("  memory, kB an element", [value / 1e6 / scene["beam"]["elements"] for value in values])
+                elif elements >= 100000:  # of fewer it is mostly the program itself
+                    show("  memory, kB an element", values, 1e-3 / elements)
         total = [0.0] * len(programs)
         known = 0
         for path in library:

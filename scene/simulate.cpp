@@ -85,7 +85,8 @@ class Run {
     const auto options = integration_options(scene_, system_.model().section, system_.mesh().shortest());
     const auto initial = [this]() -> Eigen::VectorXd {
       Eigen::VectorXd y = system_.release_initial_state();
-      return scene_.flow && scene_.flow->steady ? steady_state(system_, y) : y;
+      if (scene_.flow && scene_.flow->steady) return steady_state(system_, y);
+      return y;
     };
     run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
     result_.timing.motion -= result_.timing.length_control + observing_;

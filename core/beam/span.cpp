@@ -113,10 +113,10 @@ int Span<D>::take_over(Span& before, int unchanged) {
   for (std::size_t p = 0; outer_ != before.outer_ && p < packs_.size(); ++p) {
     packs_[p].first = first_of(static_cast<int>(p), Pack::width);
   }
-  pivots_ = std::move(before.pivots_);
-  const auto last = std::ranges::lower_bound(pivots_, known, {}, &PivotRun::end);
-  pivots_.erase(known > 0 ? last + 1 : last, pivots_.end());
-  if (known > 0) pivots_.back().end = known;
+  runs_ = std::move(before.runs_);
+  const auto last = std::ranges::lower_bound(runs_, known, {}, &PivotRun::end);
+  runs_.erase(known > 0 ? last + 1 : last, runs_.end());
+  if (known > 0) runs_.back().end = known;
   return known;
 }
 
@@ -197,7 +197,7 @@ void Span<D>::factor(int known) {
   };
   if (known > 0) {
     const FixedInertia last = inertia(known - 1);
-    carry_on(last, pivots_.back()[known - 1]);
+    carry_on(last, runs_.back()[known - 1]);
   }
   for (int i = known; i < count(); ++i) {
     const FixedInertia of = inertia(i);
@@ -222,10 +222,9 @@ void Span<D>::factor(int known) {
 
 template <int D>
 void Span<D>::add_pivot(const Pivot& pivot, int node) {
-  const bool goes_on =
-      !pivots_.empty() && (node < pivots_.back().first + PivotRun::turns || pivots_.back()[node] == pivot);
-  if (!goes_on) pivots_.emplace_back(pivot, node);
-  PivotRun& run = pivots_.back();
+  const bool goes_on = !runs_.empty() && (node < runs_.back().first + PivotRun::turns || runs_.back()[node] == pivot);
+  if (!goes_on) runs_.emplace_back(pivot, node);
+  PivotRun& run = runs_.back();
   run.pivots[static_cast<std::size_t>(node) % PivotRun::turns] = pivot;
   run.end = node + 1;
 }
@@ -288,7 +287,7 @@ typename Span<D>::Vector Span<D>::first_moment(const double* q) const {
 template <int D>
 void Span<D>::reduce(double* force, int left_out) const {
   Components carry_r = Components::Zero(), carry_s = Components::Zero();
-  auto run = std::ranges::upper_bound(pivots_, left_out, {}, &PivotRun::end);
+  auto run = std::ranges::upper_bound(runs_, left_out, {}, &PivotRun::end);
   for (int i = left_out; i < count(); ++i) {
     if (i == run->end) ++run;
     const auto& next = (*run)[i].next;
@@ -309,7 +308,7 @@ template <int D>
 void Span<D>::substitute(double* force, int left_out) const {
   Components a_r = support_.into_frame(position<D>(force, open_)).array();
   Components a_s = support_.into_frame(slope<D>(force, open_)).array();
-  auto run = pivots_.rbegin();
+  auto run = runs_.rbegin();
   for (int i = count() - 1; i >= left_out; --i) {
     if (i < run->first) ++run;
     const auto& [inv, next] = (*run)[i];

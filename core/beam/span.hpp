@@ -2,7 +2,6 @@
 
 #include <array>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
@@ -85,10 +84,10 @@ class Span {
   struct PivotRun {
     static constexpr int turns = 8;
 
-    /// Before its first node has one.
+    /// An empty run from `node` on; `any` only fills it.
     PivotRun(const Pivot& any, int node) : first(node), end(node) { pivots.fill(any); }
 
-    std::array<Pivot, turns> pivots;  ///< that of a node stands where its number leaves as a remainder
+    std::array<Pivot, turns> pivots;  ///< that of node n is at n % turns
     int first, end;                   ///< nodes, counted from the outer one
 
     const Pivot& operator[](int node) const { return pivots[static_cast<std::size_t>(node) % turns]; }
@@ -116,7 +115,7 @@ class Span {
   BeamSection section_;
   bool curved_at_rest_;
   std::vector<PackOfElements> packs_;
-  std::vector<PivotRun> pivots_;  ///< without the open node
+  std::vector<PivotRun> runs_;  ///< without the open node
   NodeBlock<D> open_mass_;
 };
 

@@ -32,7 +32,7 @@ struct AlphaRule {
 };
 
 /// Accelerations, arrays of coordinates, at an end of a step.
-struct StepEnd {
+struct EndAccelerations {
   Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
   Eigen::VectorXd a;                  ///< the method's own acceleration
   double h = 0;                       ///< [s], length of the step that `a` belongs to
@@ -42,7 +42,7 @@ struct StepEnd {
     true_acceleration.resize(coordinates);
     a.resize(coordinates);
   }
-  void take(const StepEnd& other) {
+  void take(const EndAccelerations& other) {
     assign_both(true_acceleration, other.true_acceleration, a, other.a);
     h = other.h;
     power = other.power;
@@ -59,7 +59,7 @@ struct StepEnd {
 struct AlphaStep {
   using State = Eigen::Map<const Eigen::VectorXd>;
 
-  StepEnd start, end;
+  EndAccelerations start, end;
   Eigen::VectorXd d;     ///< what the positions at its end are off those of the velocity going on
   Eigen::VectorXd q, v;  ///< at its end
 

@@ -8,9 +8,6 @@
 
 namespace vlbeam {
 
-/// A vector, or a part of one, that is read.
-using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
-
 /// Writes some entries of an expression of vectors to one of its size.
 template <class Expression>
 void assign_piece(Eigen::Ref<Eigen::VectorXd> to, const Expression& expression, Eigen::Index first,

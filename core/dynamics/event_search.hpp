@@ -34,7 +34,7 @@ class EventSearch {
   LocatedEvent first(const WholeStep& step, const Guards& at_end);
 
   /// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, an
-  /// interpolant has to do: a sample must not change the way of the run. Valid until the next call.
+  /// interpolant has to do: a sample must not change the way of the run. Valid until the next step of either stepper.
   const Eigen::VectorXd& at(const WholeStep& step, double t);
 
  private:
@@ -53,7 +53,7 @@ class EventAim {
       : ode_(ode), main_(main), takes_aim_(options.locate_events) {}
 
   /// How long the next step from (t, start) is to be, of at most `dt`: up to the first event that is expected in it, or
-  /// dt. `y` is where the step will take place, and equals `start`: it looks ahead there.
+  /// dt. `y` is where the step will take place, and equals `start`: it looks ahead there, and leaves it as it was.
   double take(const Eigen::VectorXd& start, double t, double dt, Eigen::VectorXd& y);
   /// Whether the last call of take() has found an event to aim at.
   bool aims() const { return guard_ >= 0; }

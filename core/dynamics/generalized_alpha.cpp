@@ -42,8 +42,8 @@ class GeneralizedAlpha final : public Stepper {
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const double h = length(dt);
     begin(y, t, h);
-    if (!from_start_) std::swap(step_.start, step_.end);
-    from_start_ = true;
+    if (!repeats_start_) std::swap(step_.start, step_.end);
+    repeats_start_ = true;
     step_.end.resize(step_.d.size());
     const bool prescribed = system_.multipliers() > 0 || system_.driven();
     if (h < shortest_share * options_.step && !stalled_ && prescribed) {
@@ -55,7 +55,7 @@ class GeneralizedAlpha final : public Stepper {
     }
     const double given_h = step_.start.h;
     const bool another_h = given_h > 0 && h != given_h;
-    if (another_h) {  // the one that is given stays in step_.end until there is another one
+    if (another_h) {  // `a` of the given length waits in step_.end, for give_up()
       assign(step_.end.a,
              step_.start.true_acceleration + (h / given_h) * (step_.start.a - step_.start.true_acceleration));
       step_.end.a.swap(step_.start.a);
@@ -82,6 +82,7 @@ class GeneralizedAlpha final : public Stepper {
       shorter_.failed(dt);
       return give_up();
     }
+    // evaluated where it is needed: until the step is accepted step_.end.a may hold what give_up() puts back
     const auto next_a = rule_.carried() * step_.start.a + (1 / (h * h * rule_.beta)) * step_.d;
     Eigen::VectorXd& error = r_;
     assign(error, rule_.error_constant(h) * (next_a - step_.start.a));
@@ -123,15 +124,15 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   void reset() override {
-    started_ = nearby_ = from_start_ = false;
+    started_ = nearby_ = false;
     solved_h_ = 0;
     tangent_by_a_ = 0;
   }
 
   void keep_for_event(const Stepper& other, bool at_start) override {
     const auto& to_event = dynamic_cast<const GeneralizedAlpha&>(other);
-    const StepEnd& last = at_start ? to_event.step_.start : to_event.here();
-    StepEnd& before = step_.end;
+    const EndAccelerations& last = at_start ? to_event.step_.start : to_event.here();
+    EndAccelerations& before = step_.end;
     if (&last != &before) assign(before.true_acceleration, last.true_acceleration);
     // the step to the event may have been a short one: what `a` is ahead of that is taken from the whole one
     assign(before.a, before.true_acceleration + (step_.start.a - step_.start.true_acceleration));
@@ -152,7 +153,7 @@ class GeneralizedAlpha final : public Stepper {
     memory(is_smooth_);
     memory(tolerance_);
     if (!started_) return;
-    if (memory.reads()) from_start_ = false;
+    if (memory.reads()) repeats_start_ = false;
     here().exchange(memory);
     memory(allowed_);
     memory(from_q_);
@@ -185,7 +186,7 @@ class GeneralizedAlpha final : public Stepper {
       kept_ = {};
     }
     if (&main != this) step_.start.take(main.step_.start);
-    from_start_ = true;
+    repeats_start_ = true;
     shorter_ = main.shorter_;
     tolerance_ = main.tolerance_;
     is_smooth_ = main.is_smooth_;
@@ -216,7 +217,7 @@ class GeneralizedAlpha final : public Stepper {
       step_.start.h = 0;
       std::swap(step_.start, step_.end);
     }
-    crosses_event_ = from_start_ = false;
+    crosses_event_ = repeats_start_ = false;
     double dissipation = 0;
     if (system_.tallies().dissipated) {
       system_.expand(y, step_.d, other_);
@@ -259,6 +260,7 @@ class GeneralizedAlpha final : public Stepper {
     if (!make_tangent(step_.q, step_.v, carried, t, h)) return false;
     system_.solve(r_);
     if (!all_finite(r_)) return false;
+    step_.end.resize(carried.size());  // the event may have changed how many there are
     assign_both(step_.end.true_acceleration, carried - rule_.by_a(h) * r_,  //
                 step_.end.a, step_.end.true_acceleration + ahead);
     // with these accelerations forces balance there, those of supports among them
@@ -442,7 +444,7 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   void accept(Eigen::VectorXd& y, double& t, double h, double dissipation) {
-    StepEnd& end = step_.end;
+    EndAccelerations& end = step_.end;
     end.power = system_.supplied_power(step_.q, step_.v, end.true_acceleration, t + h);
     end.power.dissipated = dissipation;
     end.h = h;
@@ -455,7 +457,7 @@ class GeneralizedAlpha final : public Stepper {
     }
     system_.contract(step_.q, step_.v, y);
     system_.tallies().add(given, y);
-    from_start_ = false;
+    repeats_start_ = false;
     if (counters_) {
       const ConstraintResidual residual = system_.constraint_residual(step_.q, step_.v, t + h);
       auto& largest = counters_->constraints;
@@ -468,8 +470,8 @@ class GeneralizedAlpha final : public Stepper {
   }
 
   /// Accelerations where the next step starts.
-  StepEnd& here() { return from_start_ ? step_.start : step_.end; }
-  const StepEnd& here() const { return from_start_ ? step_.start : step_.end; }
+  EndAccelerations& here() { return repeats_start_ ? step_.start : step_.end; }
+  const EndAccelerations& here() const { return repeats_start_ ? step_.start : step_.end; }
 
   SecondOrderSystem& system_;
   GeneralizedAlphaOptions options_;
@@ -487,9 +489,9 @@ class GeneralizedAlpha final : public Stepper {
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;     ///< where checkpoints are kept
   AlphaStep step_;
-  bool from_start_ = false;  ///< the next step starts where the last one did
-  Eigen::VectorXd r_;        ///< residual and correction, then the estimated error of the positions
-  Eigen::VectorXd other_;    ///< working memory of one function at a time
+  bool repeats_start_ = false;  ///< the next step starts where the last one did
+  Eigen::VectorXd r_;           ///< residual and correction, then the estimated error of the positions
+  Eigen::VectorXd other_;       ///< working memory of one function at a time
   NewtonStop stop_;
   Eigen::VectorXd allowed_;                     ///< absolute tolerances of the coordinates
   bool crosses_event_ = false;                  ///< the next start is behind an event: step_.end goes on through it

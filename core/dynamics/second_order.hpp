@@ -26,7 +26,8 @@ class SecondOrderSystem {
   virtual Eigen::Index multipliers() const { return 0; }
   /// What each of the coordinates is.
   virtual std::vector<FieldRun> fields() const = 0;
-  /// Coordinates and velocities from a state y = (q, q', ...) of the minimal ones, and back.
+  /// Coordinates and velocities from a state y = (q, q', ...) of the minimal ones, all but those that stand for
+  /// multipliers, and back.
   virtual void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
     q = y.head(coordinates());
     v = y.segment(coordinates(), coordinates());
@@ -39,7 +40,7 @@ class SecondOrderSystem {
   virtual void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) = 0;
   /// Puts the accelerations (and multipliers) `before` the last event, an array of coordinates of then, in the place of
   /// those in `a`, which are consistent with the state after it. Returns false where they do not go on through it.
-  /// `memory` may hold anything then.
+  /// `memory` is overwritten.
   virtual bool carry(const Eigen::VectorXd& /*before*/, double /*t*/, Eigen::VectorXd& /*a*/,
                      Eigen::VectorXd& /*memory*/) const {
     return false;

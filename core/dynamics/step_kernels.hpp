@@ -13,13 +13,14 @@ struct StepKernels {
   struct Rule {
     double h, carried, gamma, alpha_m, alpha_f, by_v, by_a;
   };
-  /// Of `count` numbers; no two overlap. Accelerations at the start are the method's own, a0, and the true ones.
+  /// Of `count` numbers; none that is written overlaps another. Accelerations at the start are the method's own, a0,
+  /// and the true ones.
   struct Arrays {
     const double *base_q, *base_v, *a0, *true_a0;
     double *d, *q, *v, *a;
   };
-  /// d -= correction, unless that is null; then the end of a step whose positions are d off those of the velocity going
-  /// on.
+  /// d -= correction, unless that is null; then the end of a step: positions are d off those of the velocity going on,
+  /// velocities by_v d and accelerations by_a d off what the method makes of those at the start.
   void (*complete)(std::ptrdiff_t count, const Rule& rule, const double* correction, const Arrays& step);
   /// Of each of four neighbouring numbers the largest magnitude in `count` such groups, one behind the other; of finite
   /// numbers.

@@ -43,7 +43,7 @@ class Stepper {
   /// The same, where this stepper's last step was from the same start, and nearly as long as the next one will be.
   virtual void resume_nearby(const Stepper& other) { resume(other); }
   /// Writes where the solution goes from (t, y) in a time `tau` of a next step of `dt`, as far as accelerations tell.
-  /// Returns false where the method does not know them.
+  /// Returns false where the method does not know them. `y` and `there` are two vectors.
   virtual bool extrapolate(const Eigen::VectorXd& /*y*/, double /*t*/, double /*dt*/, double /*tau*/,
                            Eigen::VectorXd& /*there*/) {
     return false;

@@ -138,6 +138,7 @@ class Patch {
   std::vector<Element> elements_;
 };
 
+/// relax(), of a patch.
 template <int D>
 int relax_patch(Patch<D>& patch, double excess) {
   if (patch.size() == 0) return 0;
@@ -169,7 +170,7 @@ int relax_patch(Patch<D>& patch, double excess) {
     double share = 1, now = energy_after(share);
     for (; !(now < energy); now = energy_after(share)) {
       if (share < shortest_step) {
-        take(0);
+        patch.move_to(from);
         return iteration;
       }
       share /= 2;

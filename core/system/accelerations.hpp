@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/dynamics/assign.hpp"
+#include "core/geometry/const_vector.hpp"
 #include "core/system/beam_mass.hpp"
 #include "core/system/event_map.hpp"
 #include "core/system/flow.hpp"

@@ -81,7 +81,7 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   std::function<bool(double t)> on_step;
 
   Eigen::VectorXd initial_state() const { return initial_; }
-  /// The same; it is not kept.
+  /// The same, for who asks last: it is not kept.
   Eigen::VectorXd release_initial_state() { return std::move(initial_); }
   /// The equations between two events.
   Accelerations<D>& accelerations() { return accelerations_; }

@@ -22,10 +22,10 @@ void replace_part(const std::vector<Entry>& part, const BeamPart& where, std::pt
   }
 }
 
-/// Elements at the start and at the end of a beam, with the nodes `rest` of its rest shape if that is curved, that are
-/// the same in the part of it that a chain holds.
+/// How many elements at either end of a beam, with the nodes `rest` of its rest shape if that is curved, stay as they
+/// are: those outside of the part that a chain holds, and equal ones in it.
 template <int D>
-BeamPart unchanged_elements(const Mesh& mesh, const std::vector<double>& rest, const ChainState<D>& chain) {
+UnchangedElements unchanged_elements(const Mesh& mesh, const std::vector<double>& rest, const ChainState<D>& chain) {
   const Mesh& now = chain.mesh;
   const auto same = [&](int before, int after) {
     const auto i = static_cast<std::size_t>(before), k = static_cast<std::size_t>(after);
@@ -82,7 +82,7 @@ Eigen::VectorXd CurrentBeam<D>::start(const ChainState<D>& chain) {
 template <int D>
 void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   ++revision_;
-  const BeamPart unchanged = mesh_.x.empty() ? BeamPart{} : unchanged_elements(mesh_, rest_, chain);
+  const UnchangedElements unchanged = mesh_.x.empty() ? UnchangedElements{} : unchanged_elements(mesh_, rest_, chain);
   replace_part(chain.mesh.x, chain.part, 1, mesh_.x);
   replace_part(chain.mesh.weights, chain.part, 1, mesh_.weights);
   if (chain.curved_at_rest()) replace_part(chain.rest, chain.part, node_size<D>, rest_);
@@ -153,7 +153,7 @@ const SumTables& CurrentBeam<D>::tables(int points) const {
 }
 
 template <int D>
-void CurrentBeam<D>::adopt_elements(const BeamPart& unchanged) {
+void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
   const BeamSection section = model_.axis_section();
   const int middle = mesh_.elements() / 2;
   const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
@@ -165,8 +165,8 @@ void CurrentBeam<D>::adopt_elements(const BeamPart& unchanged) {
   const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int known) {
     span = Span<D>(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, known);
   };
-  renew(spans_.left, 0, left_open, model_.start, unchanged.before);
-  renew(spans_.right, mesh_.last(), right_open, model_.end, unchanged.behind);
+  renew(spans_.left, 0, left_open, model_.start, unchanged.at_start);
+  renew(spans_.right, mesh_.last(), right_open, model_.end, unchanged.at_end);
   spans_.between.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;

@@ -32,6 +32,11 @@ struct RidingMass {
   bool at_end() const { return element > 0; }
 };
 
+/// How many elements at the start and at the end of a beam stay as they are.
+struct UnchangedElements {
+  int at_start = 0, at_end = 0;
+};
+
 /// A beam as it is between two events: its mesh, its joints, what holds it and what acts on it, and where all of it
 /// stands in a state y = (q, q', tallies). q holds the nodes (position and slope each), x_i of the joints, the slopes
 /// behind those that are kinked, and the positions of masses that have left; or x of a mass that rides inside an end
@@ -303,8 +308,8 @@ class CurrentBeam {
   /// Puts where the joints are, and how they move, into a state.
   void write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const;
   void adopt_frames();
-  /// The same; so many at the start and at the end are as they were.
-  void adopt_elements(const BeamPart& unchanged);
+  /// The same.
+  void adopt_elements(const UnchangedElements& unchanged);
   /// The frames of a chain, in the place of those there were.
   void take_frames(const ChainState<D>& chain);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/beam/beam_matrix.hpp"
-#include "core/dynamics/assign.hpp"
+#include "core/geometry/const_vector.hpp"
 #include "core/system/current_beam.hpp"
 #include "core/system/flow.hpp"
 

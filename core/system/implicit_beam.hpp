@@ -119,6 +119,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   Eigen::Index after_nodes() const { return layout().mark(); }
   /// Where the angles of a beam that spins stand.
   Eigen::Index angles() const { return layout().angle(); }
+  /// acceleration(), of parts of a state, too.
   void find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
   /// Residual without constraints.
   double free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,

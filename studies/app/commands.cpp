@@ -136,11 +136,11 @@ int run_command(const RunArguments& arguments) {
     Progress progress(printable(scene.title.empty() ? arguments.scene : scene.title));
     constexpr int many_steps = 2000;
     int steps = 0;
-    double first_t = 0;  // behind the first of them: a run may go on from a checkpoint
+    double first_t = 0;  // behind the first of them: a run may go on from a checkpoint, or start by a search at t = 0
     result = simulate(
         scene,
         [&](double t) {
-          if (++steps == 1) first_t = t;
+          if (t > 0 && ++steps == 1) first_t = t;
           progress.update(in_time ? t / scene.duration : t, [&] {
             if (!in_time) return "load factor " + std::to_string(t);
             const std::string slow = steps < many_steps ? "" : why_slow(scene, (t - first_t) / (steps - 1));
