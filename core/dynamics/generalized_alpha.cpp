@@ -184,8 +184,8 @@ class GeneralizedAlpha final : public Stepper {
       motion_until_event_ = main.motion_until_event_;
       calm_ = main.calm_;
       kept_ = {};
+      step_.start.take(main.step_.start);
     }
-    if (&main != this) step_.start.take(main.step_.start);
     repeats_start_ = true;
     shorter_ = main.shorter_;
     tolerance_ = main.tolerance_;
