@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._result import needs
+from ._optional import needs
 
 _ENERGIES = ("kinetic", "axial", "bending", "torsion", "gravity", "dissipated", "total", "supplied")
 _AXES = "xyz"

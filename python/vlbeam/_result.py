@@ -5,6 +5,9 @@ import io
 import json
 from pathlib import Path
 
+from . import _drawing
+from ._optional import needs
+
 
 class Record(dict):
     """A dictionary whose keys are attributes, too."""
@@ -27,17 +30,6 @@ class ComputationFailed(RuntimeError):
     def __init__(self, message, result):
         super().__init__(message)
         self.result = result
-
-
-def needs(package, extra):
-    """Imports an optional package, or says how to get it."""
-    import importlib
-
-    try:
-        return importlib.import_module(package)
-    except ImportError as error:
-        raise ImportError(f"this needs {package.partition('.')[0]}: pip install 'vlbeam[{extra}]', or Debian's "
-                          f"python3-{package.partition('.')[0]} ({error})") from None
 
 
 def _as_html(summary, draw):
@@ -196,8 +188,6 @@ class Result(_Group):
         the beam's end is drawn.
         ax: axes to draw into; new ones if not given.
         """
-        from . import _drawing
-
         return _drawing.result(self, names, ax)
 
 
@@ -232,6 +222,4 @@ class Convergence(Record):
 
     def plot(self, ax=None):
         """Draws error against work by matplotlib, and returns the axes."""
-        from . import _drawing
-
         return _drawing.convergence(self, ax)
