@@ -92,5 +92,48 @@ TYPED_TEST(EventMapOf, NothingGoesOnBehindWhatForgets) {
   EXPECT_FALSE(carried.map.carry(*carried.beam, carried.a, carried.to));
 }
 
+/// There are more coordinates behind a cut than before it, and fewer behind a merge.
+TYPED_TEST(EventMapOf, StepsGoOnWhereNodesComeAndGo) {
+  constexpr int D = TypeParam::value;
+  Random random(11);
+  const ChainShape shape{.elements = 8, .joint = 3};
+  auto model = model_of<D>(shape, random);
+  model.length_control.lower = 0.2;
+  ChainState<D> chain = random_chain<D>(shape, random);
+  std::ranges::fill(chain.q, 0.0);  // straight and at rest, but for the mass that slides
+  std::ranges::fill(chain.rate, 0.0);
+  for (int k = 0; k <= chain.mesh.last(); ++k) {
+    position<D>(chain.q.data(), k)[0] = chain.mesh.x[static_cast<std::size_t>(k)];
+    slope<D>(chain.q.data(), k)[0] = 1;
+  }
+  auto& joint = chain.joints.front();
+  joint.rate = position<D>(chain.rate.data(), joint.node)[0] = 60 * shape.element_length;
+  int cuts = 0, merges = 0;
+  const auto end_of = [&](const IntegrationOptions& options) {
+    BeamSystem<D> system(model, chain);
+    system.on_event = [&](const EventRecord<D>& record) {
+      const int more = record.after.mesh.elements() - record.before.mesh.elements();
+      cuts += more > 0 ? 1 : 0;
+      merges += more < 0 ? 1 : 0;
+    };
+    Eigen::VectorXd y = system.initial_state();
+    double t = 0;
+    SolverCounters counters;
+    EXPECT_TRUE(integrate(system, y, t, 0.04, {}, options, counters));
+    return y;
+  };
+  IntegrationOptions options;
+  options.type = IntegratorType::fehlberg78;
+  options.tolerances = {1e-11, 1e-11};
+  const Eigen::VectorXd exact = end_of(options);
+  options.type = IntegratorType::generalized_alpha;
+  options.generalized_alpha.step = 1e-4;
+  const Eigen::VectorXd y = end_of(options);
+  EXPECT_GE(cuts, 2);
+  EXPECT_GE(merges, 2);
+  ASSERT_EQ(y.size(), exact.size());
+  EXPECT_LE((y - exact).norm(), 1e-3 * exact.norm());
+}
+
 }  // namespace
 }  // namespace vlbeam::test
