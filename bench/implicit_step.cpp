@@ -13,7 +13,9 @@ void implicit_step(benchmark::State& state, NewtonKind newton, Constraints const
   Scene scene;
   scene.start.type = SupportType::clamp;
   scene.sliding_mass = SlidingMassSpec{};
-  scene.sliding_mass->position = 0.5 - 0.3 / elements;
+  const double length = 0.025;  // [m], of an element
+  scene.beam.curve.end[0] = length * elements;
+  scene.sliding_mass->position = length * (0.5 * elements - 0.3);
   scene.beam.elements = elements;
   scene.beam.element = ElementKind::ale_ancf;
   scene.constraints = constraints;
@@ -45,7 +47,8 @@ BENCHMARK_CAPTURE(implicit_step, modified, NewtonKind::modified, Constraints::el
     ->Arg(40)
     ->Arg(100)
     ->Arg(1000)
-    ->Arg(10000);
+    ->Arg(10000)
+    ->Arg(1000000);
 BENCHMARK_CAPTURE(implicit_step, full, NewtonKind::full, Constraints::eliminated)->Arg(40)->Arg(1000)->Arg(10000);
 BENCHMARK_CAPTURE(implicit_step, multipliers, NewtonKind::modified, Constraints::multipliers)
     ->Arg(40)

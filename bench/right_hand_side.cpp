@@ -91,7 +91,8 @@ BENCHMARK_CAPTURE(planar, ALE_ANCF, ElementKind::ale_ancf, WeightTransport::froz
     ->Arg(40)
     ->Arg(100)
     ->Arg(1000)
-    ->Arg(10000);
+    ->Arg(10000)
+    ->Arg(1000000);
 BENCHMARK_CAPTURE(planar, ALE_RANCF, ElementKind::ale_rancf, WeightTransport::frozen)
     ->Arg(10)
     ->Arg(40)
