@@ -151,7 +151,7 @@ struct Event {
   std::vector<double> momentum_jump;       ///< linear [kg m/s], then angular about the origin [kg m^2/s]
   int relaxation = 0;                      ///< iterations until nodes had given way, where they are relaxed
   bool restored = true;                    ///< false: `conservative` velocities could not restore the energy
-  /// The whole shapes, but of a beam of more than 2000 elements with one joint eight nodes on either side of it.
+  /// The whole shapes, but of a beam of more than 200 elements with one joint eight nodes on either side of it.
   Configuration before, after;
 };
 

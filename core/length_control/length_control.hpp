@@ -25,7 +25,7 @@ struct LengthControl {
   /// An element beside a joint, shorter than this share of L_std, is merged with the next one; 0: never by itself.
   double lower = 0;
   /// Of a beam of more elements than this, with one joint, events look at the part around it, and hand over that.
-  int most_whole = 2000;
+  int most_whole = 200;
 
   /// Where what rides inside the last element gets a node again, so that no other event is due at once.
   double end_cut() const { return std::max(end_merge, 2 - upper) + 0.01; }

@@ -66,14 +66,14 @@ TEST(LongBeam, KeepsAsMuchBeforeAnEventAsBehindIt) {
   Scene scene;
   scene.gravity = {0, -9.81, 0};
   scene.beam.element = ElementKind::ale_ancf;
-  scene.beam.elements = 2002;
+  scene.beam.elements = 202;
   scene.beam.curve.end = {0, -2, 0};
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e5, .EI = 1e-6, .rhoA = 1e-4};
   scene.start.type = SupportType::pin;
   scene.start.feed = TimeSpec{.rate = -1, .ramp = 0.002};
   scene.integrator.type = IntegratorType::generalized_alpha;
   scene.integrator.step = 5e-4;
-  scene.duration = scene.output.interval = 0.006;
+  scene.duration = scene.output.interval = 0.06;
   const RunResult result = simulate(scene);
   ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
   std::size_t whole = 0, parts = 0;
@@ -81,7 +81,7 @@ TEST(LongBeam, KeepsAsMuchBeforeAnEventAsBehindIt) {
     const auto before = static_cast<std::ptrdiff_t>(event.before.x.size()),
                after = static_cast<std::ptrdiff_t>(event.after.x.size());
     EXPECT_LE(std::abs(before - after), 1) << "at t = " << event.t;
-    ++(before > 1000 ? whole : parts);
+    ++(before > 100 ? whole : parts);
   }
   EXPECT_GE(whole, 1U);
   EXPECT_GE(parts, 1U);
