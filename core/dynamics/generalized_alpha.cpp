@@ -79,6 +79,7 @@ class GeneralizedAlpha final : public Stepper {
       dt = h / 2;
       tangent_by_a_ = solved_h_ = 0;
       stalled_ = true;
+      if (counters_) ++counters_->failures;
       shorter_.failed(dt);
       return give_up();
     }

@@ -9,6 +9,7 @@
 
 #include "core/dynamics/assign.hpp"
 #include "core/dynamics/event_search.hpp"
+#include "core/dynamics/step_length.hpp"
 #include "core/error.hpp"
 
 namespace vlbeam {
@@ -20,11 +21,9 @@ constexpr int most_looks_beyond = 10;  // steps beyond the end of the run: there
 
 double first_step(const IntegrationOptions& options) {
   if (!has_fixed_step(options.type)) return options.first_step;
-  if (options.type == IntegratorType::generalized_alpha) {
-    const GeneralizedAlphaOptions& method = options.generalized_alpha;
-    return method.first_step > 0 ? std::min(method.first_step, method.step) : method.step;
-  }
-  return options.type == IntegratorType::energy_momentum ? options.energy_momentum.step : options.step;
+  const double first = options.generalized_alpha.first_step;
+  const bool starts_short = options.type == IntegratorType::generalized_alpha && first > 0;
+  return starts_short ? std::min(first, longest_step(options)) : longest_step(options);
 }
 
 [[noreturn]] void underflow(double t, double dt, bool implicit) {
@@ -128,6 +127,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   SideStepper side(ode, options, counters.newton);
   EventSearch search(ode, *stepper, side, options);
   EventAim aim(ode, *stepper, options);
+  StepLength length(options, counters);
   const double smallest = 1e-15 * std::max(std::abs(t_end), t_end - t);
   double dt = std::min(first_step(options), t_end - t);
   auto next_sample = std::lower_bound(sample_times.begin(), sample_times.end(), t);
@@ -145,6 +145,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     memory(cascade);
     memory(looks_beyond);
     counters.exchange(memory);
+    length.exchange(memory);
     stepper->exchange(memory);
     aim.exchange(memory);
     side.exchange(memory);
@@ -177,8 +178,9 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     const double whole = dt;
     dt = aim.take(before, t, whole, y);
     const double tried = dt;
+    const std::size_t failures = counters.newton.failures;
     if (!stepper->try_step(ode, y, t, dt)) {
-      ++counters.rejected;
+      length.rejected(counters.newton.failures > failures);
       shorten(dt, tried, *stepper);
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
@@ -187,7 +189,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       y = before;
       t = t_before;
       dt = tried / 10;
-      ++counters.rejected;
+      length.rejected(StepLimit::error);
       stepper->reset();
       if (dt < smallest) underflow(t, smallest, method.system != nullptr);
       continue;
@@ -214,7 +216,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       y = before;
       t = t_before;
       dt = tried / 2;
-      ++counters.rejected;
+      length.rejected(StepLimit::events);
       stepper->resume(*stepper);
       if (dt < smallest) underflow(stuck.t, std::max(stuck.dt, smallest), method.system != nullptr);
       continue;
@@ -239,7 +241,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     if (!cut && !hit && !last) {
       counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
     }
-    ++counters.steps;
+    length.accepted(tried, event.index >= 0, last && !beyond);
     if (event.index >= 0) {
       cascade = t - last_event > smallest ? 0 : cascade + 1;
       last_event = t;

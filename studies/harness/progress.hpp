@@ -1,10 +1,29 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace vlbeam {
+
+/// How long the rest of some work takes, by how fast the last half of the time went: what a run has done before it was
+/// interrupted cost this process nothing, and steps become longer and shorter.
+class TimeLeft {
+ public:
+  /// A `fraction` of all work, in [0, 1], is done at the time `now` [s], which grows.
+  void seen(double now, double fraction);
+  /// [s]; none until something has been done.
+  std::optional<double> estimate() const;
+
+ private:
+  struct Mark {
+    double time, fraction;
+  };
+  std::optional<Mark> first_;
+  std::deque<Mark> marks_;  ///< of the last half of the time
+};
 
 /// Writes one line to standard error: the part that is done, and about how long the rest takes. Silent if standard
 /// error is not a terminal. Several threads may call it.
@@ -34,6 +53,7 @@ class Progress {
   std::mutex mutex_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_{};
+  TimeLeft left_;
 };
 
 /// "45 s", "3 min 20 s", "2 h 5 min".

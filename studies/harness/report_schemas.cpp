@@ -178,6 +178,27 @@ Json run_schema() {
   const Json solver = record(
       {{"steps", described(whole, "accepted steps", "-")},
        {"rejected", described(whole, "steps that were repeated, shorter", "-")},
+       {"limited_by",
+        described(
+            record({{"given_step", described(whole,
+                                             "by the step given, the longest one of a method that adapts, "
+                                             "or the end of the run",
+                                             "-")},
+                    {"error", described(whole, "by the tolerance of the error", "-")},
+                    {"newton", described(whole, "by Newton's iteration, which failed in a longer one", "-")},
+                    {"events",
+                     described(whole,
+                               "by an event, at which they end, or by the search for one, which failed in a longer one",
+                               "-")}}),
+            "accepted steps by what kept them from being longer")},
+       {"rejected_by",
+        described(record({{"error", described(whole,
+                                              "by the tolerance of the error, or with a state that is not "
+                                              "finite",
+                                              "-")},
+                          {"newton", described(whole, "by Newton's iteration, which failed", "-")},
+                          {"events", described(whole, "too long for an event to be looked for in them", "-")}}),
+                  "rejected steps by what rejected them")},
        {"rhs_evaluations",
         described(whole, "evaluations of the equations of motion, as accelerations or residual", "-")},
        {"smallest_step", described(nullable_number, "of the accepted ones that no event cut short", "s")},

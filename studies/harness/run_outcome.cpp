@@ -48,12 +48,12 @@ auto members(Is<Event> auto& of) {
                   relaxation, restored, before, after);
 }
 auto members(Is<NewtonCounters> auto& of) {
-  auto& [iterations, tangents, longest, constraints, multipliers] = of;
-  return std::tie(iterations, tangents, longest, constraints, multipliers);
+  auto& [iterations, tangents, failures, longest, constraints, multipliers] = of;
+  return std::tie(iterations, tangents, failures, longest, constraints, multipliers);
 }
 auto members(Is<SolverCounters> auto& of) {
-  auto& [steps, rejected, rhs_evaluations, smallest_step, newton] = of;
-  return std::tie(steps, rejected, rhs_evaluations, smallest_step, newton);
+  auto& [steps, rejected, limited_by, rejected_by, rhs_evaluations, smallest_step, newton] = of;
+  return std::tie(steps, rejected, limited_by, rejected_by, rhs_evaluations, smallest_step, newton);
 }
 auto members(Is<Warning> auto& of) {
   auto& [kind, message, remedy] = of;

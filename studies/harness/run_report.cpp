@@ -224,8 +224,12 @@ Json warnings_json(const std::vector<Warning>& warnings) {
 
 Json solver(const RunResult& result) {
   const SolverCounters& s = result.solver;
+  const auto& [given, error, newton, events] = s.limited_by;
+  const auto& [never, by_error, by_newton, by_events] = s.rejected_by;
   return {{"steps", s.steps},
           {"rejected", s.rejected},
+          {"limited_by", {{"given_step", given}, {"error", error}, {"newton", newton}, {"events", events}}},
+          {"rejected_by", {{"error", by_error}, {"newton", by_newton}, {"events", by_events}}},
           {"rhs_evaluations", s.rhs_evaluations},
           {"smallest_step", s.smallest_step},
           {"newton_iterations", s.newton.iterations},

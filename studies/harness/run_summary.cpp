@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -105,16 +106,24 @@ std::string when_text(const RunResult& result) {
   return text;
 }
 
-/// How many steps there were and what made them as short as they are.
+/// How many steps there were, and what kept them from being longer.
 std::string steps_text(const Scene& scene, const RunResult& result) {
   const SolverCounters& s = result.solver;
-  std::string text = std::to_string(s.steps) + ", " + std::to_string(s.rejected) + " rejected, the shortest " +
-                     in_digits(s.smallest_step, 3) + " s; limited by ";
-  if (!has_fixed_step(scene.integrator.type)) return text + "the error tolerance";
-  if (scene.integrator.type == IntegratorType::generalized_alpha && scene.integrator.adaptive) {
-    return text + "the error tolerance and the longest step";
-  }
-  return text + "the step given" + (s.rejected > 0 ? " and, where rejected, by Newton's iteration" : "");
+  const char* const longest = !has_fixed_step(scene.integrator.type) ? "the end of the run"
+                              : scene.integrator.adaptive            ? "the longest step"
+                                                                     : "the step given";
+  const std::array<const char*, step_limits> limits{longest, "the error tolerance", "Newton's iteration", "events"};
+  const auto counted = [&](const StepsByLimit& counts, const std::string& verb) {
+    std::string text;
+    for (std::size_t i = 0; i < step_limits; ++i) {
+      if (counts[i] == 0) continue;
+      text += (text.empty() ? "; " : ", ") + std::to_string(counts[i]) + (text.empty() ? " " + verb : "") + " by " +
+              limits[i];
+    }
+    return text;
+  };
+  return std::to_string(s.steps) + ", the shortest " + in_digits(s.smallest_step, 3) + " s" +
+         counted(s.limited_by, "limited") + counted(s.rejected_by, "rejected");
 }
 
 /// Energy [J] beside others, the largest of which is `size`: what is rounding of those is shown as 0.

@@ -52,7 +52,7 @@ struct Study {
   std::string name;   ///< its folder under studies/ and the stem of its files
   std::string title;  ///< its question in a line
   StudyReport (*run)(const StudyContext&) = nullptr;
-  bool measures_time = false;  ///< runs on one thread, after the others
+  bool measures_time = false;  ///< runs one case at a time, after the others
 };
 
 /// How a study is to be run.

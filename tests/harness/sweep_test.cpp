@@ -59,5 +59,27 @@ TEST(Progress, TellsTimeInWords) {
   EXPECT_EQ(duration_text(7500), "2 h 5 min");
 }
 
+TEST(Progress, TellsWhatIsLeftByHowFastItGoes) {
+  TimeLeft evenly;
+  EXPECT_FALSE(evenly.estimate());
+  for (int i = 0; i <= 10; ++i) evenly.seen(i, 0.02 * i);
+  EXPECT_NEAR(*evenly.estimate(), 40, 1e-9);
+
+  TimeLeft restarted;  // at 0.8, and 0.01 a second from there
+  for (int i = 0; i <= 10; ++i) restarted.seen(3 + i, 0.8 + 0.01 * i);
+  EXPECT_NEAR(*restarted.estimate(), 10, 1e-9);
+
+  TimeLeft slower;  // a tenth in 10 s, then a tenth in 100 s
+  for (int i = 0; i <= 10; ++i) slower.seen(i, 0.01 * i);
+  for (int i = 1; i <= 100; ++i) slower.seen(10 + i, 0.1 + 0.001 * i);
+  EXPECT_NEAR(*slower.estimate(), 800, 1);
+
+  TimeLeft waiting;  // nothing has ended for a while
+  waiting.seen(0, 0);
+  waiting.seen(10, 0.5);
+  for (int i = 11; i <= 40; ++i) waiting.seen(i, 0.5);
+  EXPECT_NEAR(*waiting.estimate(), 40, 1e-9);
+}
+
 }  // namespace
 }  // namespace vlbeam

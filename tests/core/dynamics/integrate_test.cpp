@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "tests/core/support/function_ode.hpp"
@@ -16,6 +17,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 using State = Eigen::VectorXd;
 
 State scalar(double value) { return State::Constant(1, value); }
+
+std::size_t steps_by(StepLimit limit, const StepsByLimit& counts) { return counts[static_cast<std::size_t>(limit)]; }
 
 class Integrate : public ::testing::TestWithParam<IntegratorType> {
  protected:
@@ -44,6 +47,17 @@ TEST_P(Integrate, FollowsAnOscillatorWithinItsTolerance) {
   }
   EXPECT_GT(counters_.steps, 0U);
   EXPECT_GT(counters_.smallest_step, 0);
+}
+
+TEST_P(Integrate, TellsWhatLimitedEachStep) {
+  auto ode = oscillator();
+  ode.guard = [&ode](const State& y, double) { return ode.events.empty() ? 0.5 - y[0] : -1; };
+  options_.first_step = 1;  // the method rejects it
+  ASSERT_TRUE(run(ode, 10));
+  EXPECT_EQ(std::accumulate(counters_.limited_by.begin(), counters_.limited_by.end(), std::size_t{0}), counters_.steps);
+  EXPECT_EQ(steps_by(StepLimit::events, counters_.limited_by), 1U);
+  EXPECT_LE(steps_by(StepLimit::given, counters_.limited_by), 1U) << "the last step alone ends with the run";
+  EXPECT_EQ(counters_.rejected_by, (StepsByLimit{0, counters_.rejected, 0, 0}));
 }
 
 TEST_P(Integrate, SamplesAreOnTheSolution) {
@@ -242,6 +256,8 @@ TEST(SideSteps, ThatCannotBeTakenHalveTheMainStep) {
   EXPECT_TRUE(integrate(ode, y, t, 1, {0.55, 0.95}, options, counters));
   EXPECT_NEAR(y[0], 1, 1e-12);
   EXPECT_EQ(counters.rejected, 1U);
+  EXPECT_EQ(counters.rejected_by, (StepsByLimit{0, 0, 0, 1}));
+  EXPECT_EQ(steps_by(StepLimit::events, counters.limited_by), 2U) << "the half, and what ends at the event";
   ASSERT_EQ(ode.events.size(), 1U);
   EXPECT_NEAR(ode.events[0].t, 0.6, 1e-12);
   ASSERT_EQ(ode.samples.size(), 2U);
@@ -324,6 +340,7 @@ TEST_F(Multistep, AStepOutsideTheDomainIsRepeatedShorter) {
   SolverCounters counters;
   EXPECT_TRUE(integrate(ode, y, t, 10, {}, options_, counters));
   EXPECT_GT(counters.rejected, 0U);
+  EXPECT_EQ(counters.rejected_by, (StepsByLimit{0, counters.rejected, 0, 0}));
   EXPECT_NEAR(y[0], std::exp(-10), 1e-4);
 }
 

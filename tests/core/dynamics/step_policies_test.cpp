@@ -89,6 +89,12 @@ TEST(ShorterSteps, KeepAFineMeshFromAStormOfRejectedSteps) {
   const RunResult result = simulate(scene);
   ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
   EXPECT_LE(10 * result.solver.rejected, result.solver.steps);
+  const auto& [given, error, newton, events] = result.solver.limited_by;
+  EXPECT_EQ(given + newton + events, result.solver.steps);
+  EXPECT_EQ(events, result.events.size());
+  EXPECT_GT(newton, result.solver.rejected) << "they stay shorter for a while";
+  EXPECT_EQ(error, 0U);
+  EXPECT_EQ(result.solver.rejected_by, (StepsByLimit{0, 0, result.solver.rejected, 0}));
   EXPECT_LE(result.max_energy_drift, 1e-2 * result.max_kinetic);
 }
 
