@@ -135,7 +135,8 @@ void fit_orders(StudyReport& report, const std::vector<Climb>& climbs, const Jso
   }
 }
 
-/// What all figures of one problem need: names, colours by family, marks.
+}  // namespace
+
 GnuplotVariables style(const Json& config) {
   GnuplotVariables style{{"names", ""}, {"colours", ""}, {"marks", ""}};
   const auto append = [&](const char* key, const std::string& word) {
@@ -148,8 +149,6 @@ GnuplotVariables style(const Json& config) {
   }
   return style;
 }
-
-}  // namespace
 
 void compare_integrators(StudyReport& report, const StudyContext& context, const Json& references) {
   const Json& config = context.config;

@@ -8,4 +8,7 @@ namespace vlbeam::work_precision {
 /// `references` holds the certified state of each problem and element.
 void compare_integrators(StudyReport& report, const StudyContext& context, const Json& references);
 
+/// What figures of the integrators of a study need: names, colours by family, marks.
+GnuplotVariables style(const Json& config);
+
 }  // namespace vlbeam::work_precision

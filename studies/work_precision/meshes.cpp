@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <stdexcept>
 
 #include "scene/options.hpp"
+#include "studies/work_precision/integrators.hpp"
 
 namespace vlbeam::work_precision {
 namespace {
@@ -34,13 +38,63 @@ std::vector<const Measured*> front_of(const std::vector<Measured>& points) {
 
 std::vector<Json> row(const Measured& point, double cost) {
   const Integrator& integrator = point.climb->ladder.integrator;
-  return {point.climb->ladder.element,
+  return {integrator.name,
+          point.climb->ladder.element,
           point.climb->elements,
-          integrator.name,
           integrator.setting(point.rung->value),
           point.total,
           point.temporal,
           cost};
+}
+
+/// The integrators of the study, with the rungs that they have here.
+Json with_rungs(const Json& integrators, const Json& rungs) {
+  Json result = Json::array();
+  for (const Json& entry : rungs) {
+    const auto of_name = [&](const Json& other) { return other.at("name") == entry.at("name"); };
+    const auto found = std::ranges::find_if(integrators, of_name);
+    if (found == integrators.end()) throw std::invalid_argument("no integrator " + entry.at("name").dump());
+    result.push_back(merged(*found, entry));
+  }
+  return result;
+}
+
+struct Cost {
+  std::string name, unit, title;
+  std::function<double(const Measured&)> of;
+  bool timing;
+};
+
+/// Of each integrator and of all together the runs of which none is as good and costs less.
+void add_fronts(StudyReport& report, const Json& config, std::vector<Measured> points, const Cost& cost) {
+  std::ranges::stable_sort(points, {}, cost.of);
+  Table fronts{.name = "best_meshes_by_" + cost.name,
+               .caption = "of each integrator the runs of which none is as good and needs less " + cost.name,
+               .columns = {"integrator", "element", "elements", "setting", "total", "temporal", cost.unit},
+               .timing = cost.timing};
+  Table front = fronts;
+  front.name = "pareto_front_by_" + cost.name;
+  front.caption = "of all runs those of which none is as good and needs less " + cost.name;
+  for (const Measured* point : front_of(points)) front.rows.push_back(row(*point, cost.of(*point)));
+  for (const Json& integrator : config.at("integrators")) {
+    std::vector<Measured> own;
+    std::ranges::copy_if(points, std::back_inserter(own), [&](const Measured& point) {
+      return point.climb->ladder.integrator.name == integrator.at("name");
+    });
+    for (const Measured* point : front_of(own)) fronts.rows.push_back(row(*point, cost.of(*point)));
+  }
+  report.tables.push_back(fronts);
+  report.tables.push_back(front);
+  GnuplotVariables variables = style(config);
+  variables["work"] = cost.unit;
+  variables["work_title"] = cost.title;
+  variables["table"] = fronts.name + (cost.timing ? ".timing.csv" : ".csv");
+  report.figures.push_back({.name = "best_meshes_by_" + cost.name,
+                            .caption = "Total error of the falling beam at 0.5 s against " + cost.name +
+                                       ", each integrator on its best meshes",
+                            .script = "meshes.gp",
+                            .variables = variables,
+                            .timing = cost.timing});
 }
 
 }  // namespace
@@ -54,7 +108,8 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
       const Json scene = merged(context.config.at("scene"), {{"beam", {{"element", element}, {"elements", n}}},
                                                              {"duration", config.at("duration")}});
       const auto add = [&](const char* key, bool exact) {
-        for (const Integrator& integrator : read_integrators(config.at(key), "meshes")) {
+        const Json all = exact ? config.at(key) : with_rungs(context.config.at("integrators"), config.at(key));
+        for (const Integrator& integrator : read_integrators(all, "meshes")) {
           climbs.push_back({{"meshes", element.get<std::string>(), scene, integrator}, n, exact, {}});
         }
       };
@@ -109,27 +164,22 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
   }
   report.measured["converged_error"] = converged.error;
 
-  const auto work = [](const Measured& point) {
-    return static_cast<double>(point.rung->solver.rhs_evaluations) * point.climb->elements;
-  };
-  std::ranges::sort(points, {}, work);
-  Table cheap{.name = "pareto_front_by_work",
-              .caption = "the runs of which none is as good and needs less work, in evaluations of one element",
-              .columns = {"element", "elements", "integrator", "setting", "total", "temporal", "work"}};
-  for (const Measured* point : front_of(points)) cheap.rows.push_back(row(*point, work(*point)));
-
+  report.tables.push_back(errors);
+  report.tables.push_back(skipped);
+  add_fronts(report, context.config, points,
+             {.name = "work",
+              .unit = "evaluations_of_an_element",
+              .title = "evaluations of an element",
+              .of =
+                  [](const Measured& point) {
+                    return static_cast<double>(point.rung->solver.rhs_evaluations) * point.climb->elements;
+                  },
+              .timing = false});
   const auto seconds = [](const Measured& point) { return point.rung->seconds; };
+  add_fronts(report, context.config, points,
+             {.name = "time", .unit = "seconds", .title = "time [s]", .of = seconds, .timing = true});
+
   std::ranges::sort(points, {}, seconds);
-  Table times{.name = "total_error_times",
-              .caption = "total error against time",
-              .columns = {"element", "elements", "integrator", "setting", "total", "temporal", "seconds"},
-              .timing = true};
-  for (const Measured& point : points) times.rows.push_back(row(point, seconds(point)));
-  Table front = times;
-  front.name = "pareto_front";
-  front.caption = "the runs of which none is as good and faster";
-  front.rows.clear();
-  for (const Measured* point : front_of(points)) front.rows.push_back(row(*point, seconds(*point)));
   Table advice{.name = "advice_total_error",
                .caption = "the fastest mesh and integrator for a wanted total error",
                .columns = {"wanted", "advice"},
@@ -145,17 +195,7 @@ void compare_meshes(StudyReport& report, const StudyContext& context, const Stat
     }
     advice.rows.push_back({wanted, text});
   }
-  report.tables.push_back(errors);
-  report.tables.push_back(skipped);
-  report.tables.push_back(cheap);
-  report.tables.push_back(times);
-  report.tables.push_back(front);
   report.tables.push_back(advice);
-  report.figures.push_back({.name = "total_error_times",
-                            .caption = "Total error of the falling beam at 0.5 s against time over meshes, "
-                                       "elements and integrators, and its Pareto front",
-                            .script = "meshes.gp",
-                            .timing = true});
 }
 
 }  // namespace vlbeam::work_precision
