@@ -1,11 +1,11 @@
 // One event of length control: planar, a cut behind a sliding mass and a merge ahead of it, as time an event. No step
-// is taken between two events: the mass rests where an element ends, and is handed forth and back between the two
-// elements.
+// is taken between two events: each one undoes the one before, at the same place of the mass.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <vector>
 
+#include "bench/clamped_beam.hpp"
 #include "scene/build.hpp"
 
 namespace {
@@ -14,15 +14,8 @@ using namespace vlbeam;
 
 /// Its mass has one and a half elements behind it, and half of one ahead.
 Scene beam_at_an_event(int elements, VelocityTransfer velocities) {
-  Scene scene;
-  scene.start.type = SupportType::clamp;
-  scene.sliding_mass = SlidingMassSpec{};
-  const double length = 0.025;  // [m], of an element
-  scene.beam.curve.end[0] = length * elements;
-  scene.sliding_mass->position = length * (elements / 2 + 0.499);
-  scene.sliding_mass->velocity = 1;
-  scene.beam.elements = elements;
-  scene.beam.element = ElementKind::ale_ancf;
+  Scene scene = clamped_beam(elements, elements / 2 + 0.499);
+  scene.sliding_mass->velocity = 1;  // that velocities have something to transfer
   scene.length_control.velocities = velocities;
   return scene;
 }

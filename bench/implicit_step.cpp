@@ -1,6 +1,7 @@
 // One step of generalized-alpha on the falling beam with a new tangent, as time an element: planar, 5 points.
 #include <benchmark/benchmark.h>
 
+#include "bench/clamped_beam.hpp"
 #include "core/dynamics/generalized_alpha.hpp"
 #include "scene/build.hpp"
 
@@ -10,14 +11,7 @@ using namespace vlbeam;
 
 void implicit_step(benchmark::State& state, NewtonKind newton, Constraints constraints) {
   const int elements = static_cast<int>(state.range(0));
-  Scene scene;
-  scene.start.type = SupportType::clamp;
-  scene.sliding_mass = SlidingMassSpec{};
-  const double length = 0.025;  // [m], of an element
-  scene.beam.curve.end[0] = length * elements;
-  scene.sliding_mass->position = length * (0.5 * elements - 0.3);
-  scene.beam.elements = elements;
-  scene.beam.element = ElementKind::ale_ancf;
+  Scene scene = clamped_beam(elements, 0.5 * elements - 0.3);
   scene.constraints = constraints;
   BeamSystem<2> system(build_model<2>(scene), build_chain<2>(scene));
   NewtonCounters counters;

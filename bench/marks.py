@@ -89,8 +89,8 @@ def run(program, scene, folder, options=None):
     source, report, errors = folder / "scene.json", folder / "report.json", folder / "errors.txt"
     source.write_text(json.dumps(scene), encoding="utf-8")
     with open(errors, "wb") as stderr:
-        process = subprocess.Popen([program, "run", source, "--report", report, "--force", *(options or one_thread(program))],
-                                   stdout=subprocess.DEVNULL, stderr=stderr,
+        process = subprocess.Popen([program, "run", source, "--report", report, "--force",
+                                    *(options or one_thread(program))], stdout=subprocess.DEVNULL, stderr=stderr,
                                    close_fds=False)  # no copy of this process is made, and timed
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -142,10 +142,10 @@ def main():
             return best
 
         for title, scene, marks in RUNS + (SLOW if arguments.slow else []):
-            best = least(scene, min(arguments.repeats, 3 if scene["beam"]["elements"] >= 1000 else arguments.repeats))
+            elements = scene["beam"]["elements"]
+            best = least(scene, arguments.repeats if elements < 1000 else min(arguments.repeats, 3))
             print(title if best else title + ": not known to all programs")
             for key in best[0] if best else []:
-                elements = scene["beam"]["elements"]
                 values = [each[key] for each in best]
                 if key != "memory":
                     show("  " + key, values, mark=marks.get(key, ""))

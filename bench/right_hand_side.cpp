@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/clamped_beam.hpp"
 #include "core/element/circular_shaft.hpp"
 #include "core/statics/steady_flow.hpp"
 #include "scene/build.hpp"
@@ -14,11 +15,7 @@ namespace {
 using namespace vlbeam;
 
 Scene falling_beam(int elements, ElementKind element) {
-  Scene scene;
-  scene.start.type = SupportType::clamp;
-  scene.sliding_mass = SlidingMassSpec{};
-  scene.sliding_mass->position = 0.5 - 0.3 / elements;
-  scene.beam.elements = elements;
+  Scene scene = clamped_beam(elements, 0.5 * elements - 0.3);
   scene.beam.element = element;
   scene.beam.rest_shape = RestShape::paper;
   scene.beam.quadrature_points = 5;
@@ -72,7 +69,7 @@ void several(benchmark::State& state, JointSlopes slopes) {
   const int joints = static_cast<int>(state.range(0));
   for (int i = 0; i < joints; ++i) {
     SlidingJointSpec& joint = scene.sliding_joints.emplace_back();
-    joint.position = (50 - 2 * (joints - 1) + 4 * i - 0.3) / elements;
+    joint.position = (50 - 2 * (joints - 1) + 4 * i - 0.3) / elements * scene.beam.curve.end[0];
     joint.mass = 0.5;
     joint.slopes = slopes;
   }

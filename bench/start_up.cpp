@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "bench/clamped_beam.hpp"
 #include "scene/build.hpp"
 #include "studies/harness/scene_json.hpp"
 
@@ -10,15 +11,8 @@ namespace {
 
 using namespace vlbeam;
 
-/// The falling beam, with each key written out.
-std::string text_of_scene(int elements) {
-  Scene scene;
-  scene.start.type = SupportType::clamp;
-  scene.sliding_mass = SlidingMassSpec{};
-  scene.beam.elements = elements;
-  scene.beam.element = ElementKind::ale_ancf;
-  return scene_to_json(scene).dump();
-}
+/// With each key written out.
+std::string text_of_scene(int elements) { return scene_to_json(clamped_beam(elements, 0.5 * elements - 0.3)).dump(); }
 
 void parse(benchmark::State& state) {
   const std::string text = text_of_scene(static_cast<int>(state.range(0)));
