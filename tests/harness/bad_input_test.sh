@@ -1,17 +1,15 @@
 #!/usr/bin/env bash
-# Scenes that are none: each is refused within a second, with exit code 2, by a message that names the file, the place
-# in it, what stands there and what may, and nothing is written.
+# Scenes that are none: each is refused with exit code 2, by a message that names the file, the place in it, what stands
+# there and what may, and nothing is written. The limit in time is no speed: it ends what takes more than linear time.
 #   bad_input_test.sh PROGRAM
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 refused() {  # refused WHAT FILE PATTERN...: every pattern must be found in the message
-  local what=$1 file=$2 pattern TIMEFORMAT='%U %S' code
+  local what=$1 file=$2 pattern code
   shift 2
-  # In processor time: what else the machine does is not the program's.
-  { time timeout 20 "$vlbeam" run "$file" --report r.json --csv r.csv > out.txt 2> err.txt; } 2> time.txt
+  timeout 60 "$vlbeam" run "$file" --report r.json --csv r.csv > out.txt 2> err.txt
   code=$?
-  [[ $code -eq 2 ]] || failed "$what: exit code $code: $(head -c 300 err.txt)"
-  awk '{exit !($1 + $2 <= 1)}' time.txt || failed "$what: $(cat time.txt) s"
+  [[ $code -eq 2 ]] || failed "$what: exit code $code (124: not done in 60 s): $(head -c 300 err.txt)"
   [[ $(wc -l < err.txt) -eq 1 && $(wc -c < err.txt) -le 800 ]] || failed "$what: not one short line: $(head -c 300 err.txt)"
   [[ ! -s out.txt && ! -e r.json && ! -e r.csv ]] || failed "$what: something was written"
   rm -f r.json r.csv

@@ -89,14 +89,14 @@ check "the scene" "" "$(diff scene.json kept.json)"
 
 # What cannot be written is known before the run.
 for name in deep scene.json/r.csv /proc/r.csv /sys/r.csv "$(printf 'x%.0s' {1..300})"; do
-  check "unwritable $name" 2 "$(exit_of timeout 5 "$vlbeam" run long.json --report r.json --csv "$name")"
+  check "unwritable $name" 2 "$(exit_of timeout 60 "$vlbeam" run long.json --report r.json --csv "$name")"
   check "its option" 1 "$(says '^vlbeam: --csv: ')"
 done
 check "nothing of it" no "$([[ -e r.json ]] && echo yes || echo no)"
 if [[ $(id -u) -ne 0 ]]; then
   mkdir shut && chmod 555 shut && : > readonly.csv && chmod 444 readonly.csv
   for name in shut/r.csv readonly.csv; do
-    check "unwritable $name" 2 "$(exit_of timeout 5 "$vlbeam" run long.json --csv "$name")"
+    check "unwritable $name" 2 "$(exit_of timeout 60 "$vlbeam" run long.json --csv "$name")"
   done
 fi
 check "a folder that is made" 0 "$(exit_of "$vlbeam" run scene.json --report made/by/it/r.json)"
