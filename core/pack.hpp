@@ -31,19 +31,23 @@ class Pack {
   void set(int i, double x) { parts_[i / in_part][i % in_part] = x; }
 
   Pack& operator+=(const Pack& b) {
-    for (int i = 0; i < parts; ++i) parts_[i] += b.parts_[i];
+    parts_[0] += b.parts_[0];
+    if constexpr (last > 0) parts_[last] += b.parts_[last];
     return *this;
   }
   Pack& operator-=(const Pack& b) {
-    for (int i = 0; i < parts; ++i) parts_[i] -= b.parts_[i];
+    parts_[0] -= b.parts_[0];
+    if constexpr (last > 0) parts_[last] -= b.parts_[last];
     return *this;
   }
   Pack& operator*=(const Pack& b) {
-    for (int i = 0; i < parts; ++i) parts_[i] *= b.parts_[i];
+    parts_[0] *= b.parts_[0];
+    if constexpr (last > 0) parts_[last] *= b.parts_[last];
     return *this;
   }
   Pack& operator/=(const Pack& b) {
-    for (int i = 0; i < parts; ++i) parts_[i] /= b.parts_[i];
+    parts_[0] /= b.parts_[0];
+    if constexpr (last > 0) parts_[last] /= b.parts_[last];
     return *this;
   }
   friend Pack operator+(Pack a, const Pack& b) { return a += b; }
@@ -51,7 +55,8 @@ class Pack {
   friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
   friend Pack operator/(Pack a, const Pack& b) { return a /= b; }
   friend Pack operator-(Pack a) {
-    for (int i = 0; i < parts; ++i) a.parts_[i] = -a.parts_[i];
+    a.parts_[0] = -a.parts_[0];
+    if constexpr (last > 0) a.parts_[last] = -a.parts_[last];
     return a;
   }
   friend Pack clamped(const Pack& a, double low, double high) {
@@ -90,11 +95,13 @@ class Pack {
   /// Four numbers that stand one behind the other.
   static Pack load(const double* from) {
     Pack result;
-    for (int i = 0; i < parts; ++i) result.parts_[i] = reinterpret_cast<const InMemory*>(from)[i];
+    result.parts_[0] = reinterpret_cast<const InMemory*>(from)[0];
+    if constexpr (last > 0) result.parts_[last] = reinterpret_cast<const InMemory*>(from)[last];
     return result;
   }
   void store(double* to) const {
-    for (int i = 0; i < parts; ++i) reinterpret_cast<InMemory*>(to)[i] = parts_[i];
+    reinterpret_cast<InMemory*>(to)[0] = parts_[0];
+    if constexpr (last > 0) reinterpret_cast<InMemory*>(to)[last] = parts_[last];
   }
 
   /// The larger of `largest` and the magnitude of `a`, of finite numbers.
@@ -116,6 +123,7 @@ class Pack {
   static constexpr int parts = 2;
 #endif
   static constexpr int in_part = width / parts;
+  static constexpr int last = parts - 1;  // no loops over parts: the compiler would take twice as long over kernels
   // aligned as Eigen aligns its fixed-size arrays in the portable build
   using Lanes __attribute__((vector_size(in_part * sizeof(double)), aligned(16))) = double;
 

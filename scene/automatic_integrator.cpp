@@ -37,7 +37,7 @@ constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own 
 constexpr double newton_share = 0.1, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
 constexpr double whole_motion = 0.1;       // of the beam's length: displacement from which tolerances hold in full
-constexpr double least_tolerance = 1e-11, least_newton_tolerance = 1e-10, rounding = 1e-14;
+constexpr double least_tolerance = 1e-11, least_newton_tolerance = 1e-10, least_rtol = 1e-14;
 
 // The trial, in evaluations of the equations.
 constexpr double tangent_work = 5;
@@ -98,7 +98,7 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
       (events ? share_with_events : implicit_share) * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;
   // next to nothing, for positions have no size of their own: it keeps its ratio where tolerances are refined
-  spec.rtol = two_digits(std::max(relative_share * allowed / length, rounding));
+  spec.rtol = two_digits(std::max(relative_share * allowed / length, least_rtol));
   spec.atol_by_kind = AbsoluteTolerances{.length = two_digits(allowed),
                                          .velocity = two_digits(allowed / longest_implicit_step(scene)),
                                          .angle = {},

@@ -14,10 +14,10 @@
 namespace vlbeam {
 namespace {
 
-constexpr double large = 0.01;          // of the largest kinetic energy
-constexpr double rounding = 1e-9;       // of the energies there are
-constexpr double noise_strain = 1e-10;  // of a beam at rest
-constexpr double from_nowhere = 0.5;    // of all energy: more of it is an unstable computation
+constexpr double large = 0.01;           // of the largest kinetic energy
+constexpr double unjudged_share = 1e-9;  // of the energies there are
+constexpr double noise_strain = 1e-10;   // of a beam at rest
+constexpr double from_nowhere = 0.5;     // of all energy: more of it is an unstable computation
 
 double supplied(const Sample& sample) {
   double energy = sample.energy.supplied;
@@ -28,7 +28,7 @@ double supplied(const Sample& sample) {
 }
 
 /// Of a beam at rest [J].
-double noise(const Scene& scene) {
+double energy_noise(const Scene& scene) {
   return noise_strain * noise_strain * build_section(scene.beam).stiffness.EA * beam_length(scene);
 }
 
@@ -121,7 +121,7 @@ double energy_there_is(const Sample& first, const Sample& now) {
 }
 
 void check_source_of_energy(const Scene& scene, double most, double gain, double t) {
-  if (!(gain > from_nowhere * most + noise(scene))) return;
+  if (!(gain > from_nowhere * most + energy_noise(scene))) return;
   throw ComputationFailed("the computation is unstable: of " + joules(most) + " stored, dissipated and supplied, " +
                               joules(gain) + " come from nowhere; try: " + better_integration(scene),
                           t);
@@ -134,7 +134,7 @@ std::vector<Warning> energy_warnings(const Scene& scene, const RunResult& result
     const Energy& e = sample.energy;
     size = std::max(size, e.kinetic + e.axial + e.bending + e.torsion + std::abs(e.gravity) + e.dissipated);
   }
-  const double least = rounding * size + noise(scene);
+  const double least = unjudged_share * size + energy_noise(scene);
   const auto counts = [&](double energy) { return energy > large * result.max_kinetic + least; };
   const auto shown = [&](double energy) { return in_proportion(energy, result.max_kinetic); };
 

@@ -12,8 +12,8 @@ namespace vlbeam {
 namespace {
 
 constexpr double large_strains = 0.1;
-constexpr double lightest = 10;  // [kg/m^3], of foams
-constexpr double noise = 1e-3;   // of the largest axial force
+constexpr double lightest = 10;       // [kg/m^3], of foams
+constexpr double force_noise = 1e-3;  // of the largest axial force
 constexpr std::size_t least_samples = 8;
 
 template <class... Parts>
@@ -82,7 +82,7 @@ void check_compression(const Scene& scene, const RunResult& result, std::vector<
   }
   const double length = standard_length(scene);
   const double bears = std::numbers::pi * std::numbers::pi * build_section(scene.beam).stiffness.EI / (length * length);
-  if (!(-least > bears + noise * largest)) return;
+  if (!(-least > bears + force_noise * largest)) return;
   warnings.push_back(
       {WarningKind::buckled_elements,
        text_of("the beam is compressed by up to ", -least, " N, at ", when(scene, at), ", and an element of it bears ",

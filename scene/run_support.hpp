@@ -4,6 +4,7 @@
 
 #include "core/system/beam_system.hpp"
 #include "scene/result.hpp"
+#include "scene/run_output.hpp"
 
 namespace vlbeam {
 
@@ -67,6 +68,6 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
 
 /// Follows the equilibria of a scene.
 template <int D>
-RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress);
+RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress, const RunOutput& output);
 
 }  // namespace vlbeam

@@ -64,10 +64,12 @@ constexpr int nodes_beside_event = 8;  // on either side, of a longer one
 template <int D>
 class Run {
  public:
-  Run(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints, const ChainState<D>& chain)
+  Run(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints, const RunOutput& output,
+      const ChainState<D>& chain)
       : scene_(scene),
         progress_(progress),
         checkpoints_(checkpoints),
+        output_(output),
         stops_(scene),
         system_(build_model<D>(scene), chain) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
@@ -109,7 +111,7 @@ class Run {
       shape.angles.push_back(section.angle);
       shape.rates.spins.push_back(section.spin);
     }
-    result_.configurations.push_back(std::move(shape));
+    output_.add(std::move(shape), result_);
   }
 
   void sample(const Eigen::VectorXd& y, double t) {
@@ -240,8 +242,10 @@ class Run {
     event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
     event.restored = record.restored;
     event.relaxation = record.relaxation;
-    event.before = shape_beside(record.before, record);
-    event.after = shape_beside(record.after, record);
+    if (output_.event_shapes) {
+      event.before = shape_beside(record.before, record);
+      event.after = shape_beside(record.after, record);
+    }
     if (record.type == EventType::separation) result_.status = RunStatus::separated;
     jumps_ += record.discrete_jump;
     result_.timing.length_control += record.seconds;
@@ -251,6 +255,7 @@ class Run {
   const Scene& scene_;
   ProgressCallback progress_;
   const Checkpoints* checkpoints_;
+  const RunOutput& output_;
   Stops stops_;
   BeamSystem<D> system_;
   RunResult result_;
@@ -261,7 +266,7 @@ class Run {
 
 template <int D>
 RunResult simulate_from_equilibrium(const Scene& scene, const ProgressCallback& progress,
-                                    const Checkpoints* checkpoints) {
+                                    const Checkpoints* checkpoints, const RunOutput& output) {
   std::optional<InitialEquilibrium<D>> start;
   RunResult none;
   try {
@@ -273,29 +278,31 @@ RunResult simulate_from_equilibrium(const Scene& scene, const ProgressCallback& 
   }
   if (!start) return none;
   set_in_motion(scene, start->chain);
-  Run<D> run(scene, progress, checkpoints, start->chain);
+  Run<D> run(scene, progress, checkpoints, output, start->chain);
   run.starts_from(start->seen);
   return run();
 }
 
 template <int D>
-RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
-  if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress);
-  if (starts_in_equilibrium(scene)) return simulate_from_equilibrium<D>(scene, progress, checkpoints);
-  Run<D> run(scene, progress, checkpoints, build_chain<D>(scene));  // the chain is not kept
+RunResult simulate_in(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints,
+                      const RunOutput& output) {
+  if (scene.analysis == Analysis::statics) return simulate_statics<D>(scene, progress, output);
+  if (starts_in_equilibrium(scene)) return simulate_from_equilibrium<D>(scene, progress, checkpoints, output);
+  Run<D> run(scene, progress, checkpoints, output, build_chain<D>(scene));  // the chain is not kept
   return run();
 }
 
 }  // namespace
 
-RunResult simulate(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints) {
+RunResult simulate(const Scene& scene, const ProgressCallback& progress, const Checkpoints* checkpoints,
+                   const RunOutput& output) {
   validate(scene);
   if (checkpoints != nullptr && scene.analysis == Analysis::statics) {
     refuse("/analysis", "\"statics\" with checkpoints", "they are of runs in time");
   }
   RunResult result = of_scene([&] {
-    return scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints)
-                                : simulate_in<3>(scene, progress, checkpoints);
+    return scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints, output)
+                                : simulate_in<3>(scene, progress, checkpoints, output);
   });
   if (scene.analysis == Analysis::dynamics) {
     result.warnings = energy_warnings(scene, result);

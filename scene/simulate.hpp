@@ -4,6 +4,7 @@
 
 #include "core/dynamics/checkpoint.hpp"
 #include "scene/result.hpp"
+#include "scene/run_output.hpp"
 #include "scene/scene.hpp"
 
 namespace vlbeam {
@@ -16,7 +17,9 @@ using ProgressCallback = std::function<bool(double t)>;
 /// result's status, with everything computed until then.
 ///
 /// `checkpoints`, if not null, says from which checkpoint of the same scene the run goes on, and when it leaves some:
-/// see integrate(). The digits are those of a run that was never interrupted. Not in statics.
-RunResult simulate(const Scene& scene, const ProgressCallback& progress = {}, const Checkpoints* checkpoints = nullptr);
+/// see integrate(). The digits are those of a run that was never interrupted; shapes before it are handed on once more.
+/// Not in statics.
+RunResult simulate(const Scene& scene, const ProgressCallback& progress = {}, const Checkpoints* checkpoints = nullptr,
+                   const RunOutput& output = {});
 
 }  // namespace vlbeam

@@ -54,7 +54,7 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
 }  // namespace
 
 template <int D>
-RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress) {
+RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress, const RunOutput& output) {
   BeamSystem<D> system(build_model<D>(scene), build_chain<D>(scene));
   const StaticsSpec& statics = scene.statics;
   RunResult result;
@@ -63,7 +63,7 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
   const auto on_point = [&](const Equilibrium& at) {
     const auto number = static_cast<double>(result.samples.size());
     result.samples.push_back(static_sample(system, at, number, scene));
-    result.configurations.push_back(configuration_of(system.chain(at.y, number), number, weight_transport(scene)));
+    output.add(configuration_of(system.chain(at.y, number), number, weight_transport(scene)), result);
     last = at;
     const bool goes_on = !progress || progress(at.factor);
     if (!goes_on) result.status = RunStatus::interrupted;
@@ -81,7 +81,7 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
   return result;
 }
 
-template RunResult simulate_statics<2>(const Scene&, const std::function<bool(double)>&);
-template RunResult simulate_statics<3>(const Scene&, const std::function<bool(double)>&);
+template RunResult simulate_statics<2>(const Scene&, const std::function<bool(double)>&, const RunOutput&);
+template RunResult simulate_statics<3>(const Scene&, const std::function<bool(double)>&, const RunOutput&);
 
 }  // namespace vlbeam

@@ -127,16 +127,20 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
                                ///< have energies of their own
     bool transfers;            ///< velocities follow from those of the mesh before,
     bool conserves;            ///< and keep the energy
+    bool is_local;             ///< it looks at, and changes, the part of the beam around its joint alone
     bool changes_nodes_alone;  ///< the rest of the state stays as it is
     bool goes_on;              ///< accelerations do
     BeamPart part;
     EventReach reach;
   };
   EventScope scope_of(const std::vector<PendingEvent>& dues) const;
+  /// Nothing holds the joint of a beam that has one, nor drives anything: around it velocities may be any.
+  bool has_free_joint() const;
   struct BeforeEvent {
-    Energy energy, own;  ///< by the ledger's points and by the model's, as far as they are looked at
+    /// By the ledger's points and by the model's, as far as they are looked at; of a part, `own` is its kinetic energy.
+    Energy energy, own;
     Eigen::VectorXd momenta;
-    double work;  ///< of supports [J]
+    double work = 0;  ///< of supports [J]
   };
   BeforeEvent look_before(const EventScope& scope, const Eigen::VectorXd& y, double t);
   /// Makes of the chain of the first record what the events make of it.

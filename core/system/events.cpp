@@ -9,6 +9,7 @@
 #include "core/length_control/relaxation.hpp"
 #include "core/system/beam_system.hpp"
 #include "core/system/event_limits.hpp"
+#include "core/system/restore_beside_joint.hpp"
 
 namespace vlbeam {
 namespace {
@@ -258,6 +259,11 @@ void BeamSystem<D>::transfer_velocities(const EventRecord<D>& record, const Even
 }
 
 template <int D>
+bool BeamSystem<D>::has_free_joint() const {
+  return Beam::held(0) == nullptr && !Beam::guides(0) && Beam::joint(0).pitch == 0 && !model().driven();
+}
+
+template <int D>
 typename BeamSystem<D>::EventScope BeamSystem<D>::scope_of(const std::vector<PendingEvent>& dues) const {
   const LengthControl& control = model().length_control;
   const EventType type = dues.front().type;
@@ -269,9 +275,9 @@ typename BeamSystem<D>::EventScope BeamSystem<D>::scope_of(const std::vector<Pen
   scope.conserves = scope.transfers && control.velocities == VelocityTransfer::conservative;
   scope.changes_nodes_alone = (remeshes(type) || type == EventType::passage) && !scope.observes_all;
   scope.goes_on = type == EventType::passage || (remeshes(type) && !rider() && type != EventType::end_merge);
-  const bool is_local = scope.changes_nodes_alone && !scope.conserves && places().size() == 1 && links_.all().empty() &&
-                        mesh().elements() > control.most_whole;
-  if (is_local) scope.part = part_around_joint();
+  scope.is_local = scope.changes_nodes_alone && places().size() == 1 && links_.all().empty() &&
+                   mesh().elements() > control.most_whole && (!scope.conserves || has_free_joint());
+  if (scope.is_local) scope.part = part_around_joint();
   scope.reach = reach_of(dues, scope.part);
   return scope;
 }
@@ -279,9 +285,16 @@ typename BeamSystem<D>::EventScope BeamSystem<D>::scope_of(const std::vector<Pen
 template <int D>
 typename BeamSystem<D>::BeforeEvent BeamSystem<D>::look_before(const EventScope& scope, const Eigen::VectorXd& y,
                                                                double t) {
-  return {scope.observes_all ? observe(y, t, ledger_points).energy : Energy{},
-          scope.observes_all || scope.conserves ? observe(y, t, own_points).energy : Energy{},
-          velocities_.momenta(y, t, scope.part), layout().tallies.of(y).supports};
+  BeforeEvent before;
+  if (scope.observes_all) before.energy = observe(y, t, ledger_points).energy;
+  if (scope.conserves && scope.is_local) {
+    before.own.kinetic = kinetic_energy(*this, mass_, scope.part, y, t);
+  } else if (scope.observes_all || scope.conserves) {
+    before.own = observe(y, t, own_points).energy;
+  }
+  before.momenta = velocities_.momenta(y, t, scope.part);
+  before.work = layout().tallies.of(y).supports;
+  return before;
 }
 
 template <int D>
@@ -317,7 +330,12 @@ void BeamSystem<D>::change_velocities(const EventScope& scope, const BeforeEvent
       if (scope.observes_all) return (observe(y, t, own_points).energy - before.own).total();
       return energy_jump(*this, record.before, record.after, scope.reach, t, own_points).total();
     };
-    velocities_.restore(before.momenta, gained, y, t);
+    if (scope.is_local) {
+      const Eigen::VectorXd lacking = before.momenta - velocities_.momenta(y, t, scope.part);
+      restore_beside_joint<D>(*this, mass_, scope.part, lacking, gained, y, t);
+    } else {
+      velocities_.restore(before.momenta, gained, y, t);
+    }
   }
   if (scope.transfers || scope.type == EventType::end_merge) Beam::take_rates(y, record.after);
 }
@@ -415,6 +433,7 @@ template std::vector<EventRecord<2>> BeamSystem<2>::records_of(const std::vector
 template EventReach BeamSystem<2>::reach_of(const std::vector<PendingEvent>&, const BeamPart&) const;
 template void BeamSystem<2>::transfer_velocities(const EventRecord<2>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
+template bool BeamSystem<2>::has_free_joint() const;
 template typename BeamSystem<2>::EventScope BeamSystem<2>::scope_of(const std::vector<PendingEvent>&) const;
 template typename BeamSystem<2>::BeforeEvent BeamSystem<2>::look_before(const EventScope&, const Eigen::VectorXd&,
                                                                         double);
@@ -438,6 +457,7 @@ template std::vector<EventRecord<3>> BeamSystem<3>::records_of(const std::vector
 template EventReach BeamSystem<3>::reach_of(const std::vector<PendingEvent>&, const BeamPart&) const;
 template void BeamSystem<3>::transfer_velocities(const EventRecord<3>&, const EventReach&,
                                                  const std::shared_ptr<Frames>&, Eigen::VectorXd&, double);
+template bool BeamSystem<3>::has_free_joint() const;
 template typename BeamSystem<3>::EventScope BeamSystem<3>::scope_of(const std::vector<PendingEvent>&) const;
 template typename BeamSystem<3>::BeforeEvent BeamSystem<3>::look_before(const EventScope&, const Eigen::VectorXd&,
                                                                         double);

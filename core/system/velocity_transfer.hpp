@@ -15,6 +15,14 @@ class VelocityProjection {
   using JointElements = typename CurrentBeam<D>::JointElements;
   using EnergyGained = std::function<double()>;  ///< by what was written to y last [J]
 
+  /// Rigid motions: translations, then rotations.
+  static constexpr int rigid_modes = D == 2 ? 3 : 6;
+  /// The axes in whose plane mode `mode` turns, the first towards the second.
+  static std::array<int, 2> axes_of(int mode) {
+    const int a = (mode - D + (D == 2 ? 0 : 1)) % D;
+    return {a, (a + 1) % D};
+  }
+
   /// Both must outlive this object.
   VelocityProjection(const CurrentBeam<D>& beam, BeamMass<D>& mass) : beam_(beam), mass_(mass) {}
 
@@ -33,12 +41,6 @@ class VelocityProjection {
   /// Writes the momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to
   /// `last`.
   void find_excess_momentum(const ChainState<D>& before, const ChainState<D>& after, int first, int last);
-  static constexpr int rigid_modes = D == 2 ? 3 : 6;
-  /// The axes in whose plane mode `mode` turns, the first towards the second.
-  static std::array<int, 2> axes_of(int mode) {
-    const int a = (mode - D + (D == 2 ? 0 : 1)) % D;
-    return {a, (a + 1) % D};
-  }
   /// Rates of the rigid motion `mode` at the positions `y`: translations, then rotations about the origin.
   void rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const;
   /// M phi of the rigid motions phi.

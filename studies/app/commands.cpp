@@ -33,6 +33,7 @@
 #include "studies/harness/scene_library.hpp"
 #include "studies/harness/schema.hpp"
 #include "studies/harness/schema_text.hpp"
+#include "studies/harness/shapes.hpp"
 #include "studies/harness/source_folder.hpp"
 #include "studies/harness/subprocess.hpp"
 #include "studies/harness/sweep.hpp"
@@ -85,7 +86,7 @@ int jobs_or_processors(int jobs) { return jobs > 0 ? jobs : processors(); }
 /// Keeps shapes at times that are even, besides those of the scene; they change no digit of the motion.
 void add_frames(Scene& scene, int frames) {
   std::vector<double>& times = scene.output.configurations;
-  for (int k = 0; k < frames; ++k) times.push_back(scene.duration * k / (frames - 1));
+  for (int k = 0; k < frames; ++k) times.push_back(k + 1 < frames ? scene.duration * k / (frames - 1) : scene.duration);
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
 }
@@ -131,40 +132,44 @@ int run_command(const RunArguments& arguments) {
   const bool checks = checkpoints.from || checkpoints.keep;
 
   install_interrupt_handler();
+  ShapeSpool spool;
   RunResult result;
   {
     Progress progress(printable(scene.title.empty() ? arguments.scene : scene.title));
     constexpr int many_steps = 2000;
     int steps = 0;
     double first_t = 0;  // behind the first of them: a run may go on from a checkpoint, or start by a search at t = 0
-    result = simulate(
-        scene,
-        [&](double t) {
-          if (t > 0 && ++steps == 1) first_t = t;
-          progress.update(in_time ? t / scene.duration : t, [&] {
-            if (!in_time) return "load factor " + std::to_string(t);
-            const std::string slow = steps < many_steps ? "" : why_slow(scene, (t - first_t) / (steps - 1));
-            return "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow);
-          });
-          return !interrupted();
-        },
-        checks ? &checkpoints : nullptr);
+    result = simulate(scene,
+                      [&](double t) {
+                        if (t > 0 && ++steps == 1) first_t = t;
+                        progress.update(in_time ? t / scene.duration : t, [&] {
+                          if (!in_time) return "load factor " + std::to_string(t);
+                          const std::string slow =
+                              steps < many_steps ? "" : why_slow(scene, (t - first_t) / (steps - 1));
+                          return "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow);
+                        });
+                        return !interrupted();
+                      },
+                      checks ? &checkpoints : nullptr,
+                      {.shape = [&spool](const Configuration& shape) { spool.add(shape); }, .event_shapes = false});
   }
+  const Shapes shapes = spool.shapes();
   if (!not_kept.empty()) outputs.attempt(arguments.checkpoint, [&] { throw std::runtime_error(not_kept); });
 
   // What goes into files first: who reads from standard output may be gone.
   const auto write_report = [&] {
     outputs.write(report, result.status, [&](const TextSink& sink) {
-      write_run_report(scene, result, {{"provenance", provenance()}, {"timing", run_timing(result.timing)}}, sink);
+      write_run_report(scene, result, shapes, {{"provenance", provenance()}, {"timing", run_timing(result.timing)}},
+                       sink);
     });
   };
   if (report != "-") write_report();
   outputs.write(csv, result.status, [&](const TextSink& sink) { write_samples_csv(scene, result, sink); });
   outputs.write_with(arguments.shape, result.status, [&](const std::filesystem::path& file) {
-    write_shapes_csv(scene, result.configurations, arguments.points, file);
+    write_shapes_csv(scene, shapes, arguments.points, file);
   });
   if (!arguments.vtk.empty()) {
-    outputs.attempt(arguments.vtk, [&] { write_vtk(scene, result.configurations, arguments.points, arguments.vtk); });
+    outputs.attempt(arguments.vtk, [&] { write_vtk(scene, shapes, arguments.points, arguments.vtk); });
   }
   if (report == "-") write_report();
 

@@ -69,7 +69,7 @@ Flat flattened(const std::string& text) {
   return flat;
 }
 
-struct Span {
+struct TextRange {
   std::size_t begin, length;
 };
 
@@ -87,8 +87,8 @@ std::vector<std::string> pieces_of(const std::string& pattern) {
 
 /// Where a pattern stands in a flat text, and the numbers in it.
 struct Match {
-  Span all{};
-  std::vector<Span> numbers;
+  TextRange all{};
+  std::vector<TextRange> numbers;
 };
 
 /// A pattern that begins at a place of a flat text; nothing if it does not.
@@ -350,7 +350,7 @@ ClaimsVerdict check_claims(const Json& claims, const std::string& document, Repo
   const std::string study = claims.value("study", "");
   const Flat flat = flattened(document);
   std::vector<bool> accounted(document.size(), false);
-  const auto account = [&](const Span& span) {
+  const auto account = [&](const TextRange& span) {
     for (std::size_t i = 0; i < span.length; ++i) accounted[flat.from[span.begin + i]] = true;
   };
   struct Change {
@@ -371,7 +371,7 @@ ClaimsVerdict check_claims(const Json& claims, const std::string& document, Repo
     claim["recorded"] = Json::array();
     account(found.front().all);
     for (std::size_t i = 0; i < found.front().numbers.size(); ++i) {
-      const Span& span = found.front().numbers[i];
+      const TextRange& span = found.front().numbers[i];
       const Json& value = claim.at("values").at(i);
       const bool bounded = value.is_object() && value.contains("at_most");
       ++verdict.numbers;

@@ -155,7 +155,7 @@ constexpr const char* palette =
     "set cbrange [0:1]\nunset colorbox\n";
 
 /// Rows of a field, apart from each other by a blank line.
-std::string field_data(const Field& field) {
+std::string field_data(const ColourField& field) {
   std::string data;
   for (std::size_t i = 0; i < field.x.size(); ++i) {
     for (std::size_t k = 0; k < field.y[i].size(); ++k) {
@@ -166,7 +166,7 @@ std::string field_data(const Field& field) {
   return data;
 }
 
-std::string field_script(const Field& field, const Look& look) {
+std::string field_script(const ColourField& field, const Look& look) {
   // The colours of viridis, which grow evenly brighter.
   return "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n"
          "set pm3d map\nunset key\nunset grid\nset autoscale xfix\nset autoscale yfix\n" +

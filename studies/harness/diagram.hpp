@@ -16,7 +16,7 @@ struct Series {
 };
 
 /// Values over two axes: one row of points a time, all of the same number of points.
-struct Field {
+struct ColourField {
   std::string label;  ///< of the scale of colours, with its unit
   std::vector<double> x;
   std::vector<std::vector<double>> y, values;  ///< a row for each x
@@ -30,7 +30,7 @@ struct Diagram {
   bool equal_scales = false;     ///< of both axes: shapes
   bool ordered_colours = false;  ///< of lines, from dark blue to orange in their order; points are black
   std::string key_title = {};
-  Field field = {};
+  ColourField field = {};
 };
 
 /// How a figure is set.

@@ -121,7 +121,7 @@ class ByteReader {
     } else if constexpr (Row<T>) {
       std::size_t size = 0;
       (*this)(size);
-      if (size > bytes_.size()) throw std::out_of_range("an outcome that is too short");
+      if (size > bytes_.size()) throw std::out_of_range("fewer bytes than were written");
       value.resize(size);
       if constexpr (Trivial<typename T::value_type>) {
         take(value.data(), size * sizeof(typename T::value_type));
@@ -142,13 +142,29 @@ class ByteReader {
 
  private:
   void take(void* to, std::size_t count) {
-    if (count > bytes_.size()) throw std::out_of_range("an outcome that is too short");
+    if (count > bytes_.size()) throw std::out_of_range("fewer bytes than were written");
     if (count > 0) std::memcpy(to, bytes_.data(), count);
     bytes_.remove_prefix(count);
   }
 
   std::string_view bytes_;
 };
+
+template <class T>
+std::string bytes_of(const T& value) {
+  ByteWriter writer;
+  writer(value);
+  return std::move(writer.bytes);
+}
+
+template <class T>
+T from_bytes(std::string_view bytes) {
+  T value;
+  ByteReader reader(bytes);
+  reader(value);
+  if (!reader.at_end()) throw std::out_of_range("more bytes than were written");
+  return value;
+}
 
 }  // namespace
 
@@ -168,18 +184,10 @@ RunResult RunOutcome::get() && {
   return std::move(result);
 }
 
-std::string to_bytes(const RunOutcome& outcome) {
-  ByteWriter writer;
-  writer(outcome);
-  return std::move(writer.bytes);
-}
+std::string to_bytes(const RunOutcome& outcome) { return bytes_of(outcome); }
+RunOutcome outcome_from_bytes(std::string_view bytes) { return from_bytes<RunOutcome>(bytes); }
 
-RunOutcome outcome_from_bytes(std::string_view bytes) {
-  RunOutcome outcome;
-  ByteReader reader(bytes);
-  reader(outcome);
-  if (!reader.at_end()) throw std::out_of_range("more than an outcome");
-  return outcome;
-}
+std::string to_bytes(const Configuration& shape) { return bytes_of(shape); }
+Configuration configuration_from_bytes(std::string_view bytes) { return from_bytes<Configuration>(bytes); }
 
 }  // namespace vlbeam

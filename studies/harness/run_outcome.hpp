@@ -25,4 +25,8 @@ std::string to_bytes(const RunOutcome& outcome);
 /// Throws std::out_of_range where they are not whole.
 RunOutcome outcome_from_bytes(std::string_view bytes);
 
+/// The same of one shape.
+std::string to_bytes(const Configuration& shape);
+Configuration configuration_from_bytes(std::string_view bytes);
+
 }  // namespace vlbeam

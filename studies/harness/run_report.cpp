@@ -1,8 +1,6 @@
 #include "studies/harness/run_report.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -18,48 +16,13 @@
 #include "studies/harness/messages.hpp"
 #include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "studies/harness/text_writer.hpp"
 
 namespace vlbeam {
 namespace {
 
-/// A text that goes on to its sink whenever enough of it is there.
-class ReportWriter {
- public:
-  explicit ReportWriter(const TextSink& sink) : sink_(sink) { text_.reserve(2 * enough); }
-  ~ReportWriter() = default;
-  ReportWriter(const ReportWriter&) = delete;
-  ReportWriter& operator=(const ReportWriter&) = delete;
-
-  ReportWriter& operator<<(std::string_view text) {
-    text_ += text;
-    if (text_.size() > enough) flush();
-    return *this;
-  }
-  /// As short as it can be without losing a digit.
-  ReportWriter& operator<<(double value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return *this << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
-  }
-  /// A value, indented as what stands at this depth.
-  void pretty(const Json& value, std::size_t depth) {
-    append_pretty(value, depth, text_);
-    *this << "";
-  }
-  void flush() {
-    sink_(text_);
-    text_.clear();
-  }
-
- private:
-  static constexpr std::size_t enough = 1 << 16;
-
-  const TextSink& sink_;
-  std::string text_;
-};
-
 /// A number of a report: of a type that reads back as one of floating point.
-void write_number(double value, ReportWriter& out) {
+void write_number(double value, TextWriter& out) {
   if (!std::isfinite(value)) {
     out << "null";
     return;
@@ -69,6 +32,13 @@ void write_number(double value, ReportWriter& out) {
   if (text.find_first_of(".e") == std::string::npos) out << ".0";
 }
 
+/// A value, indented as what stands at this depth.
+void write_pretty(const Json& value, std::size_t depth, TextWriter& out) {
+  std::string text;
+  append_pretty(value, depth, text);
+  out << text;
+}
+
 std::vector<std::string> segments_of(const std::string& path) {
   std::vector<std::string> segments;
   std::istringstream parts(path);
@@ -76,7 +46,7 @@ std::vector<std::string> segments_of(const std::string& path) {
   return segments;
 }
 
-void write_column(const SampleQuantity& quantity, const std::vector<Sample>& samples, ReportWriter& out) {
+void write_column(const SampleQuantity& quantity, const std::vector<Sample>& samples, TextWriter& out) {
   const std::size_t count = quantity.columns.size(), dimension = quantity.dimension;
   std::vector<double> values(count);
   const auto write_vector = [&](std::size_t first) {
@@ -107,8 +77,7 @@ void write_column(const SampleQuantity& quantity, const std::vector<Sample>& sam
 }
 
 /// The samples as columns: an object of arrays, and of parts whose path goes deeper.
-void write_samples(const std::vector<SampleQuantity>& quantities, const std::vector<Sample>& samples,
-                   ReportWriter& out) {
+void write_samples(const std::vector<SampleQuantity>& quantities, const std::vector<Sample>& samples, TextWriter& out) {
   constexpr std::size_t depth = 1;  // of /samples
   std::vector<std::string> open;
   bool first = true;  // of the innermost object that is open
@@ -244,8 +213,9 @@ Json solver(const RunResult& result) {
 
 }  // namespace
 
-void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink) {
-  ReportWriter out(sink);
+void write_run_report(const Scene& scene, const RunResult& result, const Shapes& shapes, const Json& more,
+                      const TextSink& sink) {
+  TextWriter out(sink);
   bool first = true;
   const auto key = [&](const char* name) {
     out << (first ? "{\n  \"" : ",\n  \"") << name << "\": ";
@@ -253,16 +223,18 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
   };
   const auto value = [&](const char* name, const Json& json) {
     key(name);
-    out.pretty(json, 1);
+    write_pretty(json, 1, out);
   };
-  const auto list = [&](const char* name, const auto& entries, const auto& to_json) {
+  const auto list = [&](const char* name, const auto& each) {
     key(name);
     out << "[";
-    for (const auto& entry : entries) {
-      out << (&entry == &entries.front() ? "\n    " : ",\n    ");
-      out.pretty(to_json(entry), 2);
-    }
-    out << (entries.empty() ? "]" : "\n  ]");
+    bool none = true;
+    each([&](const Json& entry) {
+      out << (none ? "\n    " : ",\n    ");
+      none = false;
+      write_pretty(entry, 2, out);
+    });
+    out << (none ? "]" : "\n  ]");
   };
   value("schema_version", "vlbeam.run/1");
   value("status", to_string(result.status));
@@ -273,8 +245,11 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
   value("scene", scene_to_json(scene));
   key("samples");
   write_samples(sample_quantities(scene), result.samples, out);
-  list("configurations", result.configurations, [&scene](const Configuration& c) { return configuration(c, scene); });
-  list("events", result.events, event);
+  list("configurations",
+       [&](const auto& entry) { shapes([&](const Configuration& shape) { entry(configuration(shape, scene)); }); });
+  list("events", [&](const auto& entry) {
+    for (const Event& e : result.events) entry(event(e));
+  });
   value("energy_ledger", ledger_json(energy_ledger(result)));
   if (!result.frequencies.empty()) value("frequencies", result.frequencies);
   if (starts_in_equilibrium(scene) && !result.samples.empty()) {
@@ -290,13 +265,17 @@ void write_run_report(const Scene& scene, const RunResult& result, const Json& m
   out.flush();
 }
 
+void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink) {
+  write_run_report(scene, result, shapes_of(result), more, sink);
+}
+
 Json run_timing(const RunTiming& timing) {
   return {{"motion", timing.motion}, {"length_control", timing.length_control}};
 }
 
 void write_samples_csv(const Scene& scene, const RunResult& result, const TextSink& sink) {
   const std::vector<SampleQuantity> quantities = sample_quantities(scene);
-  ReportWriter out(sink);
+  TextWriter out(sink);
   bool first = true;
   std::size_t most = 0;
   for (const SampleQuantity& quantity : quantities) {

@@ -5,6 +5,7 @@
 #include "scene/result.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/json.hpp"
+#include "studies/harness/shapes.hpp"
 
 namespace vlbeam {
 
@@ -12,6 +13,9 @@ namespace vlbeam {
 /// are. Positions have as many components as the scene has dimensions. `more` holds what is not the same whenever it is
 /// run, and stands at the end.
 void write_run_report(const Scene& scene, const RunResult& result, const Json& more, const TextSink& sink);
+/// The same with shapes that the result does not keep.
+void write_run_report(const Scene& scene, const RunResult& result, const Shapes& shapes, const Json& more,
+                      const TextSink& sink);
 
 /// Wall times of a run [s].
 Json run_timing(const RunTiming& timing);

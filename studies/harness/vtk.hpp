@@ -1,10 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include "scene/result.hpp"
 #include "scene/scene.hpp"
+#include "studies/harness/shapes.hpp"
 
 namespace vlbeam {
 
@@ -12,12 +11,10 @@ namespace vlbeam {
 /// their times and appears last. Points have material_coordinate [m], axial_strain [-], curvature [1/m], tension [N]
 /// and velocity [m/s]; an element is `per_element` lines. The folder is made where it is not there. Throws
 /// std::runtime_error where a file cannot be written.
-void write_vtk(const Scene& scene, const std::vector<Configuration>& shapes, int per_element,
-               const std::filesystem::path& folder);
+void write_vtk(const Scene& scene, const Shapes& shapes, int per_element, const std::filesystem::path& folder);
 
 /// Writes the same points as a table: t, element, x, r, v, axial_strain, curvature, tension, with units in its first
 /// line.
-void write_shapes_csv(const Scene& scene, const std::vector<Configuration>& shapes, int per_element,
-                      const std::filesystem::path& file);
+void write_shapes_csv(const Scene& scene, const Shapes& shapes, int per_element, const std::filesystem::path& file);
 
 }  // namespace vlbeam

@@ -20,7 +20,7 @@ using Vector = Vec<double, D>;
 constexpr double negligible_growth = 1e-2;  // [1/s], rounding of eigenvalues that only oscillate
 
 /// What lies between the supports, and how it is modelled.
-struct Span {
+struct SupportedSpan {
   CircularShaft shaft;
   double length = 1;      ///< [m]
   double tension = 1000;  ///< [N]
@@ -32,7 +32,7 @@ struct Span {
 };
 
 /// `span` between two pins; its nodes stand still in space and move along the beam.
-BeamModel<D> model_of(const Span& span) {
+BeamModel<D> model_of(const SupportedSpan& span) {
   BeamModel<D> model;
   model.section = span.shaft.section();
   model.section.stiffness.EA *= span.stiffening;
@@ -47,7 +47,7 @@ BeamModel<D> model_of(const Span& span) {
   return model;
 }
 
-Eigen::VectorXd straight(const BeamSystem<D>& beam, const Span& span) {
+Eigen::VectorXd straight(const BeamSystem<D>& beam, const SupportedSpan& span) {
   return straight_state<D>(beam, Vector::Zero(), Vector::UnitX(),
                            stretch_under(span.tension, beam.model().section.stiffness.EA), span.speed, 0);
 }
@@ -57,7 +57,7 @@ struct Modes {
   double growth;                    ///< [1/s]
 };
 
-Modes modes_of(const Span& span) {
+Modes modes_of(const SupportedSpan& span) {
   const BeamModel<D> model = model_of(span);
   BeamSystem<D> beam(model, straight_chain(model));
   const Eigen::VectorXd y = steady_state(beam, straight(beam, span), 0, true);
@@ -71,7 +71,7 @@ Modes modes_of(const Span& span) {
 }
 
 /// Deflection of the middle node, at equal intervals, after the inner nodes were given a transverse velocity.
-std::vector<double> deflections(const Span& span, double velocity, double interval, int samples) {
+std::vector<double> deflections(const SupportedSpan& span, double velocity, double interval, int samples) {
   const BeamModel<D> model = model_of(span);
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = straight(beam, span);
@@ -127,10 +127,10 @@ class Report {
   }
 
  private:
-  static std::string name_of(const Span& span) { return span.bends ? "beam" : "string"; }
+  static std::string name_of(const SupportedSpan& span) { return span.bends ? "beam" : "string"; }
 
-  Span with(int elements, bool bends, double stiffening = 1) const {
-    Span span = base_;
+  SupportedSpan with(int elements, bool bends, double stiffening = 1) const {
+    SupportedSpan span = base_;
     span.elements = elements;
     span.bends = bends;
     span.stiffening = stiffening;
@@ -138,10 +138,10 @@ class Report {
   }
 
   /// Runs the cases; one that fails is reported and its outcome empty.
-  std::vector<Outcome<Modes>> run(const std::vector<Span>& cases, const char* group) {
-    auto outcomes = context_.sweep(cases, modes_of, [](const Span& span) { return span.elements; });
+  std::vector<Outcome<Modes>> run(const std::vector<SupportedSpan>& cases, const char* group) {
+    auto outcomes = context_.sweep(cases, modes_of, [](const SupportedSpan& span) { return span.elements; });
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      const Span& span = cases[i];
+      const SupportedSpan& span = cases[i];
       if (outcomes[i] && group == std::string("speeds")) continue;  // a curve
       StudyCase item{.options = {{"group", group},
                                  {"model", name_of(span)},
@@ -163,7 +163,7 @@ class Report {
   /// Linearised about the stretched moving state, and about one stretched next to nothing: the linear theory.
   void four_elements() {
     const double stiffening = context_.config.at("stiffening");
-    std::vector<Span> cases;
+    std::vector<SupportedSpan> cases;
     for (const bool bends : {false, true}) {
       for (const double factor : {1.0, stiffening}) cases.push_back(with(4, bends, factor));
       cases.push_back(with(4, bends));
@@ -193,7 +193,7 @@ class Report {
 
   void order() {
     const double stiffening = context_.config.at("order").at("stiffening");
-    std::vector<Span> cases;
+    std::vector<SupportedSpan> cases;
     for (const bool bends : {false, true}) {
       const Json& levels = context_.config.at("order").at(bends ? "beam" : "string");
       for (const int n : levels.get<std::vector<int>>()) cases.push_back(with(n, bends, stiffening));
@@ -229,13 +229,13 @@ class Report {
   void reference_speeds() {
     const Json& sweep = context_.config.at("reference_speeds");
     const int fine = sweep.at("elements");
-    std::vector<Span> cases;
+    std::vector<SupportedSpan> cases;
     std::vector<const Json*> rows;
     for (const Json& row : reference_.at("rows")) {
       for (const int n : {4, fine}) {
         for (const bool bends : {false, true}) {
           if (row[bends ? 3 : 2].is_null()) continue;
-          Span span = with(n, bends, sweep.at("stiffening"));
+          SupportedSpan span = with(n, bends, sweep.at("stiffening"));
           span.shaft.youngs_modulus = row[0].get<double>() * 1e9;
           span.speed = row[1];
           cases.push_back(span);
@@ -274,7 +274,7 @@ class Report {
   void speeds() {
     const Json& sweep = context_.config.at("speeds");
     const double critical = std::sqrt(base_.tension / base_.shaft.section().rhoA);
-    std::vector<Span> cases;
+    std::vector<SupportedSpan> cases;
     for (const int n : sweep.at("elements").get<std::vector<int>>()) {
       for (const bool bends : {false, true}) {
         const double to = bends ? sweep.at("to").get<double>() : critical;
@@ -306,7 +306,7 @@ class Report {
 
   void histories() {
     const Json& history = context_.config.at("history");
-    std::vector<Span> cases;
+    std::vector<SupportedSpan> cases;
     for (const bool bends : {false, true}) {
       for (const bool spins : {false, true}) {
         cases.push_back(with(4, bends));
@@ -314,7 +314,7 @@ class Report {
       }
     }
     const double interval = history.at("interval");
-    const auto outcomes = context_.sweep(cases, [&](const Span& span) {
+    const auto outcomes = context_.sweep(cases, [&](const SupportedSpan& span) {
       return deflections(span, history.at("velocity"), interval, history.at("samples"));
     });
     Table table{.name = "history",
@@ -340,7 +340,7 @@ class Report {
 
   const StudyContext& context_;
   Json reference_;
-  Span base_;
+  SupportedSpan base_;
   StudyReport report_;
 };
 

@@ -10,6 +10,9 @@ plot() { exit_of "$vlbeam" plot "$@"; }
 check "a run with frames" 0 "$(exit_of "$vlbeam" run scene.json --report frames.json --csv frames.csv --frames 31 -q)"
 check "frames change no digit" 0 "$(exit_of cmp plain.csv frames.csv)"
 
+check "frames of 0.4 s, where 6 * 0.4 / 6 is more" 0 \
+  "$("$vlbeam" scene suspended_beam | "$vlbeam" run - --frames 7 -q > out.txt 2> err.txt; echo $?)"
+
 check "a column in SVG" 0 "$(plot r.json --what energy --column --bare -o e.svg)"
 check "84 mm at 96 dpi" 1 "$(grep -c '^ width="318"' e.svg)"
 check "letters that every viewer has" 0 "$(grep 'font-family' e.svg | grep -vc 'font-family="sans-serif"')"

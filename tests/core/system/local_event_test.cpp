@@ -129,6 +129,60 @@ TYPED_TEST(LocalEvent, GivesGuidedJointsTheSameVelocities) {
   expect_the_same(model, chain, 25);
 }
 
+/// A beam that waves, and moves as a wave on it does.
+template <int D>
+ChainState<D> waving(ChainState<D> chain) {
+  const double k = 20 / chain.mesh.length();
+  for (int node = 0; node <= chain.mesh.last(); ++node) {
+    const double u = k * chain.mesh.x[static_cast<std::size_t>(node)];
+    for (int c = 0; c < D; ++c) {
+      const double a = 0.02 / k * (c + 1), phase = 0.7 * c;
+      position<D>(chain.q.data(), node)[c] += a * std::sin(u + phase);
+      slope<D>(chain.q.data(), node)[c] += a * k * std::cos(u + phase);
+      position<D>(chain.rate.data(), node)[c] = 5 * a * k * std::cos(u + phase) + 0.1 * c;
+      slope<D>(chain.rate.data(), node)[c] = -5 * a * k * k * std::sin(u + phase);
+    }
+  }
+  for (auto& joint : chain.joints) {
+    if (!joint.kink) continue;
+    joint.kink->slope = slope<D>(chain.q.data(), joint.node);
+    joint.kink->rate = slope<D>(chain.rate.data(), joint.node);
+  }
+  return chain;
+}
+
+/// What conservative velocities change near the joint alone is another choice than what they change everywhere.
+TYPED_TEST(LocalEvent, KeepsEnergyAndMomentaByVelocitiesNearTheJoint) {
+  constexpr int D = TypeParam::value;
+  for (const auto slopes : {JointSlopes::continuous, JointSlopes::tangent}) {
+    Scene scene = falling_beam(ElementKind::ale_rancf, elements);
+    scene.dimension = D;
+    scene.sliding_mass->position = (middle + 0.499) / elements;  // a cut behind it and a merge ahead are due
+    scene.length_control.velocities = VelocityTransfer::conservative;
+    scene.sliding_mass->slopes = slopes;
+    auto model = build_model<D>(scene);
+    model.length_control.most_whole = 20;
+    BeamSystem<D> system(model, waving(build_chain<D>(scene)));
+    std::vector<EventRecord<D>> records;
+    system.on_event = [&records](const EventRecord<D>& record) { records.push_back(record); };
+    Eigen::VectorXd y = system.initial_state();
+    for (const int guard : {0, 1, 0, 1}) {  // each undoes the one before
+      const Eigen::VectorXd before = y;
+      const Observation<D> seen = system.observe(y, 0, own_points);
+      system.handle_event(guard, y, 0);
+      const Observation<D> now = system.observe(y, 0, own_points);
+      EXPECT_LT(records.back().before.mesh.elements(), 120);
+      EXPECT_TRUE(records.back().restored);
+      EXPECT_NEAR(now.energy.total(), seen.energy.total(), 1e-13 * (seen.energy.kinetic + seen.energy.axial));
+      EXPECT_LE((now.momentum - seen.momentum).norm(), 1e-13 * seen.momentum.norm());
+      EXPECT_LE((now.angular_momentum - seen.angular_momentum).norm(), 1e-13 * seen.momentum.norm());
+      const Eigen::Index far = 30 * node_size<D>, rates = system.coordinates();
+      EXPECT_EQ(y.segment(rates, far), before.segment(rates, far)) << "beyond the part";
+    }
+    EXPECT_EQ(records.size(), 4U);
+  }
+}
+
 TEST(LocalEventOfCurvedBeam, DoesAsOneOfTheWholeBeam) {
   for (const auto merge : {MergePolicy::rest_arc, MergePolicy::point_fit, MergePolicy::relaxed}) {
     Scene scene = semicircle(elements);
