@@ -20,7 +20,7 @@ constexpr int most_refinements = 60;       // steps to locate one event
 constexpr int most_repetitions = 6;        // of a step that is aimed at an event
 constexpr double shortest_aim = 1e-6;      // of the whole step
 constexpr double just_passed = 0.02;       // of the step
-constexpr double same_instant = 1e-4;      // of the whole step: what is foreseen is not known better
+constexpr double foreseen_within = 1e-4;   // of the whole step: what is foreseen is not known better
 
 /// Near enough to its root, in the attempt `i`.
 bool is_at_root(const Guard& guard, int i) {
@@ -189,7 +189,7 @@ double EventAim::take(const Eigen::VectorXd& start, double t, double dt, Eigen::
         boost::math::tools::toms748_solve([&](double tau) { return foreseen(k, tau); }, 0.0, dt, now[k].value,
                                           then[k].value, boost::math::tools::eps_tolerance<double>(16), evaluations);
     const double tau = (low + high) / 2;
-    if (tau > first - same_instant * dt) continue;
+    if (tau > first - foreseen_within * dt) continue;
     first = tau;
     guard_ = static_cast<int>(k);
   }
