@@ -9,7 +9,7 @@ namespace vlbeam {
 
 /// What a run hands on or leaves out, because a long beam may have more of it than the memory holds.
 struct RunOutput {
-  /// Takes each shape as it comes; RunResult::configurations then stays empty. It must not throw.
+  /// Takes each shape as it comes; RunResult::configurations then stays empty. It must not throw but std::bad_alloc.
   std::function<void(const Configuration&)> shape = {};
   bool event_shapes = true;  ///< false: Event::before and after stay empty
 

@@ -113,9 +113,9 @@ void run_to_end(const Scene& scene, EventedOde& ode, const std::function<Eigen::
     result.failure_time = t;
   } catch (const std::bad_alloc&) {
     result.status = RunStatus::failed;
-    result.failure = "out of memory after " + std::to_string(result.samples.size()) + " samples and " +
-                     std::to_string(result.configurations.size()) +
-                     " shapes: take fewer (/output/interval, /output/configurations) or fewer elements";
+    result.failure = "out of memory after " + std::to_string(result.samples.size()) +
+                     " samples: take fewer of them (/output/interval), fewer shapes (/output/configurations) or fewer "
+                     "elements";
     result.failure_time = t;
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;

@@ -24,6 +24,9 @@ Configuration configuration_of(const ChainState<D>& chain, double t, WeightTrans
   Configuration shape;
   shape.t = t;
   shape.x.assign(chain.mesh.x.begin() + first, chain.mesh.x.begin() + last + 1);
+  for (auto* nodal : {&shape.r, &shape.r_x, &shape.rates.v, &shape.rates.r_x}) nodal->reserve(shape.x.size());
+  shape.rates.x.reserve(shape.x.size());
+  shape.weights.reserve(shape.x.size());
   for (int k = first; k <= last; ++k) {
     shape.r.push_back(point_of<D>(position<D>(chain.q.data(), k)));
     shape.r_x.push_back(point_of<D>(slope<D>(chain.q.data(), k)));

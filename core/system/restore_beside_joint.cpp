@@ -72,6 +72,12 @@ class PartCoordinates {
     return momenta;
   }
 
+  /// Between its end nodes, along the beam [m].
+  double length() const {
+    const auto& x = beam_.mesh().x;
+    return x[static_cast<std::size_t>(first_ + nodes_ - 1)] - x[static_cast<std::size_t>(first_)];
+  }
+
   /// 1 at the joint, and what is tied to it, falling to 0 at the end nodes.
   Eigen::VectorXd weights() const {
     Eigen::VectorXd all = Eigen::VectorXd::Ones(size());
@@ -123,7 +129,7 @@ void restore_beside_joint(const CurrentBeam<D>& beam, const BeamMass<D>& mass, c
   }
   // turning has another unit: pivots, and with them the rounding, must not depend on it
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(rigid.cols());
-  unit.tail(rigid.cols() - D).setConstant(std::ldexp(1.0, -std::ilogb(rigid.rightCols(1).cwiseAbs().maxCoeff())));
+  unit.tail(rigid.cols() - D).setConstant(std::ldexp(1.0, -std::ilogb(coordinates.length())));
   const Eigen::MatrixXd metric = unit.asDiagonal() * (rigid.transpose() * momentum_of) * unit.asDiagonal();
   const auto rates_of = [&](const Eigen::VectorXd& momenta) -> Eigen::VectorXd {
     return rigid * unit.cwiseProduct(solve_pivoting(metric, unit.cwiseProduct(momenta)));

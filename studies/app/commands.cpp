@@ -139,18 +139,16 @@ int run_command(const RunArguments& arguments) {
     constexpr int many_steps = 2000;
     int steps = 0;
     double first_t = 0;  // behind the first of them: a run may go on from a checkpoint, or start by a search at t = 0
-    result = simulate(scene,
-                      [&](double t) {
-                        if (t > 0 && ++steps == 1) first_t = t;
-                        progress.update(in_time ? t / scene.duration : t, [&] {
-                          if (!in_time) return "load factor " + std::to_string(t);
-                          const std::string slow =
-                              steps < many_steps ? "" : why_slow(scene, (t - first_t) / (steps - 1));
-                          return "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow);
-                        });
-                        return !interrupted();
-                      },
-                      checks ? &checkpoints : nullptr,
+    const auto on_step = [&](double t) {
+      if (t > 0 && ++steps == 1) first_t = t;
+      progress.update(in_time ? t / scene.duration : t, [&] {
+        if (!in_time) return "load factor " + std::to_string(t);
+        const std::string slow = steps < many_steps ? "" : why_slow(scene, (t - first_t) / (steps - 1));
+        return "t = " + std::to_string(t) + " s" + (slow.empty() ? "" : ", " + slow);
+      });
+      return !interrupted();
+    };
+    result = simulate(scene, on_step, checks ? &checkpoints : nullptr,
                       {.shape = [&spool](const Configuration& shape) { spool.add(shape); }, .event_shapes = false});
   }
   const Shapes shapes = spool.shapes();

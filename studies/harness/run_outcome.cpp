@@ -83,7 +83,7 @@ concept Shared = requires(T& pointer) {
 
 class ByteWriter {
  public:
-  std::string bytes;
+  explicit ByteWriter(const TextSink& sink) : sink_(sink) {}
 
   template <class T>
   void operator()(const T& value) {
@@ -105,7 +105,9 @@ class ByteWriter {
   }
 
  private:
-  void append(const void* from, std::size_t count) { bytes.append(static_cast<const char*>(from), count); }
+  void append(const void* from, std::size_t count) { sink_({static_cast<const char*>(from), count}); }
+
+  const TextSink& sink_;
 };
 
 class ByteReader {
@@ -151,13 +153,6 @@ class ByteReader {
 };
 
 template <class T>
-std::string bytes_of(const T& value) {
-  ByteWriter writer;
-  writer(value);
-  return std::move(writer.bytes);
-}
-
-template <class T>
 T from_bytes(std::string_view bytes) {
   T value;
   ByteReader reader(bytes);
@@ -184,10 +179,15 @@ RunResult RunOutcome::get() && {
   return std::move(result);
 }
 
-std::string to_bytes(const RunOutcome& outcome) { return bytes_of(outcome); }
+std::string to_bytes(const RunOutcome& outcome) {
+  std::string bytes;
+  const TextSink sink = [&bytes](std::string_view piece) { bytes += piece; };
+  ByteWriter{sink}(outcome);
+  return bytes;
+}
 RunOutcome outcome_from_bytes(std::string_view bytes) { return from_bytes<RunOutcome>(bytes); }
 
-std::string to_bytes(const Configuration& shape) { return bytes_of(shape); }
+void write_bytes(const Configuration& shape, const TextSink& sink) { ByteWriter{sink}(shape); }
 Configuration configuration_from_bytes(std::string_view bytes) { return from_bytes<Configuration>(bytes); }
 
 }  // namespace vlbeam

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/result.hpp"
+#include "studies/harness/files.hpp"
 
 namespace vlbeam {
 
@@ -25,8 +26,8 @@ std::string to_bytes(const RunOutcome& outcome);
 /// Throws std::out_of_range where they are not whole.
 RunOutcome outcome_from_bytes(std::string_view bytes);
 
-/// The same of one shape.
-std::string to_bytes(const Configuration& shape);
+/// The same of one shape, whose bytes are written piece by piece.
+void write_bytes(const Configuration& shape, const TextSink& sink);
 Configuration configuration_from_bytes(std::string_view bytes);
 
 }  // namespace vlbeam

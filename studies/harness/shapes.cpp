@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "studies/harness/run_outcome.hpp"
 
@@ -25,19 +26,20 @@ std::FILE* open_unnamed() {
   return file;
 }
 
-bool write_record(std::FILE* file, const std::string& bytes) {
-  const std::size_t size = bytes.size();
-  return std::fwrite(&size, sizeof size, 1, file) == 1 && std::fwrite(bytes.data(), 1, size, file) == size &&
-         std::fflush(file) == 0;
+/// How many bytes have been written; none where not all could be.
+std::size_t write_record(std::FILE* file, const Configuration& shape) {
+  std::size_t size = 0;
+  bool whole = true;
+  write_bytes(shape, [&](std::string_view bytes) {
+    whole = whole && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    size += bytes.size();
+  });
+  return whole && std::fflush(file) == 0 ? size : 0;
 }
 
-std::string read_record(std::FILE* file) {
-  std::size_t size = 0;
-  std::string bytes;
-  if (std::fread(&size, sizeof size, 1, file) == 1) {
-    bytes.resize(size);
-    if (std::fread(bytes.data(), 1, size, file) == size) return bytes;
-  }
+std::string read_record(std::FILE* file, std::size_t size) {
+  std::string bytes(size, '\0');
+  if (std::fread(bytes.data(), 1, size, file) == size) return bytes;
   throw std::runtime_error("cannot read back the shapes that were kept in the folder for temporary files");
 }
 
@@ -51,8 +53,9 @@ Shapes shapes_of(const RunResult& result) {
 
 void ShapeSpool::add(const Configuration& shape) {
   if (!file_ && in_memory_.empty()) file_.reset(open_unnamed());
-  if (file_ && in_memory_.empty() && write_record(file_.get(), to_bytes(shape))) {
-    ++in_file_;
+  const std::size_t size = file_ && in_memory_.empty() ? write_record(file_.get(), shape) : 0;
+  if (size > 0) {
+    sizes_.push_back(size);
   } else {
     in_memory_.push_back(shape);
   }
@@ -64,7 +67,7 @@ Shapes ShapeSpool::shapes() const {
 
 void ShapeSpool::show_all(const std::function<void(const Configuration&)>& show) const {
   if (file_) std::rewind(file_.get());
-  for (std::size_t i = 0; i < in_file_; ++i) show(configuration_from_bytes(read_record(file_.get())));
+  for (const std::size_t size : sizes_) show(configuration_from_bytes(read_record(file_.get(), size)));
   for (const Configuration& shape : in_memory_) show(shape);
 }
 

@@ -31,8 +31,8 @@ class ShapeSpool {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::unique_ptr<std::FILE, Close> file_;
-  std::size_t in_file_ = 0;
-  std::vector<Configuration> in_memory_;  ///< those behind the ones in the file
+  std::vector<std::size_t> sizes_;        ///< of those in the file [bytes]
+  std::vector<Configuration> in_memory_;  ///< those behind them
 };
 
 }  // namespace vlbeam

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <string>
 #include <string_view>
 
+#include "scene/options.hpp"
 #include "studies/harness/files.hpp"
 
 namespace vlbeam {
@@ -23,11 +22,7 @@ class TextWriter {
     return *this;
   }
   /// As short as it can be without losing a digit.
-  TextWriter& operator<<(double value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return *this << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
-  }
+  TextWriter& operator<<(double value) { return *this << number_text(value); }
   /// Call it at the end.
   void flush() {
     sink_(text_);

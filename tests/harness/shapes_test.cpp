@@ -21,7 +21,10 @@ Scene scene_with_shapes() {
 
 std::vector<std::string> bytes_of_all(const Shapes& shapes) {
   std::vector<std::string> all;
-  shapes([&all](const Configuration& shape) { all.push_back(to_bytes(shape)); });
+  shapes([&all](const Configuration& shape) {
+    std::string& bytes = all.emplace_back();
+    write_bytes(shape, [&bytes](std::string_view piece) { bytes += piece; });
+  });
   return all;
 }
 
