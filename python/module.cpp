@@ -13,6 +13,7 @@
 
 #include "scene/names.hpp"
 #include "scene/shape.hpp"
+#include "studies/harness/checked_run.hpp"
 #include "studies/harness/converge.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/own_sweep.hpp"
@@ -65,10 +66,14 @@ auto without_lock(const Work& work, const std::function<void(int)>& stop, const 
   return result.get();
 }
 
+int jobs_or_processors(int jobs) {
+  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 /// A run and its arrays.
 class Run {
  public:
-  Run(const std::string& text, const py::object& progress) : scene_(parse_scene(text)) {
+  Run(const std::string& text, std::optional<bool> check, const py::object& progress) : scene_(parse_scene(text)) {
     std::atomic<bool> go_on{true};
     std::atomic<double> reached{0};
     const auto at_step = [&](double t) {
@@ -78,7 +83,14 @@ class Run {
     const auto tell = [&] {
       if (!progress.is_none() && scene_.analysis == Analysis::dynamics) progress(reached / scene_.duration, "");
     };
-    result_ = without_lock([&] { return simulate(scene_, at_step); }, [&](int signal) { go_on = signal == 0; }, tell);
+    const auto run = [&] {
+      return check.value_or(has_automatic_steps(scene_))
+                 ? checked_run(
+                       scene_, at_step, [] { return RunOutput{}; }, jobs_or_processors(0))
+                 : simulate(scene_, at_step);
+    };
+    result_ = without_lock(
+        run, [&](int signal) { go_on = signal == 0; }, tell);
     quantities_ = sample_quantities(scene_);
   }
 
@@ -187,10 +199,6 @@ class Run {
   std::vector<SampleQuantity> quantities_;
 };
 
-int jobs_or_processors(int jobs) {
-  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 std::string converge_text(const std::string& text, const std::string& quantity, double error, bool relative,
                           std::optional<double> at, bool horizon, int jobs, std::optional<double> limit,
                           const py::object& progress) {
@@ -261,7 +269,7 @@ PYBIND11_MODULE(_vlbeam, module) {
   });
 
   py::class_<Run>(module, "Run")
-      .def(py::init<const std::string&, const py::object&>())
+      .def(py::init<const std::string&, std::optional<bool>, const py::object&>())
       .def_property_readonly("title", &Run::title)
       .def_property_readonly("dimension", &Run::dimension)
       .def_property_readonly("status", &Run::status)

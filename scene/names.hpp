@@ -178,7 +178,10 @@ constexpr auto names(WarningKind) {
                                             {buckled_elements, "buckled-elements"},
                                             {hidden_stability, "hidden-stability"},
                                             {assumed_material, "assumed-material"},
-                                            {ringing_friction, "ringing-friction"}});
+                                            {ringing_friction, "ringing-friction"},
+                                            {error_in_time, "error-in-time"},
+                                            {error_of_mesh, "error-of-mesh"},
+                                            {sudden_gravity, "sudden-gravity"}});
 }
 
 /// A choice whose values have names.

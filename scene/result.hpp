@@ -9,6 +9,7 @@
 #include "core/dynamics/solver_counters.hpp"
 #include "core/length_control/event_type.hpp"
 #include "core/system/energy.hpp"
+#include "scene/run_error.hpp"
 #include "scene/scene.hpp"
 
 namespace vlbeam {
@@ -177,6 +178,9 @@ enum class WarningKind {
   hidden_stability,        ///< rounding hides whether an equilibrium is stable
   assumed_material,        ///< a file left out what the beam is of: the paper's soft one is run
   ringing_friction,        ///< the force that friction goes by is that of a vibration which nothing damps
+  error_in_time,           ///< the steps err more than the accuracy asked allows
+  error_of_mesh,           ///< the elements err by more than 1 % of the motion
+  sudden_gravity,          ///< gravity that acts at once on an unstrained beam makes it vibrate
 };
 
 /// Something that the results of a run do not show by themselves, and that its user should know.
@@ -206,6 +210,7 @@ struct RunResult {
   std::vector<double> frequencies;  ///< about the last equilibrium [Hz]; see natural_frequencies()
   SolverCounters solver;
   std::vector<Warning> warnings;
+  std::shared_ptr<const RunError> error;  ///< where the run was checked, see checked_run()
   RunTiming timing;
 };
 

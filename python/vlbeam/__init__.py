@@ -55,9 +55,11 @@ def _text(scene):
     return scene
 
 
-def run(scene, *, progress=True):
+def run(scene, *, check=None, progress=True):
     """Runs a scene: a dictionary, a `Scene`, or JSON text. Returns a `Result`.
 
+    check: let companions with longer steps and on coarser meshes tell the error, `Result.error`. If not given, that is
+    done where the scene leaves its integrator out.
     progress: show a bar, in notebooks.
 
     Raises InvalidInput where the scene is not understood, with the text that the program prints, and the attributes
@@ -65,7 +67,7 @@ def run(scene, *, progress=True):
     holds what there is until then. Ctrl-C ends a run with KeyboardInterrupt. Other threads of Python go on meanwhile.
     """
     with _bar("run", progress) as told:
-        done = _vlbeam.Run(_text(scene), told)
+        done = _vlbeam.Run(_text(scene), check, told)
     result = Result(done)
     if done.status == "failed":
         raise ComputationFailed(f"the computation failed at t = {done.failure_time:g} s: {done.failure}", result)

@@ -151,6 +151,14 @@ class Result(_Group):
         return json.loads(self._run.report())
 
     @property
+    def error(self):
+        """How far the run may be off: a record with `time` and `mesh` [m], `trusted_until` [s], `quantities`; or None.
+
+        Companions with longer steps and on coarser meshes tell it, where the run was checked.
+        """
+        return json.loads(self._run.report(), object_hook=Record).get("error")
+
+    @property
     def warnings(self):
         """What the run warns of: records with `kind`, `message` and `remedy`."""
         return json.loads(self._run.report(), object_hook=Record)["warnings"]

@@ -16,6 +16,7 @@
 #include "scene/stiffness.hpp"
 #include "studies/app/registry.hpp"
 #include "studies/app/run_outputs.hpp"
+#include "studies/harness/checked_run.hpp"
 #include "studies/harness/checkpoint_file.hpp"
 #include "studies/harness/claims.hpp"
 #include "studies/harness/converge.hpp"
@@ -100,9 +101,14 @@ int run_command(const RunArguments& arguments) {
   if (arguments.report && report.empty()) check_writable("--report", report);
   if (arguments.csv && csv.empty()) check_writable("--csv", csv);
   RunOutputs outputs(
-      arguments.scene,
+      {{"the scene", arguments.scene}},
       {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}, {"--checkpoint", arguments.checkpoint}},
       arguments.force);
+  // a checkpoint alone may replace the one that it follows
+  const RunOutputs beside_restart({{"the checkpoint", arguments.restart}},
+                                  {{"--report", report}, {"--csv", csv}, {"--shape", arguments.shape}},
+                                  arguments.force);
+  if (!arguments.vtk.empty()) check_vtk_folder("--vtk", arguments.vtk);
   Scene scene = read_scene(arguments.scene);
   const bool in_time = scene.analysis == Analysis::dynamics;
   if (arguments.frames > 0) {
@@ -129,7 +135,11 @@ int run_command(const RunArguments& arguments) {
       }
     };
   }
-  const bool checks = checkpoints.from || checkpoints.keep;
+  const bool goes_on = checkpoints.from || checkpoints.keep;
+  if (goes_on && arguments.check.value_or(false)) {
+    refuse("--check", "a run with checkpoints", "companions have none: leave out one of the two");
+  }
+  const bool checked = !goes_on && arguments.check.value_or(has_automatic_steps(scene));
 
   install_interrupt_handler();
   ShapeSpool spool;
@@ -148,8 +158,12 @@ int run_command(const RunArguments& arguments) {
       });
       return !interrupted();
     };
-    result = simulate(scene, on_step, checks ? &checkpoints : nullptr,
-                      {.shape = [&spool](const Configuration& shape) { spool.add(shape); }, .event_shapes = false});
+    const auto fresh_output = [&spool] {
+      spool = {};
+      return RunOutput{.shape = [&spool](const Configuration& shape) { spool.add(shape); }, .event_shapes = false};
+    };
+    result = checked ? checked_run(scene, on_step, fresh_output, processors())
+                     : simulate(scene, on_step, goes_on ? &checkpoints : nullptr, fresh_output());
   }
   const Shapes shapes = spool.shapes();
   if (!not_kept.empty()) outputs.attempt(arguments.checkpoint, [&] { throw std::runtime_error(not_kept); });
@@ -300,7 +314,7 @@ int scene_command(const std::string& name, const std::string& scenes) {
 }
 
 int converge_command(const ConvergeArguments& arguments) {
-  RunOutputs outputs(arguments.scene,
+  RunOutputs outputs({{"the scene", arguments.scene}},
                      {{"--report", arguments.report}, {"--csv", arguments.csv}, {"--figure", arguments.figure}}, true);
   const Scene scene = read_scene(arguments.scene);
   install_interrupt_handler();
@@ -342,6 +356,11 @@ int sweep_command(const SweepArguments& arguments) {
   const fs::path out =
       arguments.out.empty() ? fs::path(arguments.sweep).replace_extension("") : fs::path(arguments.out);
   const SweepPlan plan = read_sweep(arguments.sweep);
+  for (const char* name : {"plan.json", "sweep.csv", "sweep.json"}) {
+    if (!same_file(arguments.sweep, out / name)) continue;
+    throw InvalidInput("--out", "\"" + out.string() + "\"",
+                       std::string("the sweep file itself stands there as ") + name + ": name another folder");
+  }
   const SweepFolder folder(out, plan, arguments.force);
   install_interrupt_handler();
   if (arguments.only) {
@@ -397,6 +416,7 @@ int score_command(const ScoreArguments& arguments) {
   check_result_file(arguments.report, {arguments.csv});
   const auto folder =
       find_source_folder("reference", arguments.references, "cases/falling_beam_engineering.json").path / "cases";
+  check_result_file(arguments.report, {(folder / (arguments.name + ".json")).string()});
   const Json score = score_trajectory(read_case(folder, arguments.name), arguments.csv, arguments.columns);
   if (!arguments.report.empty()) write_text(arguments.report, pretty(score));
   if (arguments.report != "-") std::cout << printable(score_text(score), Lines::several);

@@ -82,6 +82,10 @@ int dispatch(int argc, char** argv) {
                   "At work on a beam of more than about 1000 elements; digits do not depend on it (default: one a "
                   "processor, four at most)")
       ->check(CLI::Range(1, 1024));
+  run->add_flag(
+      "--check,!--no-check", run_arguments.check,
+      "Tell the error in time and of the mesh by companions; by default where the scene leaves the integrator "
+      "out; not of runs with --checkpoint or --restart");
   run->add_flag("--force", run_arguments.force, "A run that fails may replace an earlier result");
   run->add_flag("--quiet,-q", run_arguments.quiet, "No summary on standard error");
 

@@ -34,17 +34,22 @@ fs::path beside(const fs::path& file, RunStatus status) {
 
 }  // namespace
 
-RunOutputs::RunOutputs(const std::string& scene, const std::vector<Named>& files, bool force) : force_(force) {
-  const fs::path in = scene == "-" ? "/dev/stdin" : scene;
+RunOutputs::RunOutputs(const std::vector<Named>& reads, const std::vector<Named>& files, bool force) : force_(force) {
+  const auto in = [](const std::string& name) { return fs::path(name == "-" ? "/dev/stdin" : name); };
   const auto out = [](const std::string& name) { return fs::path(name == "-" ? "/dev/stdout" : name); };
   for (const auto& [option, name] : files) {
     if (name.empty()) continue;
     check_writable(option, name);
-    bool replaces_scene = same_file(in, out(name));
-    for (const RunStatus status : {RunStatus::failed, RunStatus::interrupted}) {
-      replaces_scene = replaces_scene || (name != "-" && !force && same_file(in, beside(name, status)));
+    for (const auto& [what, read] : reads) {
+      if (read.empty()) continue;
+      bool replaced = same_file(in(read), out(name));
+      for (const RunStatus status : {RunStatus::failed, RunStatus::interrupted}) {
+        replaced = replaced || (name != "-" && !force && same_file(in(read), beside(name, status)));
+      }
+      if (replaced) {
+        throw InvalidInput(option, "\"" + name + "\"", "it must not be " + what + ": give another name");
+      }
     }
-    if (replaces_scene) throw InvalidInput(option, "\"" + name + "\"", "it must not be the scene: give another name");
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

@@ -17,9 +17,10 @@ class RunOutputs {
   /// An option of the command line and the name it gives, empty where there is to be no such file.
   using Named = std::pair<std::string, std::string>;
 
-  /// With `force` files replace whatever stands there. Throws InvalidInput where one cannot be written, or is another
-  /// one or the scene.
-  RunOutputs(const std::string& scene, const std::vector<Named>& files, bool force);
+  /// `reads` are what the command reads: "the scene" and the name of its file, which none of the files may replace.
+  /// With `force` files replace whatever else stands there. Throws InvalidInput where one cannot be written, or is
+  /// another one or one of those read.
+  RunOutputs(const std::vector<Named>& reads, const std::vector<Named>& files, bool force);
 
   /// Writes one of them, given its name, empty for none. That of a run that did not end well replaces no earlier file,
   /// but a report that says the same of itself: it then stands beside it, as NAME.failed.json. What cannot be written

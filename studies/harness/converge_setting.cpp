@@ -49,39 +49,49 @@ Setting setting_of(const Scene& given) {
           has_step(scene) ? scene.integrator.step : scene.integrator.rtol};
 }
 
-Scene with_setting(const Scene& given, const Setting& setting) {
-  const Scene scene = to_converge(given);
+Scene on_mesh(const Scene& scene, int elements, int points) {
   Scene changed = scene;
-  const int from = scene.beam.elements, to = setting.elements;
-  changed.beam.elements = to;
-  changed.beam.quadrature_points = setting.points;
-  changed.beam.polynomial_points = points_of_polynomials(scene) + setting.points - quadrature_points(scene);
+  const int from = scene.beam.elements;
+  changed.beam.elements = elements;
+  changed.beam.quadrature_points = points;
+  changed.beam.polynomial_points = points_of_polynomials(scene) + points - quadrature_points(scene);
   if (changed.flow) {
-    for (auto& guide : changed.flow->nodes) guide.node = renumbered(guide.node, from, to, "/flow/nodes");
+    for (auto& guide : changed.flow->nodes) guide.node = renumbered(guide.node, from, elements, "/flow/nodes");
   }
   if (changed.spin) {
-    for (auto& drive : changed.spin->drives) drive.node = renumbered(drive.node, from, to, "/spin/drives");
+    for (auto& drive : changed.spin->drives) drive.node = renumbered(drive.node, from, elements, "/spin/drives");
   }
   for (LoadSpec& load : changed.loads) {
-    if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, to, "/loads");
+    if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, elements, "/loads");
   }
-  for (PointMassSpec& mass : changed.point_masses) mass.node = renumbered(mass.node, from, to, "/point_masses");
+  for (PointMassSpec& mass : changed.point_masses) mass.node = renumbered(mass.node, from, elements, "/point_masses");
+  return changed;
+}
+
+Scene with_tolerance(const Scene& scene, double share) {
+  Scene changed = scene;
+  IntegratorSpec& integrator = changed.integrator;
+  // where the longest step allowed holds, the tolerance alone would refine nothing
+  if (integrator.adaptive) integrator.step = std::min(integrator.step * portable::cbrt(share), scene.duration);
+  integrator.rtol *= share;
+  integrator.atol *= share;
+  if (auto& atol = integrator.atol_by_kind) {
+    atol->length *= share;
+    atol->velocity *= share;
+    if (atol->angle) *atol->angle *= share;
+    if (atol->spin) *atol->spin *= share;
+  }
+  return changed;
+}
+
+Scene with_setting(const Scene& given, const Setting& setting) {
+  const Scene scene = to_converge(given);
+  Scene changed = on_mesh(scene, setting.elements, setting.points);
   if (has_step(scene)) {
     changed.integrator.step = setting.accuracy;
   } else {
-    const double share = setting.accuracy / scene.integrator.rtol;
-    // where the longest step allowed holds, the tolerance alone would refine nothing
-    if (scene.integrator.adaptive) {
-      changed.integrator.step = std::min(scene.integrator.step * portable::cbrt(share), scene.duration);
-    }
-    changed.integrator.atol *= share;
-    if (auto& atol = changed.integrator.atol_by_kind) {
-      atol->length *= share;
-      atol->velocity *= share;
-      if (atol->angle) *atol->angle *= share;
-      if (atol->spin) *atol->spin *= share;
-    }
-    changed.integrator.rtol = setting.accuracy;
+    changed = with_tolerance(changed, setting.accuracy / scene.integrator.rtol);
+    changed.integrator.rtol = setting.accuracy;  // without rounding
   }
   validate(changed);
   return changed;

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -223,6 +224,19 @@ void check_writable(const std::string& option, const std::filesystem::path& path
   } catch (const std::system_error& error) {
     refuse(error.code().value());
   }
+}
+
+void check_own(const std::string& option, const fs::path& file, std::string_view mark) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  constexpr std::size_t head = std::size_t{1} << 20;
+  std::string text(head, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(text.data(), head);
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  if (text.find(mark) != std::string::npos) return;
+  throw InvalidInput(option, "\"" + file.string() + "\"",
+                     "it is there already and was not written by this command: name another folder, or move it away");
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {

@@ -23,6 +23,10 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 /// Throws InvalidInput, naming the `option`, if write_file() could not write this file. Changes nothing.
 void check_writable(const std::string& option, const std::filesystem::path& path);
 
+/// Throws InvalidInput, naming the `option`, if something stands there that is no file of this program: it must hold
+/// `mark` in its first megabyte.
+void check_own(const std::string& option, const std::filesystem::path& file, std::string_view mark);
+
 /// Whether two names, of files that need not be there, lead to the same place. Devices without memory, like /dev/null,
 /// are never the same.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -167,6 +167,19 @@ SweepPlan plan_from(Json file, const fs::path& folder) {
   return plan;
 }
 
+/// Removes what cases gave, and nothing else that somebody keeps there.
+void remove_cases(const fs::path& folder) {
+  if (!fs::is_directory(folder)) return;
+  std::vector<fs::path> cases;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path name = entry.path().filename();
+    const std::string stem = name.stem().string();
+    const bool numbered = stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos;
+    if (numbered && name.extension() == ".json") cases.push_back(entry.path());
+  }
+  for (const fs::path& file : cases) fs::remove(file);
+}
+
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -195,6 +208,9 @@ SweepPlan read_sweep(const fs::path& file) {
 SweepFolder::SweepFolder(fs::path folder, const SweepPlan& plan, bool force) : folder_(std::move(folder)), plan_(plan) {
   const fs::path begun = folder_ / "plan.json";
   const std::string text = pretty(plan.file);
+  check_own("--out", begun, "\"vlbeam.sweep/1\"");
+  check_own("--out", folder_ / "sweep.json", "\"vlbeam.sweep_report/1\"");
+  check_own("--out", folder_ / "sweep.csv", "case,");
   if (fs::exists(begun) && read_text(begun) != text) {
     if (!force) {
       throw InvalidInput(
@@ -202,7 +218,7 @@ SweepFolder::SweepFolder(fs::path folder, const SweepPlan& plan, bool force) : f
           "what was begun there is another sweep, or its scene has changed since: name another folder, or "
           "start anew with --force");
     }
-    fs::remove_all(folder_ / "cases");
+    remove_cases(folder_ / "cases");
     for (const char* name : {"sweep.csv", "sweep.json"}) fs::remove(folder_ / name);
   }
   fs::create_directories(folder_ / "cases");

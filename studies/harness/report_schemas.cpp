@@ -111,6 +111,29 @@ Json samples_schema() {
   return described(root, "the observed quantities, each a column with one entry a sample");
 }
 
+Json run_error_schema() {
+  const Json quantity = record({{"quantity", described(any_text, "what may be off")},
+                                {"unit", described(any_text, "of both numbers")},
+                                {"time", described(nullable_number, "by the steps, at most over the run")},
+                                {"mesh", described(nullable_number, "by the elements, at most over the run")}});
+  return record(
+      {{"time", described(nullable_number, "of places, by the steps, at most over the run", "m")},
+       {"mesh", described(nullable_number, "of places, by the elements, at most over the run", "m")},
+       {"trusted_until", described(nullable_number,
+                                   "the error in time keeps to what is allowed, that of the mesh to 1 % of the motion, "
+                                   "until then; null in statics",
+                                   "s")},
+       {"allowed_in_time", described(nullable_number, "by the accuracy asked; null where none is", "m")},
+       {"motion", described(any_number, "by which places move at most", "m")},
+       {"repeats", described(whole, "how often the run was done again with a finer tolerance", "-")},
+       {"elements_wanted", described({{"type", {"integer", "null"}}},
+                                     "that would bring the mesh's error to 1 % of the motion; null where it is below")},
+       {"no_time", described(any_text, "why there is no error in time")},
+       {"no_mesh", described(any_text, "why there is no error of the mesh")},
+       {"quantities", described(array_of(quantity), "the same, quantity by quantity")}},
+      {"no_time", "no_mesh"});
+}
+
 }  // namespace
 
 Json run_schema() {
@@ -243,6 +266,9 @@ Json run_schema() {
                                          {"t", described(any_number, "when", "s")}}),
                                  "of a run that failed; what was computed until then is in the report")},
            {"warnings", described(array_of(warning), "what the results do not show by themselves")},
+           {"error", described(run_error_schema(),
+                               "of a checked run: what companions with longer steps and on coarser "
+                               "meshes tell of its errors")},
            {"scene", described(scene, "as understood, every default filled in")},
            {"samples", samples_schema()},
            {"configurations", described(array_of(configuration), "the whole shape at the times asked for")},
@@ -266,7 +292,7 @@ Json run_schema() {
                       "of a run whose scene leaves the integrator to the program")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
-          {"failure", "frequencies", "initial_equilibrium", "integrator_choice"}));
+          {"failure", "error", "frequencies", "initial_equilibrium", "integrator_choice"}));
 }
 
 Json study_schema() {

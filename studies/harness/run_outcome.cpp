@@ -59,11 +59,19 @@ auto members(Is<Warning> auto& of) {
   auto& [kind, message, remedy] = of;
   return std::tie(kind, message, remedy);
 }
+auto members(Is<QuantityError> auto& of) {
+  auto& [quantity, unit, time, mesh] = of;
+  return std::tie(quantity, unit, time, mesh);
+}
+auto members(Is<RunError> auto& of) {
+  auto& [time, mesh, allowed, motion, trusted_until, repeats, elements_wanted, no_time, no_mesh, quantities] = of;
+  return std::tie(time, mesh, allowed, motion, trusted_until, repeats, elements_wanted, no_time, no_mesh, quantities);
+}
 auto members(Is<RunResult> auto& of) {
   auto& [status, failure, failure_time, samples, configurations, events, max_kinetic, max_energy_drift, slopes,
-         frequencies, solver, warnings, timing] = of;
+         frequencies, solver, warnings, error, timing] = of;
   return std::tie(status, failure, failure_time, samples, configurations, events, max_kinetic, max_energy_drift, slopes,
-                  frequencies, solver, warnings, timing);
+                  frequencies, solver, warnings, error, timing);
 }
 auto members(Is<RunOutcome> auto& of) {
   auto& [result, thrown] = of;

@@ -191,6 +191,26 @@ Json warnings_json(const std::vector<Warning>& warnings) {
   return array;
 }
 
+Json error_json(const Scene& scene, const RunError& error) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json quantities = Json::array();
+  for (const QuantityError& of : error.quantities) {
+    quantities.push_back(
+        {{"quantity", of.quantity}, {"unit", of.unit}, {"time", number(of.time)}, {"mesh", number(of.mesh)}});
+  }
+  Json json = {{"time", number(error.time)},
+               {"mesh", number(error.mesh)},
+               {"trusted_until", scene.analysis == Analysis::dynamics ? Json(error.trusted_until) : Json()},
+               {"allowed_in_time", error.allowed > 0 ? Json(error.allowed) : Json()},
+               {"motion", error.motion},
+               {"repeats", error.repeats},
+               {"elements_wanted", error.elements_wanted > 0 ? Json(error.elements_wanted) : Json()}};
+  if (!error.no_time.empty()) json["no_time"] = error.no_time;
+  if (!error.no_mesh.empty()) json["no_mesh"] = error.no_mesh;
+  json["quantities"] = quantities;
+  return json;
+}
+
 Json solver(const RunResult& result) {
   const SolverCounters& s = result.solver;
   const auto& [given, error, newton, events] = s.limited_by;
@@ -242,6 +262,7 @@ void write_run_report(const Scene& scene, const RunResult& result, const Shapes&
     value("failure", {{"message", result.failure}, {"t", result.failure_time}});
   }
   value("warnings", warnings_json(result.warnings));
+  if (result.error) value("error", error_json(scene, *result.error));
   value("scene", scene_to_json(scene));
   key("samples");
   write_samples(sample_quantities(scene), result.samples, out);

@@ -174,6 +174,20 @@ std::string start_text(const Scene& scene, const StaticSample& at) {
                                           : "; joint free" + held);
 }
 
+/// What companions tell of a run's error.
+std::string error_text(const Scene& scene, const RunResult& result) {
+  const RunError& error = *result.error;
+  const auto part = [](const std::optional<double>& value, const std::string& why) {
+    return value ? in_digits(*value, 2) + " m" : "not known (" + why + ")";
+  };
+  std::string text;
+  if (scene.analysis == Analysis::dynamics) text += "in time " + part(error.time, error.no_time) + ", ";
+  text += "of the mesh " + part(error.mesh, error.no_mesh) + "; places move by " + in_digits(error.motion, 3) + " m";
+  if (scene.analysis == Analysis::statics || result.samples.empty()) return text;
+  if (error.trusted_until == result.samples.back().t) return text + "; trusted to the end";
+  return text + "; trusted until " + in_digits(error.trusted_until, 4) + " s";
+}
+
 template <class Line>
 void warning_lines(const RunResult& result, const Line& line) {
   for (const Warning& warning : result.warnings) {
@@ -209,6 +223,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
     line("energy", in_digits(last.energy.total(), 8) + " J");
   }
   for (const double frequency : result.frequencies) line("frequency", in_digits(frequency, 8) + " Hz");
+  if (result.error) line("error", error_text(scene, result));
   line("wall time", in_digits(result.timing.motion, 3) + " s");
   warning_lines(result, line);
   return text.str();
@@ -261,6 +276,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
                              energy_text(result.max_kinetic, size, 4));
     line("energy ledger", ledger_text(energy_ledger(result), size));
   }
+  if (result.error) line("error", error_text(scene, result));
   line("events", events_text(result.events));
   line("steps", steps_text(scene, result));
   line("wall time", in_digits(result.timing.motion, 3) + " s motion, " + in_digits(result.timing.length_control, 3) +

@@ -133,6 +133,7 @@ StudyVerdict run_study(const Study& study, const StudyRun& run) {
   evaluate(gates_file, Json::object());  // a typing error should show before the runs, not after
   const ReportFiles files{.out = run.out, .study = study.name};
   check_writable("--out", files.report());
+  check_own("--out", files.report(), "\"vlbeam.study/1\"");
 
   const KeptRuns kept(run.out / ("." + study.name + "." + profile_name + ".kept"), run.program);
   StudyReport report;

@@ -79,6 +79,15 @@ void write_vtk(const Scene& scene, const Shapes& shapes, int per_element, const 
   write_text(folder / "shape.pvd", series);
 }
 
+void check_vtk_folder(const std::string& option, const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name == "shape.pvd" || (name.starts_with("shape_") && name.ends_with(".vtu"));
+    if (ours) check_own(option, entry.path(), "<VTKFile");
+  }
+}
+
 void write_shapes_csv(const Scene& scene, const Shapes& shapes, int per_element, const std::filesystem::path& file) {
   constexpr std::array axes{"x", "y", "z"};
   const auto d = static_cast<std::size_t>(scene.dimension);

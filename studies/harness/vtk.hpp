@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "scene/scene.hpp"
 #include "studies/harness/shapes.hpp"
@@ -12,6 +13,9 @@ namespace vlbeam {
 /// and velocity [m/s]; an element is `per_element` lines. The folder is made where it is not there. Throws
 /// std::runtime_error where a file cannot be written.
 void write_vtk(const Scene& scene, const Shapes& shapes, int per_element, const std::filesystem::path& folder);
+
+/// Throws InvalidInput, naming the `option`, where the folder has a file of such a name that is not VTK's.
+void check_vtk_folder(const std::string& option, const std::filesystem::path& folder);
 
 /// Writes the same points as a table: t, element, x, r, v, axial_strain, curvature, tension, with units in its first
 /// line.

@@ -1,0 +1,445 @@
+#include "studies/harness/checked_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
+#include "scene/derived.hpp"
+#include "scene/energy_ledger.hpp"
+#include "scene/options.hpp"
+#include "scene/validate.hpp"
+#include "studies/harness/converge_setting.hpp"
+#include "studies/harness/messages.hpp"
+#include "studies/harness/run_track.hpp"
+#include "studies/harness/sudden_gravity.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double step_ratio = 2;       // of a companion's steps
+constexpr double explicit_share = 32;  // the same of methods of order five
+constexpr double least_order = 0.5, time_order = 2, explicit_order = 4, mesh_order = 2;
+constexpr int least_elements = 3;
+constexpr double most_work = 2;       // of a companion, in steps times elements of the run
+constexpr double mesh_share = 0.01;   // of the motion
+constexpr double whole_motion = 0.1;  // of the length: motion from which the accuracy is one of the length
+constexpr double least_motion = 1e-6;
+constexpr int most_repeats = 2;
+constexpr double aimed_share = 0.5;  // of what is allowed, when a run is done again
+constexpr double finest_ratio = 12;  // of steps from one repetition to the next
+constexpr const char* too_long = "it takes more work than the run itself";
+
+/// One run and what it is compared by.
+struct Seen {
+  Scene scene;
+  double ratio = 1;  ///< of its steps or elements to those of the run before it in its chain
+  RunResult result = {};
+  Track track = {};
+  std::vector<double> times = {};
+  std::vector<std::vector<double>> shapes = {};
+  std::string why = {};  ///< it tells nothing
+
+  bool tells() const { return why.empty(); }
+  double work() const { return static_cast<double>(result.solver.steps) * scene.beam.elements; }
+};
+
+bool ended_well(const RunResult& result) {
+  return result.status == RunStatus::completed || result.status == RunStatus::separated;
+}
+
+/// Runs it, keeping shapes at `times` to be compared by; those of the scene go to `output`.
+void run(Seen& seen, const std::vector<double>& times, const ProgressCallback& progress, const RunOutput& output) {
+  const bool in_time = seen.scene.analysis == Analysis::dynamics;
+  const std::vector<double>& asked = seen.scene.output.configurations;
+  Scene scene = seen.scene;
+  std::vector<Configuration> kept;
+  if (in_time) {
+    scene.output.configurations.insert(scene.output.configurations.end(), times.begin(), times.end());
+    std::ranges::sort(scene.output.configurations);
+    const auto twice = std::ranges::unique(scene.output.configurations);
+    scene.output.configurations.erase(twice.begin(), twice.end());
+  }
+  const auto shape = [&](const Configuration& configuration) {
+    if (!in_time || std::ranges::binary_search(times, configuration.t)) {
+      seen.times.push_back(configuration.t);
+      seen.shapes.push_back(probes(seen.scene, configuration));
+    }
+    if (in_time && std::ranges::find(asked, configuration.t) == asked.end()) return;
+    if (output.shape) {
+      output.shape(configuration);
+    } else {
+      kept.push_back(configuration);
+    }
+  };
+  seen.result = simulate(scene, progress, nullptr, {.shape = shape, .event_shapes = output.event_shapes});
+  seen.result.configurations = std::move(kept);
+  seen.track = track_of(seen.scene, seen.result, seen.times, seen.shapes);
+}
+
+bool possible(const Scene& scene) {
+  try {
+    validate(scene);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+/// The scene with its integrator as one that somebody wrote, so that nothing is chosen anew.
+Scene as_chosen(const Scene& scene) {
+  Scene chosen = scene;
+  chosen.integrator.automatic = false;
+  chosen.output.configurations.clear();
+  return chosen;
+}
+
+bool refines_tolerance(const Scene& scene) {
+  return !has_fixed_step(scene.integrator.type) || scene.integrator.adaptive;
+}
+
+/// Steps longer by the ratio, or shorter where it is less than 1.
+Scene longer_steps(const Scene& scene, double ratio) {
+  if (!refines_tolerance(scene)) {
+    Scene longer = scene;
+    longer.integrator.step = std::min(longer.integrator.step * ratio, scene.duration);
+    return longer;
+  }
+  const bool implicit = has_fixed_step(scene.integrator.type);
+  return with_tolerance(scene, implicit ? portable::pow(ratio, 3) : portable::pow(explicit_share, std::log2(ratio)));
+}
+
+/// A chain of companions, each coarser than the one before.
+using Companions = std::vector<std::unique_ptr<Seen>>;
+
+Companions in_time(const Scene& scene) {
+  Companions list;
+  if (scene.analysis == Analysis::statics) return list;
+  const Scene chosen = as_chosen(scene);
+  for (const double ratio : {step_ratio, step_ratio * step_ratio}) {
+    const Scene coarser = longer_steps(chosen, ratio);
+    if (!possible(coarser)) break;
+    list.push_back(std::make_unique<Seen>(Seen{coarser, step_ratio}));
+  }
+  return list;
+}
+
+Companions of_mesh(const Scene& scene) {
+  Companions list;
+  // along a path by arc length no two meshes have equilibria of equal load
+  if (scene.analysis == Analysis::statics && scene.statics.control == LoadControl::arc_length) return list;
+  const Scene chosen = as_chosen(scene);
+  const int n = scene.beam.elements, points = quadrature_points(scene);
+  int before = n;
+  const auto add = [&](int elements) {
+    if (elements >= before || elements < least_elements || list.size() == 2) return;
+    try {
+      const Scene coarser = on_mesh(chosen, elements, points);
+      validate(coarser);
+      list.push_back(std::make_unique<Seen>(Seen{coarser, static_cast<double>(before) / elements}));
+      before = elements;
+    } catch (const InvalidInput&) {  // it does not stand for the scene
+    }
+  };
+  add((n + 1) / 2);
+  if (list.empty()) add((2 * n + 2) / 3);
+  add((before + 1) / 2);
+  add((2 * before + 2) / 3);
+  return list;
+}
+
+/// Running maxima of what a run is off from the ones before it in a chain, over the places or of one row.
+struct Distances {
+  std::vector<double> t, first, second;
+};
+
+/// Row by row: the largest distances of neighbours in the chain run, first, second companion.
+Distances distances(const Track::Row& row, const Seen* first, const Seen* second) {
+  const auto same = [&row](const Seen* seen) -> const Track::Row* {
+    if (seen == nullptr || !seen->tells()) return nullptr;
+    const auto found = std::ranges::find(seen->track.rows, row.quantity, &Track::Row::quantity);
+    return found == seen->track.rows.end() ? nullptr : &*found;
+  };
+  const Track::Row *a = same(first), *b = same(second);
+  Distances found;
+  if (a == nullptr) return found;
+  found.t = row.t;
+  found.first = largest_distance(row, *a);
+  if (b != nullptr) found.second = largest_distance(*a, *b);
+  found.t.resize(found.first.size());
+  return found;
+}
+
+/// What one row may be off, at each of its times.
+struct Told {
+  std::vector<double> t, error;
+  double order = least_order;  ///< at the end
+  double last() const { return error.empty() ? 0 : error.back(); }
+};
+
+Told told(const Track::Row& row, const Seen* first, const Seen* second, double best_order) {
+  const Distances found = distances(row, first, second);
+  Told told;
+  told.t = found.t;
+  for (std::size_t i = 0; i < found.first.size(); ++i) {
+    const bool both = i < found.second.size();
+    const ToldError at = told_error(found.first[i], both ? found.second[i] : -1, first->ratio,
+                                    second != nullptr ? second->ratio : 1, best_order);
+    told.error.push_back(told.error.empty() ? at.error : std::max(at.error, told.error.back()));
+    told.order = at.order;
+  }
+  return told;
+}
+
+/// What all the places of a run may be off.
+struct Places {
+  std::vector<Told> rows;
+  double largest = 0, order = least_order;
+
+  double at(double t) const {
+    double error = 0;
+    for (const Told& row : rows) {
+      const auto behind = std::ranges::upper_bound(row.t, t);
+      if (behind != row.t.begin())
+        error = std::max(error, row.error[static_cast<std::size_t>(behind - row.t.begin()) - 1]);
+    }
+    return error;
+  }
+};
+
+Places places_of(const Track& track, const Seen* first, const Seen* second, double best_order) {
+  Places places;
+  for (const Track::Row& row : track.rows) {
+    if (row.kind != TrackKind::place) continue;
+    Told found = told(row, first, second, best_order);
+    if (found.last() >= places.largest) {
+      places.largest = found.last();
+      places.order = found.order;
+    }
+    places.rows.push_back(std::move(found));
+  }
+  return places;
+}
+
+double motion_of(const Track& track) {
+  double motion = 0;
+  for (const Track::Row& row : track.rows) {
+    if (row.kind != TrackKind::place) continue;
+    const auto ways = largest_way(row);
+    if (!ways.empty()) motion = std::max(motion, ways.back());
+  }
+  return motion;
+}
+
+template <class... Parts>
+std::string text_of(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(2);
+  (text << ... << parts);
+  return text.str();
+}
+
+const Seen* at(const Companions& companions, std::size_t i) {
+  return i < companions.size() ? companions[i].get() : nullptr;
+}
+
+class Checked {
+ public:
+  Checked(const Scene& scene, const ProgressCallback& progress, const FreshOutput& output, int jobs)
+      : progress_(progress), output_(output), jobs_(jobs), main_{scene}, time_(in_time(scene)), mesh_(of_mesh(scene)) {
+    if (scene.analysis == Analysis::dynamics) times_ = probe_times(scene);
+  }
+
+  RunResult operator()() {
+    run_all();
+    Seen* last = &main_;
+    if (ended_well(main_.result)) {
+      judge_mesh();
+      last = &judge_time();
+      conclude(*last);
+    }
+    return std::move(last->result);
+  }
+
+ private:
+  /// The run and its companions, `jobs` at a time; the run goes on in this thread, for its caller's sake.
+  void run_all() {
+    std::vector<Seen*> companions;
+    for (const Companions* list : {&mesh_, &time_}) {
+      for (const auto& seen : *list) companions.push_back(seen.get());
+    }
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < companions.size(); i = next++) follow(*companions[i]);
+    };
+    std::vector<std::jthread> others;
+    for (int i = 1; i < std::min(jobs_, static_cast<int>(companions.size()) + 1); ++i) others.emplace_back(work);
+    try {
+      run(main_, times_, progress_, output_());
+    } catch (...) {
+      stop_ = true;
+      throw;
+    }
+    if (!ended_well(main_.result)) stop_ = true;
+    allowed_work_ = most_work * main_.work();
+    work();
+    others.clear();
+    for (Seen* seen : companions) {
+      if (seen->tells() && seen->work() > most_work * main_.work()) seen->why = too_long;
+    }
+  }
+
+  /// Runs a companion as long as it is worth it. How far one comes that does not tell anything is of no account.
+  void follow(Seen& seen) {
+    double steps = 0;
+    const auto at_step = [&](double) { return !stop_ && ++steps * seen.scene.beam.elements <= allowed_work_; };
+    try {
+      run(seen, times_, at_step, {.shape = [](const Configuration&) {}, .event_shapes = false});
+      if (ended_well(seen.result)) return;
+      seen.why = seen.result.status == RunStatus::failed ? "it fails: " + seen.result.failure : too_long;
+    } catch (const std::exception& error) {
+      seen.why = explained(error);
+    }
+  }
+
+  void judge_mesh() {
+    error_.motion = motion_of(main_.track);
+    const Seen *first = at(mesh_, 0), *second = at(mesh_, 1);
+    if (first == nullptr) {
+      error_.no_mesh = "no coarser mesh stands for the scene";
+    } else if (!first->tells()) {
+      error_.no_mesh = "the run on " + std::to_string(first->scene.beam.elements) + " elements: " + first->why;
+    }
+    if (!error_.no_mesh.empty()) return;
+    mesh_places_ = places_of(main_.track, first, second, mesh_order);
+    for (const Track::Row& row : main_.track.rows) {
+      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, mesh_order).last()});
+    }
+    error_.mesh = mesh_places_.largest;
+    const double most = mesh_share * error_.motion;
+    if (*error_.mesh > most && most > 0) {
+      const double finer = portable::pow(*error_.mesh / most, 1 / mesh_places_.order);
+      error_.elements_wanted = static_cast<int>(std::min(std::ceil(main_.scene.beam.elements * finer), 1e9));
+    }
+  }
+
+  /// Estimates the error in time, and does the run again where it is too large. Returns the last run.
+  Seen& judge_time() {
+    const Scene& scene = main_.scene;
+    if (scene.analysis == Analysis::statics) {
+      error_.no_time = "an equilibrium has none";
+      return main_;
+    }
+    if (scene.integrator.automatic) {
+      const double length = beam_length(scene);
+      const double share = std::clamp(error_.motion / (whole_motion * length), least_motion / whole_motion, 1.0);
+      error_.allowed = scene.integrator.accuracy * length * share;
+    }
+    if (at(time_, 0) == nullptr) {
+      error_.no_time = "no longer steps stand for the scene";
+    } else if (!time_.front()->tells()) {
+      error_.no_time = "the run of longer steps: " + time_.front()->why;
+    }
+    if (!error_.no_time.empty()) return main_;
+    const bool high_order = refines_tolerance(scene) && !has_fixed_step(scene.integrator.type);
+    const double best = high_order ? explicit_order : time_order;
+    std::vector<Seen*> chain{&main_, time_.front().get()};  // from the finest on
+    if (time_.size() > 1) chain.push_back(time_.back().get());
+    const auto estimate = [&] {
+      time_places_ = places_of(chain[0]->track, chain[1], chain.size() > 2 ? chain[2] : nullptr, best);
+      error_.time = time_places_.largest;
+    };
+    estimate();
+    while (scene.integrator.automatic && *error_.time > error_.allowed && error_.repeats < most_repeats) {
+      const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / time_places_.order);
+      const double ratio = std::min(wanted, finest_ratio);
+      auto finer = std::make_unique<Seen>(Seen{longer_steps(chain[0]->scene, 1 / ratio)});
+      finer->scene.output = scene.output;
+      run(*finer, times_, progress_, output_());
+      ++error_.repeats;
+      again_.push_back(std::move(finer));
+      chain[0]->ratio = ratio;
+      chain.insert(chain.begin(), again_.back().get());
+      if (!ended_well(chain[0]->result)) return *chain[0];
+      estimate();
+    }
+    for (std::size_t i = 0; i < chain[0]->track.rows.size(); ++i) {
+      const Track::Row& row = chain[0]->track.rows[i];
+      if (i == error_.quantities.size()) error_.quantities.push_back({row.quantity, row.unit, {}, {}});
+      error_.quantities[i].time = told(row, chain[1], chain.size() > 2 ? chain[2] : nullptr, best).last();
+    }
+    return *chain[0];
+  }
+
+  void conclude(Seen& last) {
+    if (!ended_well(last.result)) return;
+    const Scene& scene = main_.scene;
+    const double most = mesh_share * error_.motion;
+    const bool judged_time = error_.time && scene.integrator.automatic;
+    for (const Sample& sample : last.result.samples) {
+      if (judged_time && time_places_.at(sample.t) > error_.allowed) break;
+      if (error_.mesh && mesh_places_.at(sample.t) > most) break;
+      error_.trusted_until = sample.t;
+    }
+    std::vector<Warning>& warnings = last.result.warnings;
+    if (judged_time && *error_.time > error_.allowed) {
+      warnings.push_back({WarningKind::error_in_time,
+                          text_of("the steps may make places wrong by ", *error_.time, " m; the accuracy asked allows ",
+                                  error_.allowed, " m"),
+                          "a finer accuracy: {\"accuracy\": " + six_digits(scene.integrator.accuracy / 10) +
+                              "} for /integrator; or look no further than " + six_digits(error_.trusted_until) + " s"});
+    }
+    if (error_.elements_wanted > 0) {
+      warnings.push_back(
+          {WarningKind::error_of_mesh,
+           text_of("the elements may make places wrong by ", *error_.mesh, " m, of a motion of ", error_.motion, " m"),
+           "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
+    }
+    if (const auto warning = sudden_gravity(scene, last.result)) warnings.push_back(*warning);
+    last.result.error = std::make_shared<const RunError>(std::move(error_));
+  }
+
+  const ProgressCallback& progress_;
+  const FreshOutput& output_;
+  int jobs_;
+  Seen main_;
+  std::vector<double> times_;
+  Companions time_, mesh_, again_;
+  std::atomic<bool> stop_{false};
+  std::atomic<double> allowed_work_{std::numeric_limits<double>::infinity()};
+  RunError error_;
+  Places mesh_places_, time_places_;
+};
+
+}  // namespace
+
+ToldError told_error(double distance, double next, double ratio, double next_ratio, double best_order) {
+  if (next < 0) return {distance / (ratio - 1), 1};
+  const auto growth = [&](double p) {  // of the distances, with errors that go with the power p
+    const double first = portable::pow(ratio, p);
+    return first * (portable::pow(next_ratio, p) - 1) / (first - 1);
+  };
+  double low = least_order, high = best_order;
+  constexpr int halvings = 30;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    (growth(middle) * distance < next ? low : high) = middle;
+  }
+  const double order = (low + high) / 2;
+  return {distance / (portable::pow(ratio, order) - 1), order};
+}
+
+bool has_automatic_steps(const Scene& scene) {
+  return scene.integrator.automatic || scene.analysis == Analysis::statics;
+}
+
+RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const FreshOutput& output, int jobs) {
+  return Checked(scene, progress, output, jobs)();
+}
+
+}  // namespace vlbeam
