@@ -22,13 +22,13 @@
 namespace vlbeam {
 namespace {
 
-constexpr double step_ratio = 2;       // of a companion's steps
-constexpr double explicit_share = 32;  // the same of methods of order five
-constexpr double least_order = 0.5, time_order = 2, explicit_order = 4, mesh_order = 2;
-constexpr int least_elements = 3;
-constexpr double most_work = 2;       // of a companion, in steps times elements of the run
-constexpr double mesh_share = 0.01;   // of the motion
-constexpr double whole_motion = 0.1;  // of the length: motion from which the accuracy is one of the length
+constexpr double step_ratio = 2;              // of a companion's steps
+constexpr double longer_explicit_share = 32;  // the same of methods of order five
+constexpr double lowest_order = 0.5, best_time_order = 2, best_explicit_order = 4, best_mesh_order = 2;
+constexpr int fewest_elements = 3;
+constexpr double most_work = 2;             // of a companion, in steps times elements of the run
+constexpr double mesh_share = 0.01;         // of the motion
+constexpr double whole_motion_share = 0.1;  // of the length: motion from which the accuracy is one of the length
 constexpr double least_motion = 1e-6;
 constexpr int most_repeats = 2;
 constexpr double aimed_share = 0.5;  // of what is allowed, when a run is done again
@@ -111,7 +111,8 @@ Scene longer_steps(const Scene& scene, double ratio) {
     return longer;
   }
   const bool implicit = has_fixed_step(scene.integrator.type);
-  return with_tolerance(scene, implicit ? portable::pow(ratio, 3) : portable::pow(explicit_share, std::log2(ratio)));
+  return with_tolerance(scene,
+                        implicit ? portable::pow(ratio, 3) : portable::pow(longer_explicit_share, std::log2(ratio)));
 }
 
 /// A chain of companions, each coarser than the one before.
@@ -137,7 +138,7 @@ Companions of_mesh(const Scene& scene) {
   const int n = scene.beam.elements, points = quadrature_points(scene);
   int before = n;
   const auto add = [&](int elements) {
-    if (elements >= before || elements < least_elements || list.size() == 2) return;
+    if (elements >= before || elements < fewest_elements || list.size() == 2) return;
     try {
       const Scene coarser = on_mesh(chosen, elements, points);
       validate(coarser);
@@ -178,7 +179,7 @@ Distances distances(const Track::Row& row, const Seen* first, const Seen* second
 /// What one row may be off, at each of its times.
 struct Told {
   std::vector<double> t, error;
-  double order = least_order;  ///< at the end
+  double order = lowest_order;  ///< at the end
   double last() const { return error.empty() ? 0 : error.back(); }
 };
 
@@ -199,7 +200,7 @@ Told told(const Track::Row& row, const Seen* first, const Seen* second, double b
 /// What all the places of a run may be off.
 struct Places {
   std::vector<Told> rows;
-  double largest = 0, order = least_order;
+  double largest = 0, order = lowest_order;
 
   double at(double t) const {
     double error = 0;
@@ -237,7 +238,7 @@ double motion_of(const Track& track) {
 }
 
 template <class... Parts>
-std::string text_of(const Parts&... parts) {
+std::string in_words(const Parts&... parts) {
   std::ostringstream text;
   text.precision(2);
   (text << ... << parts);
@@ -316,9 +317,9 @@ class Checked {
       error_.no_mesh = "the run on " + std::to_string(first->scene.beam.elements) + " elements: " + first->why;
     }
     if (!error_.no_mesh.empty()) return;
-    mesh_places_ = places_of(main_.track, first, second, mesh_order);
+    mesh_places_ = places_of(main_.track, first, second, best_mesh_order);
     for (const Track::Row& row : main_.track.rows) {
-      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, mesh_order).last()});
+      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, best_mesh_order).last()});
     }
     error_.mesh = mesh_places_.largest;
     const double most = mesh_share * error_.motion;
@@ -337,7 +338,8 @@ class Checked {
     }
     if (scene.integrator.automatic) {
       const double length = beam_length(scene);
-      const double share = std::clamp(error_.motion / (whole_motion * length), least_motion / whole_motion, 1.0);
+      const double share =
+          std::clamp(error_.motion / (whole_motion_share * length), least_motion / whole_motion_share, 1.0);
       error_.allowed = scene.integrator.accuracy * length * share;
     }
     if (at(time_, 0) == nullptr) {
@@ -347,7 +349,7 @@ class Checked {
     }
     if (!error_.no_time.empty()) return main_;
     const bool high_order = refines_tolerance(scene) && !has_fixed_step(scene.integrator.type);
-    const double best = high_order ? explicit_order : time_order;
+    const double best = high_order ? best_explicit_order : best_time_order;
     std::vector<Seen*> chain{&main_, time_.front().get()};  // from the finest on
     if (time_.size() > 1) chain.push_back(time_.back().get());
     const auto estimate = [&] {
@@ -389,15 +391,15 @@ class Checked {
     std::vector<Warning>& warnings = last.result.warnings;
     if (judged_time && *error_.time > error_.allowed) {
       warnings.push_back({WarningKind::error_in_time,
-                          text_of("the steps may make places wrong by ", *error_.time, " m; the accuracy asked allows ",
-                                  error_.allowed, " m"),
+                          in_words("the steps may make places wrong by ", *error_.time,
+                                   " m; the accuracy asked allows ", error_.allowed, " m"),
                           "a finer accuracy: {\"accuracy\": " + six_digits(scene.integrator.accuracy / 10) +
                               "} for /integrator; or look no further than " + six_digits(error_.trusted_until) + " s"});
     }
     if (error_.elements_wanted > 0) {
       warnings.push_back(
           {WarningKind::error_of_mesh,
-           text_of("the elements may make places wrong by ", *error_.mesh, " m, of a motion of ", error_.motion, " m"),
+           in_words("the elements may make places wrong by ", *error_.mesh, " m, of a motion of ", error_.motion, " m"),
            "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
     }
     if (const auto warning = sudden_gravity(scene, last.result)) warnings.push_back(*warning);
@@ -424,7 +426,7 @@ ToldError told_error(double distance, double next, double ratio, double next_rat
     const double first = portable::pow(ratio, p);
     return first * (portable::pow(next_ratio, p) - 1) / (first - 1);
   };
-  double low = least_order, high = best_order;
+  double low = lowest_order, high = best_order;
   constexpr int halvings = 30;
   for (int i = 0; i < halvings; ++i) {
     const double middle = (low + high) / 2;

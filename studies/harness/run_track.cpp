@@ -2,26 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
 #include "scene/shape.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_probe_times = 60;
 constexpr int probe_shares = 16;        // of the beam's length
 constexpr int points_an_element = 4;    // between which the axis is a cubic
 constexpr double samples_apart = 1e-9;  // of a time: samples of two runs that are the same instant
 
-std::vector<double> numbers(const Point& point, int dimension) { return {point.begin(), point.begin() + dimension}; }
-std::vector<double> number(const std::optional<double>& value) { return {value.value_or(nan)}; }
+std::vector<double> components_of(const Point& point, int dimension) {
+  return {point.begin(), point.begin() + dimension};
+}
+std::vector<double> one_number(const std::optional<double>& value) { return {value.value_or(nan)}; }
 
 /// The axis between two of its points, by their slopes.
-Point between(const ShapePoint& a, const ShapePoint& b, double x) {
+Point on_cubic(const ShapePoint& a, const ShapePoint& b, double x) {
   const double l = b.x - a.x, u = l > 0 ? (x - a.x) / l : 0, v = 1 - u;
   Point r{};
   for (std::size_t i = 0; i < r.size(); ++i) {
@@ -71,7 +72,7 @@ std::vector<double> probes(const Scene& scene, const Configuration& shape) {
   for (int i = 0; i <= probe_shares; ++i) {
     const double x = start + length * i / probe_shares;
     while (k + 2 < points.size() && points[k + 1].x < x) ++k;
-    const Point r = between(points[k], points[k + 1], x);
+    const Point r = on_cubic(points[k], points[k + 1], x);
     places.insert(places.end(), r.begin(), r.begin() + scene.dimension);
   }
   return places;
@@ -82,22 +83,22 @@ Track track_of(const Scene& scene, const RunResult& result, const std::vector<do
   Tracker tracker(scene, result);
   const int d = scene.dimension;
   const auto joints = sliding_joints(scene);
-  tracker.row("end", "m", TrackKind::place, [d](const Sample& s) { return numbers(s.end, d); });
+  tracker.row("end", "m", TrackKind::place, [d](const Sample& s) { return components_of(s.end, d); });
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const bool one = joints.size() == 1;
     const std::string name = std::to_string(i);
     tracker.row("joint " + name, "m", TrackKind::place, [one, i](const Sample& s) {
-      return number(one ? s.joint_position : i < s.joints.size() ? s.joints[i].position : std::nullopt);
+      return one_number(one ? s.joint_position : i < s.joints.size() ? s.joints[i].position : std::nullopt);
     });
     tracker.row("mass " + name, "m", TrackKind::place, [one, i, d](const Sample& s) {
       const auto& place = one ? s.mass_position : i < s.joints.size() ? s.joints[i].mass_position : std::nullopt;
-      return place ? numbers(*place, d) : std::vector<double>(static_cast<std::size_t>(d), nan);
+      return place ? components_of(*place, d) : std::vector<double>(static_cast<std::size_t>(d), nan);
     });
   }
   for (const std::size_t end : {0U, 1U}) {
     if (!(end == 0 ? scene.start : scene.end).pays_out()) continue;
     tracker.row(end == 0 ? "winch start" : "winch end", "m", TrackKind::place, [end](const Sample& s) {
-      return number(s.winches[end] ? std::optional(s.winches[end]->length) : std::nullopt);
+      return one_number(s.winches[end] ? std::optional(s.winches[end]->length) : std::nullopt);
     });
   }
   if (scene.spin) {
@@ -106,12 +107,12 @@ Track track_of(const Scene& scene, const RunResult& result, const std::vector<do
                                           : std::vector<double>(2, nan);
     });
   }
-  tracker.row("energy", "J", TrackKind::other, [](const Sample& s) { return number(s.energy.total()); });
-  tracker.row("kinetic energy", "J", TrackKind::other, [](const Sample& s) { return number(s.energy.kinetic); });
+  tracker.row("energy", "J", TrackKind::other, [](const Sample& s) { return one_number(s.energy.total()); });
+  tracker.row("kinetic energy", "J", TrackKind::other, [](const Sample& s) { return one_number(s.energy.kinetic); });
   tracker.row("largest axial force", "N", TrackKind::other,
-              [](const Sample& s) { return number(s.strains.axial_force[1]); });
+              [](const Sample& s) { return one_number(s.strains.axial_force[1]); });
   tracker.row("largest curvature", "1/m", TrackKind::other,
-              [](const Sample& s) { return number(s.strains.curvature); });
+              [](const Sample& s) { return one_number(s.strains.curvature); });
   Track track = std::move(tracker.track);
   Track::Row shape{"shape",
                    "m",

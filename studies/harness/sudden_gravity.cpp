@@ -14,7 +14,7 @@ namespace {
 
 constexpr double warned_share = 0.1;     // of the largest strain energy
 constexpr double share_of_swing = 0.02;  // of a pendulum as long as the beam: a step that damps what is faster
-constexpr int steps = 4;                 // until fast vibrations have died out
+constexpr int damping_steps = 4;         // until fast vibrations have died out
 
 double strain_energy(const Sample& sample) {
   return sample.energy.axial + sample.energy.bending + sample.energy.torsion;
@@ -32,7 +32,7 @@ double borne_by_the_stiff(const Scene& given) {
   scene.integrator.type = IntegratorType::generalized_alpha;
   scene.integrator.rho_inf = 0;
   scene.integrator.step = step;
-  scene.duration = steps * step;
+  scene.duration = damping_steps * step;
   scene.output = {.interval = scene.duration, .configurations = {}};
   try {
     const RunResult result = simulate(scene);

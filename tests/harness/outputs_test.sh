@@ -87,6 +87,40 @@ for option in --report --csv; do
 done
 check "the scene" "" "$(diff scene.json kept.json)"
 
+# No command replaces what it reads, nor what it did not write.
+cat > sweep.json << 'SWEEP'
+{"schema": "vlbeam.sweep/1", "scene": "scene.json", "over": {"/beam/elements": [4, 5]}}
+SWEEP
+cp sweep.json sweep.kept
+check "a sweep into the folder of its file" 2 "$(exit_of "$vlbeam" sweep sweep.json --out .)"
+check "the same by force" 2 "$(exit_of "$vlbeam" sweep sweep.json --out . --force)"
+check "its message" 1 "$(says 'the sweep file itself stands there')"
+check "the sweep" "" "$(diff sweep.json sweep.kept)"
+mkdir foreign && echo mine > foreign/sweep.csv
+check "a sweep over somebody's table" 2 "$(exit_of "$vlbeam" sweep sweep.json --out foreign --force)"
+check "the table" mine "$(cat foreign/sweep.csv)"
+rm foreign/sweep.csv && mkdir foreign/cases && echo mine > foreign/cases/notes.txt
+check "a sweep beside somebody's notes" 0 "$(exit_of "$vlbeam" sweep sweep.json --out foreign)"
+sed 's/\[4, 5\]/[4, 6]/' sweep.json > other.json
+check "another one in its place" 0 "$(exit_of "$vlbeam" sweep other.json --out foreign --force)"
+check "the notes" mine "$(cat foreign/cases/notes.txt)"
+sed 's/"duration"/"output": {"interval": 0.005, "configurations": [0]}, "duration"/; s/"output": {"interval": 0.005}/"title": ""/' \
+  scene.json > shapes.json
+mkdir shapes && echo mine > shapes/shape.pvd
+check "shapes over somebody's file" 2 "$(exit_of "$vlbeam" run shapes.json --vtk shapes)"
+rm shapes/shape.pvd
+check "shapes" 0 "$(exit_of "$vlbeam" run shapes.json --vtk shapes)"
+check "shapes again" 0 "$(exit_of "$vlbeam" run shapes.json --vtk shapes)"
+check "a checkpoint" 0 "$(exit_of "$vlbeam" run scene.json --checkpoint c --every 0.004)"
+cp c c.kept; ln -s c c.link
+for name in c ./c c.link; do
+  check "a report over the checkpoint, $name" 2 "$(exit_of "$vlbeam" run scene.json --restart c --report "$name")"
+done
+check "the checkpoint" "" "$(cmp c c.kept)"
+echo '{"schema": "vlbeam.scene/1"}' > torsion.json
+check "a study over a scene" 2 "$(exit_of "$vlbeam" study torsion --profile ci --out .)"
+check "the scene" 1 "$(grep -c vlbeam.scene torsion.json)"
+
 # What cannot be written is known before the run.
 for name in deep scene.json/r.csv /proc/r.csv /sys/r.csv "$(printf 'x%.0s' {1..300})"; do
   check "unwritable $name" 2 "$(exit_of timeout 60 "$vlbeam" run long.json --report r.json --csv "$name")"

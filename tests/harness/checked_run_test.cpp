@@ -1,0 +1,147 @@
+// What companions tell of a run's error, where the error is known.
+#include "studies/harness/checked_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/harness/scene_json.hpp"
+#include "studies/harness/scene_library.hpp"
+#include "tests/folders.hpp"
+
+namespace vlbeam {
+namespace {
+
+Scene library_scene_to_check(const std::string& name) {
+  return read_scene(test::source_folder() / "scenes" / (name + ".json"));
+}
+
+RunResult checked(const Scene& scene, int jobs = 1) {
+  return checked_run(
+      scene, {}, [] { return RunOutput{}; }, jobs);
+}
+
+bool warns_of(const RunResult& result, WarningKind kind) {
+  return std::ranges::any_of(result.warnings, [kind](const Warning& warning) { return warning.kind == kind; });
+}
+
+/// What the places of three runs are off from each other, with errors c h^p.
+struct ThreeRuns {
+  double error, distance, next;
+};
+ThreeRuns three_runs(double p, double ratio, double next_ratio) {
+  const double second = std::pow(ratio, p), third = std::pow(ratio * next_ratio, p);
+  return {1e-6, 1e-6 * (second - 1), 1e-6 * (third - second)};
+}
+
+TEST(ToldError, IsTheErrorWhereTheOrderIsWithinItsBounds) {
+  for (const double p : {0.5, 1.0, 1.7, 2.0}) {
+    for (const double ratio : {1.5, 2.0}) {
+      const ThreeRuns runs = three_runs(p, ratio, 2);
+      const ToldError told = told_error(runs.distance, runs.next, ratio, 2, 2);
+      EXPECT_NEAR(told.error, runs.error, 1e-6 * runs.error) << p;
+      EXPECT_NEAR(told.order, p, 1e-6);
+    }
+  }
+}
+
+TEST(ToldError, TrustsNoOrderBeyondTheBest) {
+  const ThreeRuns runs = three_runs(4, 2, 2);
+  EXPECT_NEAR(told_error(runs.distance, runs.next, 2, 2, 2).error, 5 * runs.error, 1e-6 * runs.error);
+}
+
+TEST(ToldError, ExceedsTheDistanceWhereRunsDoNotApproachEachOther) { EXPECT_GT(told_error(1, 0.5, 2, 2, 2).error, 2); }
+
+TEST(ToldError, OfTwoRunsIsTheirDistanceWhereStepsAreDoubled) { EXPECT_EQ(told_error(3, -1, 2, 1, 2).error, 3); }
+
+// The judge: the same scene with a thousandth of the tolerance, and on four times the elements.
+TEST(CheckedRun, TellsTheErrorsOfAFallingBeam) {
+  Scene scene = library_scene_to_check("falling_beam_ramped");
+  scene.beam.elements = 12;
+  const RunResult run = checked(scene);
+  ASSERT_TRUE(run.error);
+  ASSERT_TRUE(run.error->time && run.error->mesh);
+  Scene fine = scene;
+  fine.integrator.automatic = false;
+  fine.integrator.step /= 10;
+  fine.integrator.atol_by_kind->length *= 1e-3;
+  fine.integrator.atol_by_kind->velocity *= 1e-3;
+  const auto away = [](const RunResult& a, const RunResult& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < std::min(a.samples.size(), b.samples.size()); ++i) {
+      if (!a.samples[i].joint_position || !b.samples[i].joint_position) break;
+      largest =
+          std::max({largest, std::abs(*a.samples[i].joint_position - *b.samples[i].joint_position),
+                    std::hypot(a.samples[i].end[0] - b.samples[i].end[0], a.samples[i].end[1] - b.samples[i].end[1])});
+    }
+    return largest;
+  };
+  const RunResult in_time = simulate(fine);
+  const double time = away(run, in_time);
+  EXPECT_GE(*run.error->time, time / 1.5);
+  EXPECT_LE(*run.error->time, std::max(20 * time, 1e-6));
+  EXPECT_LE(time, run.error->allowed);
+  fine.beam.elements *= 4;
+  const double mesh = away(in_time, simulate(fine));
+  EXPECT_GE(*run.error->mesh, mesh / 1.5);
+  EXPECT_LE(*run.error->mesh, 20 * mesh);
+}
+
+TEST(CheckedRun, HasTheDigitsOfTheRunAloneWhateverTheJobs) {
+  Scene scene = library_scene_to_check("pendulum");
+  scene.output.configurations = {scene.duration / 2};
+  const RunResult alone = simulate(scene), one = checked(scene, 1), two = checked(scene, 2);
+  ASSERT_TRUE(one.error && two.error);
+  ASSERT_EQ(one.error->repeats, 0);
+  EXPECT_EQ(one.samples.back().end, alone.samples.back().end);
+  EXPECT_EQ(one.solver.steps, alone.solver.steps);
+  ASSERT_EQ(one.configurations.size(), 1U);
+  EXPECT_EQ(one.configurations.front().r, alone.configurations.front().r);
+  EXPECT_EQ(one.error->time, two.error->time);
+  EXPECT_EQ(one.error->mesh, two.error->mesh);
+}
+
+// A mesh of eight elements for a stiff wire of many bends: what it is off by is no secret.
+TEST(CheckedRun, WarnsOfACoarseMesh) {
+  Scene scene = library_scene_to_check("bead_on_wire");
+  scene.beam.elements = 6;
+  const RunResult run = checked(scene);
+  ASSERT_TRUE(run.error);
+  EXPECT_TRUE(warns_of(run, WarningKind::error_of_mesh));
+  EXPECT_GT(run.error->elements_wanted, scene.beam.elements);
+}
+
+Scene girder(double gravity_ramp) {
+  Scene scene;
+  scene.beam.curve.end = {20, 0, 0};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 4e9, .EI = 6e8, .rhoA = 250};
+  scene.beam.elements = 8;
+  scene.start.type = SupportType::pin;
+  scene.end.type = SupportType::slide;
+  scene.gravity_ramp = gravity_ramp;
+  scene.duration = 1;
+  scene.output.interval = 0.01;
+  scene.integrator.type = IntegratorType::generalized_alpha;
+  scene.integrator.step = 0.002;
+  return scene;
+}
+
+TEST(SuddenGravity, IsNamedWhereItMakesAGirderVibrate) {
+  EXPECT_TRUE(warns_of(checked(girder(0)), WarningKind::sudden_gravity));
+  EXPECT_FALSE(warns_of(checked(girder(0.5)), WarningKind::sudden_gravity));
+}
+
+TEST(SuddenGravity, IsAMotionWhereABeamFalls) {
+  EXPECT_FALSE(warns_of(checked(library_scene_to_check("falling_beam")), WarningKind::sudden_gravity));
+}
+
+TEST(CheckedRun, OfAnEquilibriumTellsTheMesh) {
+  const RunResult run = checked(library_scene_to_check("hanging_cable"));
+  ASSERT_TRUE(run.error);
+  EXPECT_TRUE(run.error->mesh);
+  EXPECT_FALSE(run.error->time);
+}
+
+}  // namespace
+}  // namespace vlbeam
