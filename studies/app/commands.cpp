@@ -158,12 +158,9 @@ int run_command(const RunArguments& arguments) {
       });
       return !interrupted();
     };
-    const auto fresh_output = [&spool] {
-      spool = {};
-      return RunOutput{.shape = [&spool](const Configuration& shape) { spool.add(shape); }, .event_shapes = false};
-    };
-    result = checked ? checked_run(scene, on_step, fresh_output, processors())
-                     : simulate(scene, on_step, goes_on ? &checkpoints : nullptr, fresh_output());
+    const RunOutput output{.shape = [&spool](const Configuration& shape) { spool.add(shape); }, .event_shapes = false};
+    result = checked ? checked_run(scene, on_step, output, processors())
+                     : simulate(scene, on_step, goes_on ? &checkpoints : nullptr, output);
   }
   const Shapes shapes = spool.shapes();
   if (!not_kept.empty()) outputs.attempt(arguments.checkpoint, [&] { throw std::runtime_error(not_kept); });

@@ -82,10 +82,12 @@ int dispatch(int argc, char** argv) {
                   "At work on a beam of more than about 1000 elements; digits do not depend on it (default: one a "
                   "processor, four at most)")
       ->check(CLI::Range(1, 1024));
-  run->add_flag(
-      "--check,!--no-check", run_arguments.check,
-      "Tell the error in time and of the mesh by companions; by default where the scene leaves the integrator "
-      "out; not of runs with --checkpoint or --restart");
+  bool check = false, no_check = false;
+  CLI::Option* with_check =
+      run->add_flag("--check", check,
+                    "Tell the error in time and of the mesh by companions, for a scene that names its integrator, too");
+  run->add_flag("--no-check", no_check, "Run no companions, as runs with --checkpoint or --restart do")
+      ->excludes(with_check);
   run->add_flag("--force", run_arguments.force, "A run that fails may replace an earlier result");
   run->add_flag("--quiet,-q", run_arguments.quiet, "No summary on standard error");
 
@@ -255,6 +257,7 @@ int dispatch(int argc, char** argv) {
     check_options(app);
     return app.exit(error) == 0 ? vlbeam::done : vlbeam::bad_input;
   }
+  if (check || no_check) run_arguments.check = check;
   if (*run) return vlbeam::run_command(run_arguments);
   if (*study) return vlbeam::study_command(study_arguments);
   if (*kept_run) return vlbeam::kept_run_command(kept_runs);

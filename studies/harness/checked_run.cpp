@@ -17,6 +17,7 @@
 #include "studies/harness/converge_setting.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/run_track.hpp"
+#include "studies/harness/shapes.hpp"
 #include "studies/harness/sudden_gravity.hpp"
 
 namespace vlbeam {
@@ -24,15 +25,17 @@ namespace {
 
 constexpr double step_ratio = 2;              // of a companion's steps
 constexpr double longer_explicit_share = 32;  // the same of methods of order five
-constexpr double lowest_order = 0.5, best_time_order = 2, best_explicit_order = 4, best_mesh_order = 2;
+// Errors in time fall at least in proportion to the steps; those of a mesh may hardly fall while it locks.
+constexpr OrderRange time_orders{1, 2}, explicit_orders{1, 4}, mesh_orders{0.5, 2};
 constexpr int fewest_elements = 3;
 constexpr double most_work = 2;             // of a companion, in steps times elements of the run
 constexpr double mesh_share = 0.01;         // of the motion
 constexpr double whole_motion_share = 0.1;  // of the length: motion from which the accuracy is one of the length
 constexpr double least_motion = 1e-6;
 constexpr int most_repeats = 2;
-constexpr double aimed_share = 0.5;  // of what is allowed, when a run is done again
-constexpr double finest_ratio = 12;  // of steps from one repetition to the next
+constexpr double aimed_share = 0.8;  // of what is allowed, when a run is done again
+constexpr double most_growth = 3;    // of the steps of a repetition, over what its ratio would make of them
+constexpr double finest_ratio = 4;   // of steps from one repetition to the next
 constexpr const char* too_long = "it takes more work than the run itself";
 
 /// One run and what it is compared by.
@@ -44,6 +47,8 @@ struct Seen {
   std::vector<double> times = {};
   std::vector<std::vector<double>> shapes = {};
   std::string why = {};  ///< it tells nothing
+  bool event_shapes = false;
+  ShapeSpool spool = {};
 
   bool tells() const { return why.empty(); }
   double work() const { return static_cast<double>(result.solver.steps) * scene.beam.elements; }
@@ -53,12 +58,14 @@ bool ended_well(const RunResult& result) {
   return result.status == RunStatus::completed || result.status == RunStatus::separated;
 }
 
-/// Runs it, keeping shapes at `times` to be compared by; those of the scene go to `output`.
-void run(Seen& seen, const std::vector<double>& times, const ProgressCallback& progress, const RunOutput& output) {
+/// Whether a run keeps the shapes that its scene asks for.
+enum class ShapesOf { the_scene, no_one };
+
+/// Runs it, keeping shapes at `times` to be compared by.
+void run(Seen& seen, const std::vector<double>& times, const ProgressCallback& progress, ShapesOf kept) {
   const bool in_time = seen.scene.analysis == Analysis::dynamics;
   const std::vector<double>& asked = seen.scene.output.configurations;
   Scene scene = seen.scene;
-  std::vector<Configuration> kept;
   if (in_time) {
     scene.output.configurations.insert(scene.output.configurations.end(), times.begin(), times.end());
     std::ranges::sort(scene.output.configurations);
@@ -70,15 +77,10 @@ void run(Seen& seen, const std::vector<double>& times, const ProgressCallback& p
       seen.times.push_back(configuration.t);
       seen.shapes.push_back(probes(seen.scene, configuration));
     }
-    if (in_time && std::ranges::find(asked, configuration.t) == asked.end()) return;
-    if (output.shape) {
-      output.shape(configuration);
-    } else {
-      kept.push_back(configuration);
-    }
+    const bool wanted = !in_time || std::ranges::find(asked, configuration.t) != asked.end();
+    if (kept == ShapesOf::the_scene && wanted) seen.spool.add(configuration);
   };
-  seen.result = simulate(scene, progress, nullptr, {.shape = shape, .event_shapes = output.event_shapes});
-  seen.result.configurations = std::move(kept);
+  seen.result = simulate(scene, progress, nullptr, {.shape = shape, .event_shapes = seen.event_shapes});
   seen.track = track_of(seen.scene, seen.result, seen.times, seen.shapes);
 }
 
@@ -179,18 +181,18 @@ Distances distances(const Track::Row& row, const Seen* first, const Seen* second
 /// What one row may be off, at each of its times.
 struct Told {
   std::vector<double> t, error;
-  double order = lowest_order;  ///< at the end
+  double order = 1;  ///< at the end
   double last() const { return error.empty() ? 0 : error.back(); }
 };
 
-Told told(const Track::Row& row, const Seen* first, const Seen* second, double best_order) {
+Told told(const Track::Row& row, const Seen* first, const Seen* second, OrderRange orders) {
   const Distances found = distances(row, first, second);
   Told told;
   told.t = found.t;
   for (std::size_t i = 0; i < found.first.size(); ++i) {
     const bool both = i < found.second.size();
     const ToldError at = told_error(found.first[i], both ? found.second[i] : -1, first->ratio,
-                                    second != nullptr ? second->ratio : 1, best_order);
+                                    second != nullptr ? second->ratio : 1, orders);
     told.error.push_back(told.error.empty() ? at.error : std::max(at.error, told.error.back()));
     told.order = at.order;
   }
@@ -200,7 +202,7 @@ Told told(const Track::Row& row, const Seen* first, const Seen* second, double b
 /// What all the places of a run may be off.
 struct Places {
   std::vector<Told> rows;
-  double largest = 0, order = lowest_order;
+  double largest = 0, order = 1;
 
   double at(double t) const {
     double error = 0;
@@ -213,11 +215,11 @@ struct Places {
   }
 };
 
-Places places_of(const Track& track, const Seen* first, const Seen* second, double best_order) {
+Places places_of(const Track& track, const Seen* first, const Seen* second, OrderRange orders) {
   Places places;
   for (const Track::Row& row : track.rows) {
     if (row.kind != TrackKind::place) continue;
-    Told found = told(row, first, second, best_order);
+    Told found = told(row, first, second, orders);
     if (found.last() >= places.largest) {
       places.largest = found.last();
       places.order = found.order;
@@ -251,9 +253,10 @@ const Seen* at(const Companions& companions, std::size_t i) {
 
 class Checked {
  public:
-  Checked(const Scene& scene, const ProgressCallback& progress, const FreshOutput& output, int jobs)
+  Checked(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs)
       : progress_(progress), output_(output), jobs_(jobs), main_{scene}, time_(in_time(scene)), mesh_(of_mesh(scene)) {
     if (scene.analysis == Analysis::dynamics) times_ = probe_times(scene);
+    main_.event_shapes = output.event_shapes;
   }
 
   RunResult operator()() {
@@ -264,6 +267,7 @@ class Checked {
       last = &judge_time();
       conclude(*last);
     }
+    last->spool.shapes()([&](const Configuration& shape) { output_.add(Configuration(shape), last->result); });
     return std::move(last->result);
   }
 
@@ -281,7 +285,7 @@ class Checked {
     std::vector<std::jthread> others;
     for (int i = 1; i < std::min(jobs_, static_cast<int>(companions.size()) + 1); ++i) others.emplace_back(work);
     try {
-      run(main_, times_, progress_, output_());
+      run(main_, times_, progress_, ShapesOf::the_scene);
     } catch (...) {
       stop_ = true;
       throw;
@@ -300,7 +304,7 @@ class Checked {
     double steps = 0;
     const auto at_step = [&](double) { return !stop_ && ++steps * seen.scene.beam.elements <= allowed_work_; };
     try {
-      run(seen, times_, at_step, {.shape = [](const Configuration&) {}, .event_shapes = false});
+      run(seen, times_, at_step, ShapesOf::no_one);
       if (ended_well(seen.result)) return;
       seen.why = seen.result.status == RunStatus::failed ? "it fails: " + seen.result.failure : too_long;
     } catch (const std::exception& error) {
@@ -317,9 +321,9 @@ class Checked {
       error_.no_mesh = "the run on " + std::to_string(first->scene.beam.elements) + " elements: " + first->why;
     }
     if (!error_.no_mesh.empty()) return;
-    mesh_places_ = places_of(main_.track, first, second, best_mesh_order);
+    mesh_places_ = places_of(main_.track, first, second, mesh_orders);
     for (const Track::Row& row : main_.track.rows) {
-      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, best_mesh_order).last()});
+      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, mesh_orders).last()});
     }
     error_.mesh = mesh_places_.largest;
     const double most = mesh_share * error_.motion;
@@ -349,31 +353,36 @@ class Checked {
     }
     if (!error_.no_time.empty()) return main_;
     const bool high_order = refines_tolerance(scene) && !has_fixed_step(scene.integrator.type);
-    const double best = high_order ? best_explicit_order : best_time_order;
+    const OrderRange orders = high_order ? explicit_orders : time_orders;
     std::vector<Seen*> chain{&main_, time_.front().get()};  // from the finest on
     if (time_.size() > 1) chain.push_back(time_.back().get());
     const auto estimate = [&] {
-      time_places_ = places_of(chain[0]->track, chain[1], chain.size() > 2 ? chain[2] : nullptr, best);
+      time_places_ = places_of(chain[0]->track, chain[1], chain.size() > 2 ? chain[2] : nullptr, orders);
       error_.time = time_places_.largest;
     };
     estimate();
     while (scene.integrator.automatic && *error_.time > error_.allowed && error_.repeats < most_repeats) {
-      const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / time_places_.order);
+      const double order = error_.repeats == 0 ? orders.best : time_places_.order;
+      const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / order);
       const double ratio = std::min(wanted, finest_ratio);
       auto finer = std::make_unique<Seen>(Seen{longer_steps(chain[0]->scene, 1 / ratio)});
       finer->scene.output = scene.output;
-      run(*finer, times_, progress_, output_());
+      finer->event_shapes = output_.event_shapes;
+      const double most_steps = most_growth * ratio * static_cast<double>(chain[0]->result.solver.steps);
+      double steps = 0;
+      const auto at_step = [&](double t) { return ++steps <= most_steps && (!progress_ || progress_(t)); };
+      run(*finer, times_, at_step, ShapesOf::the_scene);
+      if (!ended_well(finer->result)) break;  // it fails, or takes another order of work: what is known is said
       ++error_.repeats;
       again_.push_back(std::move(finer));
       chain[0]->ratio = ratio;
       chain.insert(chain.begin(), again_.back().get());
-      if (!ended_well(chain[0]->result)) return *chain[0];
       estimate();
     }
     for (std::size_t i = 0; i < chain[0]->track.rows.size(); ++i) {
       const Track::Row& row = chain[0]->track.rows[i];
       if (i == error_.quantities.size()) error_.quantities.push_back({row.quantity, row.unit, {}, {}});
-      error_.quantities[i].time = told(row, chain[1], chain.size() > 2 ? chain[2] : nullptr, best).last();
+      error_.quantities[i].time = told(row, chain[1], chain.size() > 2 ? chain[2] : nullptr, orders).last();
     }
     return *chain[0];
   }
@@ -407,7 +416,7 @@ class Checked {
   }
 
   const ProgressCallback& progress_;
-  const FreshOutput& output_;
+  const RunOutput& output_;
   int jobs_;
   Seen main_;
   std::vector<double> times_;
@@ -420,13 +429,13 @@ class Checked {
 
 }  // namespace
 
-ToldError told_error(double distance, double next, double ratio, double next_ratio, double best_order) {
+ToldError told_error(double distance, double next, double ratio, double next_ratio, OrderRange orders) {
   if (next < 0) return {distance / (ratio - 1), 1};
   const auto growth = [&](double p) {  // of the distances, with errors that go with the power p
     const double first = portable::pow(ratio, p);
     return first * (portable::pow(next_ratio, p) - 1) / (first - 1);
   };
-  double low = lowest_order, high = best_order;
+  double low = orders.lowest, high = orders.best;
   constexpr int halvings = 30;
   for (int i = 0; i < halvings; ++i) {
     const double middle = (low + high) / 2;
@@ -440,7 +449,7 @@ bool has_automatic_steps(const Scene& scene) {
   return scene.integrator.automatic || scene.analysis == Analysis::statics;
 }
 
-RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const FreshOutput& output, int jobs) {
+RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs) {
   return Checked(scene, progress, output, jobs)();
 }
 

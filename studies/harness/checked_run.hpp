@@ -7,9 +7,6 @@ namespace vlbeam {
 /// Whether a scene says nothing of how its steps are chosen, so that its runs are checked by default.
 bool has_automatic_steps(const Scene& scene);
 
-/// Gives what a run hands on. It is asked again when the run is done again: what came before is to be forgotten.
-using FreshOutput = std::function<RunOutput()>;
-
 /// Runs a scene beside companions that tell how far its numbers are off, RunResult::error: two with steps twice and
 /// four times as long, two on meshes of half and a quarter of the elements (two thirds and a half where those are too
 /// few, none where no coarser mesh stands for the scene). From three runs follows the order at which they approach each
@@ -20,8 +17,8 @@ using FreshOutput = std::function<RunOutput()>;
 /// compared with what the beam would bear without vibrations. Adds what is to be known as warnings.
 ///
 /// `jobs` runs go on at a time; digits do not depend on it. Of a run that fails or is interrupted nothing is told.
-/// The output gets the shapes of the scene alone. Throws as simulate().
-RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const FreshOutput& output, int jobs);
+/// Shapes are handed on once the last run has ended. Throws as simulate().
+RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs);
 
 /// Error of the finest of three runs, by how far it is from the second one and that from the third, whose steps or
 /// elements are `ratio` and `next_ratio` times as large as those of the run before. Without the third one, `next` < 0,
@@ -30,6 +27,10 @@ struct ToldError {
   double error = 0;
   double order = 1;
 };
-ToldError told_error(double distance, double next, double ratio, double next_ratio, double best_order);
+/// Orders that an error is taken to have: no lower, and no better.
+struct OrderRange {
+  double lowest, best;
+};
+ToldError told_error(double distance, double next, double ratio, double next_ratio, OrderRange orders);
 
 }  // namespace vlbeam

@@ -38,10 +38,15 @@ class Tracker {
   template <class Of>
   void row(const std::string& quantity, const std::string& unit, TrackKind kind, const Of& of) {
     Track::Row row{quantity, unit, kind, {}, {}};
-    for (const Sample& sample : result_.samples) {
-      row.t.push_back(sample.equilibrium && scene_.analysis == Analysis::statics ? sample.equilibrium->load_factor
-                                                                                 : sample.t);
+    const auto add = [&](const Sample& sample, double t) {
+      row.t.push_back(t);
       row.values.push_back(of(sample));
+    };
+    if (scene_.analysis == Analysis::dynamics) {
+      for (const Sample& sample : result_.samples) add(sample, sample.t);
+    } else if (!result_.samples.empty()) {  // the way to the last equilibrium is a matter of the search
+      add(result_.samples.front(), 0);
+      add(result_.samples.back(), 1);
     }
     track.rows.push_back(std::move(row));
   }
@@ -114,12 +119,12 @@ Track track_of(const Scene& scene, const RunResult& result, const std::vector<do
   tracker.row("largest curvature", "1/m", TrackKind::other,
               [](const Sample& s) { return one_number(s.strains.curvature); });
   Track track = std::move(tracker.track);
-  Track::Row shape{"shape",
-                   "m",
-                   TrackKind::place,
-                   {times.begin(), times.begin() + static_cast<std::ptrdiff_t>(std::min(times.size(), shapes.size()))},
-                   shapes};
-  if (!shapes.empty() && !result.samples.empty()) track.rows.push_back(std::move(shape));
+  if (shapes.empty() || result.samples.empty()) return track;
+  if (scene.analysis == Analysis::dynamics) {
+    track.rows.push_back({"shape", "m", TrackKind::place, times, shapes});
+  } else {
+    track.rows.push_back({"shape", "m", TrackKind::place, {0, 1}, {shapes.front(), shapes.back()}});
+  }
   return track;
 }
 

@@ -12,9 +12,9 @@
 namespace vlbeam {
 namespace {
 
-constexpr double warned_share = 0.1;     // of the largest strain energy
-constexpr double share_of_swing = 0.02;  // of a pendulum as long as the beam: a step that damps what is faster
-constexpr int damping_steps = 4;         // until fast vibrations have died out
+constexpr double warned_share = 0.1;      // of the largest strain energy
+constexpr double share_of_swing = 0.005;  // of a pendulum as long as the beam: a step that damps what is faster
+constexpr int damping_steps = 4;          // until fast vibrations have died out
 
 double strain_energy(const Sample& sample) {
   return sample.energy.axial + sample.energy.bending + sample.energy.torsion;

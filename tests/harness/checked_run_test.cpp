@@ -39,7 +39,7 @@ TEST(ToldError, IsTheErrorWhereTheOrderIsWithinItsBounds) {
   for (const double p : {0.5, 1.0, 1.7, 2.0}) {
     for (const double ratio : {1.5, 2.0}) {
       const ThreeRuns runs = three_runs(p, ratio, 2);
-      const ToldError told = told_error(runs.distance, runs.next, ratio, 2, 2);
+      const ToldError told = told_error(runs.distance, runs.next, ratio, 2, {0.5, 2});
       EXPECT_NEAR(told.error, runs.error, 1e-6 * runs.error) << p;
       EXPECT_NEAR(told.order, p, 1e-6);
     }
@@ -48,12 +48,14 @@ TEST(ToldError, IsTheErrorWhereTheOrderIsWithinItsBounds) {
 
 TEST(ToldError, TrustsNoOrderBeyondTheBest) {
   const ThreeRuns runs = three_runs(4, 2, 2);
-  EXPECT_NEAR(told_error(runs.distance, runs.next, 2, 2, 2).error, 5 * runs.error, 1e-6 * runs.error);
+  EXPECT_NEAR(told_error(runs.distance, runs.next, 2, 2, {0.5, 2}).error, 5 * runs.error, 1e-6 * runs.error);
 }
 
-TEST(ToldError, ExceedsTheDistanceWhereRunsDoNotApproachEachOther) { EXPECT_GT(told_error(1, 0.5, 2, 2, 2).error, 2); }
+TEST(ToldError, ExceedsTheDistanceWhereRunsDoNotApproachEachOther) {
+  EXPECT_GT(told_error(1, 0.5, 2, 2, {0.5, 2}).error, 2);
+}
 
-TEST(ToldError, OfTwoRunsIsTheirDistanceWhereStepsAreDoubled) { EXPECT_EQ(told_error(3, -1, 2, 1, 2).error, 3); }
+TEST(ToldError, OfTwoRunsIsTheirDistanceWhereStepsAreDoubled) { EXPECT_EQ(told_error(3, -1, 2, 1, {1, 2}).error, 3); }
 
 // The judge: the same scene with a thousandth of the tolerance, and on four times the elements.
 TEST(CheckedRun, TellsTheErrorsOfAFallingBeam) {
