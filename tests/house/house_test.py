@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Holds the plan of the house: which library each file of the core is to become part of, in which order libraries use each
+other, and how often the heart (elements, motion, time) still names a room, which may only become less.
+
+    house_test.py ROOT            compares with house.json
+    house_test.py ROOT --write    writes what is counted now
+    house_test.py ROOT --list     shows the lines that are counted
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(sys.argv[1]).resolve()
+COUNTED = Path(__file__).resolve().with_name("house.json")
+
+# Libraries of the core as they are to be, from the ground up: each uses those before it; rooms use the heart, and no one in
+# the heart uses a room. A file belongs to the first library one of whose patterns it matches; folders come last.
+ROOMS = {
+    "frames": r"frame|triad|twist_law",
+    "spin": r"spin|shaft|nut\.|angle_field",
+    "flow": r"flow|moving_mesh|mesh_motion|rotary_inertia|prescribed_motion",
+    "ride": r"rider",
+    "contact": r"impact|node_contact|at_support|one_sided",
+    "ropes": r"drum|ground|drag|slack_law|winch|outlet",
+    "remesh": r"relaxation|least_change|restore_beside_joint",
+    "conserving": r"conserving|energy_momentum|discrete_gradient",
+    "sundials": r"sundials|jacobian",
+    "statics": r"core/statics/|free_tension|joint_release",
+}
+HEART = {
+    "elements": r"core/(geometry|element|beam|length_control)/|core/[^/]*$",
+    "motion": r"core/(joint|parts|system)/",
+    "time": r"core/dynamics/",
+}
+# What a line of the heart says when it names a room: words of the code, not of comments.
+WORDS = {
+    "frames": r"[Ff]rame|[Tt]riad",
+    "spin": r"[Ss]pin|\bnut\b|\bNut|[Aa]ngle_?[Ff]ield|[Tt]hread",
+    "flow": r"[Ff]low|MovingMesh|moving_mesh|MeshMotion|[Tt]ravel",
+    "ride": r"[Rr]ider|[Dd]eparted",
+    "contact": r"[Ii]mpact|[Rr]ebound|NodeContact|AtSupport|at_support",
+    "ropes": r"[Dd]rum|[Gg]round|[Dd]rag\b|[Ff]luid|[Ww]inch|[Oo]utlet|[Ss]lack",
+    "remesh": r"[Rr]elax|[Ll]east_?[Cc]hange|[Rr]estore",
+    "conserving": r"[Cc]onserving|[Ee]nergy_?[Mm]omentum|[Dd]iscrete_?[Gg]radient",
+    "sundials": r"[Ss]undials|SUNDIALS|\bIDA\b|\bida\b|cvode",
+    "statics": r"[Ss]tatic(Sample|Equations|Search|Modes|Sum)|[Ee]quilibri",
+}
+
+
+def library_of(path):
+    for name, pattern in (ROOMS | HEART).items():
+        if re.search(pattern, path):
+            return name
+    raise AssertionError(f"{path} belongs to no library of the core")
+
+
+def code_of(text):
+    """Lines of code, with their numbers: no comments, no blanks."""
+    for number, line in enumerate(text.splitlines(), 1):
+        code = re.sub(r"//.*", "", line).strip()
+        if code:
+            yield number, code
+
+
+def counted():
+    """What is counted, and the lines behind it."""
+    sizes, names, includes, found = {}, {}, {}, []
+    for file in sorted((ROOT / "core").rglob("*.[ch]pp")):
+        path = file.relative_to(ROOT).as_posix()
+        library = library_of(path)
+        for number, code in code_of(file.read_text(encoding="utf-8")):
+            sizes[library] = sizes.get(library, 0) + 1
+            if library not in HEART:
+                continue
+            included = re.match(r'#include "(core/[^"]+)"', code)
+            if included:
+                room = library_of(included[1])
+                if room in ROOMS:
+                    includes[room] = includes.get(room, 0) + 1
+                    found.append(f"{path}:{number}: [{room}] {code}")
+                continue
+            for room, words in WORDS.items():
+                if re.search(words, code):
+                    names[room] = names.get(room, 0) + 1
+                    found.append(f"{path}:{number}: [{room}] {code}")
+    return {"lines of code": dict(sorted(sizes.items())),
+            "lines of the heart that name a room": dict(sorted(names.items())),
+            "includes of a room by the heart": dict(sorted(includes.items()))}, found
+
+
+def upward_includes():
+    """Arrows of the heart that lead upwards: elements that use motion or time, motion that uses time's methods."""
+    order = list(HEART)
+    count = {}
+    for file in sorted((ROOT / "core").rglob("*.[ch]pp")):
+        path = file.relative_to(ROOT).as_posix()
+        if library_of(path) not in HEART:
+            continue
+        for included in re.findall(r'#include "(core/[^"]+)"', file.read_text(encoding="utf-8")):
+            ours, theirs = library_of(path), library_of(included)
+            if theirs in HEART and order.index(theirs) > order.index(ours):
+                count[f"{ours} -> {theirs}"] = count.get(f"{ours} -> {theirs}", 0) + 1
+    return dict(sorted(count.items()))
+
+
+def main():
+    now, found = counted()
+    now["includes upwards within the heart"] = upward_includes()
+    if "--list" in sys.argv:
+        print("\n".join(found))
+        return 0
+    if "--write" in sys.argv:
+        COUNTED.write_text(json.dumps(now, indent=2) + "\n", encoding="utf-8")
+        return 0
+    known = json.loads(COUNTED.read_text(encoding="utf-8"))
+    risen = []
+    for what in known:
+        if what == "lines of code":
+            continue
+        for key in sorted(set(known[what]) | set(now[what])):
+            before, after = known[what].get(key, 0), now[what].get(key, 0)
+            if after > before:
+                risen.append(f"{what}: {key} {before} -> {after}")
+            elif after < before:
+                print(f"{what}: {key} {before} -> {after}: write it down (--write)")
+    if risen:
+        print("A feature that the heart must know is in the wrong room (--list shows the lines):\n  " + "\n  ".join(risen))
+        return 1
+    return 0
+
+
+sys.exit(main())
