@@ -2,13 +2,15 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Installed, vlbeam::core is all of the library; inside this project that name is the mechanics alone, which read and
-# write nothing.
-set_target_properties(vlbeam_library PROPERTIES EXPORT_NAME core)
-set_target_properties(vlbeam_core PROPERTIES EXPORT_NAME mechanics)
+# Two sets of targets: vlbeam::core, the element library alone, and all the rest, vlbeam::vlbeam.
+set_target_properties(vlbeam_core PROPERTIES EXPORT_NAME core)
+set_target_properties(vlbeam_library PROPERTIES EXPORT_NAME vlbeam)
+set_target_properties(vlbeam_mechanics PROPERTIES EXPORT_NAME mechanics)
 set_target_properties(vlbeam_scene PROPERTIES EXPORT_NAME scene)
 set_target_properties(vlbeam_harness PROPERTIES EXPORT_NAME harness)
-install(TARGETS vlbeam_library vlbeam_core vlbeam_scene vlbeam_harness EXPORT vlbeamTargets
+install(TARGETS vlbeam_core EXPORT vlbeamCoreTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS vlbeam_library vlbeam_mechanics vlbeam_scene vlbeam_harness EXPORT vlbeamTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(VLBEAM_BUILD_STUDIES)
   install(TARGETS vlbeam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -36,6 +38,7 @@ if(VLBEAM_BUILD_STUDIES)
 endif()
 
 set(packages ${CMAKE_INSTALL_LIBDIR}/cmake/vlbeam)
+install(EXPORT vlbeamCoreTargets NAMESPACE vlbeam:: DESTINATION ${packages})
 install(EXPORT vlbeamTargets NAMESPACE vlbeam:: DESTINATION ${packages})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vlbeamConfig.cmake.in ${PROJECT_BINARY_DIR}/vlbeamConfig.cmake
                               INSTALL_DESTINATION ${packages})

@@ -2,6 +2,7 @@
 //   W = EA (eps^2/2 + beta eps^4/4),   eps = (r_x.r_x - 1)/2,
 // put through what every element of vlbeam is put through: its force is minus the gradient of its energy, rigid motion
 // costs nothing, a rotation turns the force along, and the displacement of a hanging cable converges with order 4.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -11,7 +12,6 @@
 
 #include <vlbeam/core/element/quadrature.hpp>
 #include <vlbeam/core/element/shape_functions.hpp>
-#include <vlbeam/harness/observed_order.hpp>
 
 namespace {
 
@@ -148,15 +148,18 @@ int main() {
   check("rigid motion costs nothing", rigid, 1e-12);
 
   const double reference = exact(cable, 1, 0.8);
-  std::vector<double> levels, errors;
-  for (const int count : {2, 4, 8, 16}) {
-    levels.push_back(count);
-    errors.push_back(std::abs(hang(cable, 1, 0.8, count) - reference));
-  }
-  const OrderFit fit = fit_order("elongation", levels, errors, {.floor = 1e-14});
+  std::vector<double> errors;
+  for (const int count : {2, 4, 8, 16}) errors.push_back(std::abs(hang(cable, 1, 0.8, count) - reference));
   std::cout << "elongation " << reference << " m, errors";
   for (const double error : errors) std::cout << ' ' << error;
-  std::cout << ", order " << fit.slope << " +- " << fit.slope_uncertainty << '\n';
-  check("4 minus the order observed", 4 - fit.slope, 0.3);
+  std::cout << ", orders";
+  double least = 10;  // of all pairs of meshes: never the best of them
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    const double order = std::log2(errors[i - 1] / errors[i]);
+    std::cout << ' ' << order;
+    least = std::min(least, order);
+  }
+  std::cout << '\n';
+  check("4 minus the least order observed", 4 - least, 0.3);
   return failures;
 }

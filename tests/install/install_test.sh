@@ -52,7 +52,7 @@ cp -r "$root/share/vlbeam/examples" "$scratch/examples"
 "$cmake" --build "$scratch/build" > "$scratch/build.log" 2>&1 || { cat "$scratch/build.log"; exit 1; }
 cd "$scratch"
 build/run_scene scene.json r.json | grep 'status          completed' > /dev/null || says "run_scene"
-"$root/bin/vlbeam" run scene.json --report theirs.json -q
+"$root/bin/vlbeam" run scene.json --report theirs.json -q --no-check
 "$root/bin/vlbeam" compare r.json theirs.json --tol 0 > /dev/null || says "the library gives other numbers than the program"
 sed -i 's/"radius"/"radios"/' scene.json
 code=0
@@ -60,6 +60,7 @@ build/run_scene scene.json 2> err.txt || code=$?
 [[ $code -eq 2 ]] && grep -q '/beam/section/radios' err.txt || says "an error of a scene: $(cat err.txt)"
 build/own_study > own_study.txt 2>&1 || { cat own_study.txt; says "own_study"; }
 [[ -s own_study_report/own_study.json && -s own_study_report/own_study_meshes.csv ]] || says "the report of own_study"
+build/element_alone > alone.txt || { cat alone.txt; says "element_alone"; }
 build/own_element_law > law.txt || { cat law.txt; says "own_element_law"; }
 "$root/bin/vlbeam" scene falling_beam > falling.json
 [[ $(build/own_merge_rule falling.json | grep -c ' J$') -eq 3 ]] || says "own_merge_rule"
@@ -71,6 +72,23 @@ project(other LANGUAGES CXX)
 find_package(vlbeam 99 REQUIRED)
 CMAKE
 if "$cmake" -S other -B other/build -DCMAKE_PREFIX_PATH="$root" > /dev/null 2>&1; then says "version 99 was found"; fi
+
+# The element library alone needs neither scenes nor JSON nor threads of its own.
+mkdir alone && cp examples/element_alone.cpp alone/ && cat > alone/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+project(alone LANGUAGES CXX)
+set(CMAKE_DISABLE_FIND_PACKAGE_nlohmann_json ON)
+set(CMAKE_DISABLE_FIND_PACKAGE_Threads ON)
+find_package(vlbeam REQUIRED COMPONENTS core)
+if(TARGET vlbeam::mechanics OR TARGET vlbeam::scene)
+  message(FATAL_ERROR "the component core brings more than itself")
+endif()
+add_executable(element_alone element_alone.cpp)
+target_link_libraries(element_alone PRIVATE vlbeam::core)
+CMAKE
+"$cmake" -S alone -B alone/build -DCMAKE_PREFIX_PATH="$root" -DCMAKE_CXX_COMPILER="$cxx" > alone.log 2>&1 &&
+  "$cmake" --build alone/build >> alone.log 2>&1 && alone/build/element_alone >> alone.log ||
+  { cat alone.log; says "the component core"; }
 
 # As a part of another project: the library is optimized although that one has chosen nothing, and there are no tests,
 # benchmarks or programs.
