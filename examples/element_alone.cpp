@@ -40,7 +40,8 @@ int main() {
 
   const MovingEquations<double, D> eq = moving_equations<double, D>(q, rate, weights, table, law);
 
-  // M q'' = Q: the block of the nodal coordinates is eq.mass (x) 1, coupled by eq.mass_a and eq.mass_b with x_A and x_B.
+  // M q'' = Q: the block of the nodal coordinates is eq.mass (x) 1, coupled by eq.mass_a and eq.mass_b with x_A and
+  // x_B.
   double mass = 0;  // of a rigid translation: both positions move
   for (const int i : {0, 2}) {
     for (const int j : {0, 2}) mass += eq.mass[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];

@@ -84,10 +84,8 @@ class Run {
       if (!progress.is_none() && scene_.analysis == Analysis::dynamics) progress(reached / scene_.duration, "");
     };
     const auto run = [&] {
-      return check.value_or(has_automatic_steps(scene_))
-                 ? checked_run(
-                       scene_, at_step, [] { return RunOutput{}; }, jobs_or_processors(0))
-                 : simulate(scene_, at_step);
+      return check.value_or(has_automatic_steps(scene_)) ? checked_run(scene_, at_step, {}, jobs_or_processors(0))
+                                                         : simulate(scene_, at_step);
     };
     result_ = without_lock(
         run, [&](int signal) { go_on = signal == 0; }, tell);

@@ -25,8 +25,10 @@ namespace {
 
 constexpr double step_ratio = 2;              // of a companion's steps
 constexpr double longer_explicit_share = 32;  // the same of methods of order five
-// Errors in time fall at least in proportion to the steps; those of a mesh may hardly fall while it locks.
-constexpr OrderRange time_orders{1, 2}, explicit_orders{1, 4}, mesh_orders{0.5, 2};
+// Errors in time fall at least in proportion to the steps; those of a mesh may hardly fall while it locks. In
+// equilibria neither events nor friction lower the order of a mesh: they are trusted with one less than that of cubic
+// elements.
+constexpr OrderRange time_orders{1, 2}, explicit_orders{1, 4}, mesh_orders{0.5, 2}, equilibrium_orders{0.5, 3};
 constexpr int fewest_elements = 3;
 constexpr double most_work = 2;             // of a companion, in steps times elements of the run
 constexpr double mesh_share = 0.01;         // of the motion
@@ -268,8 +270,16 @@ class Checked {
       conclude(*last);
     }
     last->spool.shapes()([&](const Configuration& shape) { output_.add(Configuration(shape), last->result); });
+    work_ += main_.work();
+    for (const Companions* list : {&mesh_, &time_, &again_}) {
+      for (const auto& seen : *list) work_ += seen->work();
+    }
+    work_ /= main_.work();
     return std::move(last->result);
   }
+
+  /// Of all runs, over that of the first one alone.
+  double work() const { return work_; }
 
  private:
   /// The run and its companions, `jobs` at a time; the run goes on in this thread, for its caller's sake.
@@ -321,9 +331,10 @@ class Checked {
       error_.no_mesh = "the run on " + std::to_string(first->scene.beam.elements) + " elements: " + first->why;
     }
     if (!error_.no_mesh.empty()) return;
-    mesh_places_ = places_of(main_.track, first, second, mesh_orders);
+    const OrderRange orders = main_.scene.analysis == Analysis::statics ? equilibrium_orders : mesh_orders;
+    mesh_places_ = places_of(main_.track, first, second, orders);
     for (const Track::Row& row : main_.track.rows) {
-      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, mesh_orders).last()});
+      error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, orders).last()});
     }
     error_.mesh = mesh_places_.largest;
     const double most = mesh_share * error_.motion;
@@ -351,11 +362,16 @@ class Checked {
     } else if (!time_.front()->tells()) {
       error_.no_time = "the run of longer steps: " + time_.front()->why;
     }
-    if (!error_.no_time.empty()) return main_;
     const bool high_order = refines_tolerance(scene) && !has_fixed_step(scene.integrator.type);
     const OrderRange orders = high_order ? explicit_orders : time_orders;
-    std::vector<Seen*> chain{&main_, time_.front().get()};  // from the finest on
-    if (time_.size() > 1) chain.push_back(time_.back().get());
+    std::vector<Seen*> chain{&main_};  // from the finest on
+    if (error_.no_time.empty()) {
+      for (const auto& seen : time_) chain.push_back(seen.get());
+    } else if (scene.integrator.automatic && repeat(chain, step_ratio)) {
+      error_.no_time.clear();  // shorter steps tell where longer ones do not
+    } else {
+      return main_;
+    }
     const auto estimate = [&] {
       time_places_ = places_of(chain[0]->track, chain[1], chain.size() > 2 ? chain[2] : nullptr, orders);
       error_.time = time_places_.largest;
@@ -365,18 +381,7 @@ class Checked {
       const double order = error_.repeats == 0 ? orders.best : time_places_.order;
       const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / order);
       const double ratio = std::min(wanted, finest_ratio);
-      auto finer = std::make_unique<Seen>(Seen{longer_steps(chain[0]->scene, 1 / ratio)});
-      finer->scene.output = scene.output;
-      finer->event_shapes = output_.event_shapes;
-      const double most_steps = most_growth * ratio * static_cast<double>(chain[0]->result.solver.steps);
-      double steps = 0;
-      const auto at_step = [&](double t) { return ++steps <= most_steps && (!progress_ || progress_(t)); };
-      run(*finer, times_, at_step, ShapesOf::the_scene);
-      if (!ended_well(finer->result)) break;  // it fails, or takes another order of work: what is known is said
-      ++error_.repeats;
-      again_.push_back(std::move(finer));
-      chain[0]->ratio = ratio;
-      chain.insert(chain.begin(), again_.back().get());
+      if (!repeat(chain, ratio)) break;  // what is known is said
       estimate();
     }
     for (std::size_t i = 0; i < chain[0]->track.rows.size(); ++i) {
@@ -385,6 +390,24 @@ class Checked {
       error_.quantities[i].time = told(row, chain[1], chain.size() > 2 ? chain[2] : nullptr, orders).last();
     }
     return *chain[0];
+  }
+
+  /// Runs the finest of a chain again, with steps shorter by the ratio, and sets that before the chain. Not where it
+  /// fails, or takes another order of work than the ratio lets expect.
+  bool repeat(std::vector<Seen*>& chain, double ratio) {
+    auto finer = std::make_unique<Seen>(Seen{longer_steps(chain[0]->scene, 1 / ratio)});
+    finer->scene.output = main_.scene.output;
+    finer->event_shapes = output_.event_shapes;
+    const double most_steps = most_growth * ratio * static_cast<double>(chain[0]->result.solver.steps);
+    double steps = 0;
+    const auto at_step = [&](double t) { return ++steps <= most_steps && (!progress_ || progress_(t)); };
+    run(*finer, times_, at_step, ShapesOf::the_scene);
+    again_.push_back(std::move(finer));
+    if (!ended_well(again_.back()->result)) return false;
+    ++error_.repeats;
+    chain[0]->ratio = ratio;
+    chain.insert(chain.begin(), again_.back().get());
+    return true;
   }
 
   void conclude(Seen& last) {
@@ -398,6 +421,10 @@ class Checked {
       error_.trusted_until = sample.t;
     }
     std::vector<Warning>& warnings = last.result.warnings;
+    if (!error_.time && scene.integrator.automatic && scene.analysis == Analysis::dynamics) {
+      warnings.push_back({WarningKind::error_in_time, "nothing tells what the steps make wrong: " + error_.no_time,
+                          "\"vlbeam converge\", or an /integrator with a type and steps of your own"});
+    }
     if (judged_time && *error_.time > error_.allowed) {
       warnings.push_back({WarningKind::error_in_time,
                           in_words("the steps may make places wrong by ", *error_.time,
@@ -423,6 +450,7 @@ class Checked {
   Companions time_, mesh_, again_;
   std::atomic<bool> stop_{false};
   std::atomic<double> allowed_work_{std::numeric_limits<double>::infinity()};
+  double work_ = 0;
   RunError error_;
   Places mesh_places_, time_places_;
 };
@@ -449,8 +477,12 @@ bool has_automatic_steps(const Scene& scene) {
   return scene.integrator.automatic || scene.analysis == Analysis::statics;
 }
 
-RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs) {
-  return Checked(scene, progress, output, jobs)();
+RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs,
+                      double* work) {
+  Checked checked(scene, progress, output, jobs);
+  RunResult result = checked();
+  if (work != nullptr) *work = checked.work();
+  return result;
 }
 
 }  // namespace vlbeam

@@ -18,7 +18,9 @@ bool has_automatic_steps(const Scene& scene);
 ///
 /// `jobs` runs go on at a time; digits do not depend on it. Of a run that fails or is interrupted nothing is told.
 /// Shapes are handed on once the last run has ended. Throws as simulate().
-RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs);
+/// `work`, if not null, becomes the steps times elements of all runs over those of the scene run once.
+RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs,
+                      double* work = nullptr);
 
 /// Error of the finest of three runs, by how far it is from the second one and that from the third, whose steps or
 /// elements are `ratio` and `next_ratio` times as large as those of the run before. Without the third one, `next` < 0,

@@ -13,6 +13,8 @@
 namespace vlbeam {
 namespace {
 
+constexpr double least_rtol = 1e-14;  // as /integrator/rtol allows: rounding
+
 // Accuracies of an automatic integrator that refinement starts from, so that time errs less than the mesh: tolerances
 // of 1e-9 for dopri5 and of 1e-7 of the length for generalized-alpha.
 constexpr double explicit_start = 2e-8, implicit_start = 1e-5;
@@ -73,7 +75,7 @@ Scene with_tolerance(const Scene& scene, double share) {
   IntegratorSpec& integrator = changed.integrator;
   // where the longest step allowed holds, the tolerance alone would refine nothing
   if (integrator.adaptive) integrator.step = std::min(integrator.step * portable::cbrt(share), scene.duration);
-  integrator.rtol *= share;
+  integrator.rtol = std::max(integrator.rtol * share, least_rtol);
   integrator.atol *= share;
   if (auto& atol = integrator.atol_by_kind) {
     atol->length *= share;
