@@ -9,6 +9,8 @@
 
 #include "core/error.hpp"
 #include "scene/simulate.hpp"
+#include "studies/harness/files.hpp"
+#include "studies/harness/json.hpp"
 #include "studies/harness/quantity.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "tests/folders.hpp"

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 Scene example() {
