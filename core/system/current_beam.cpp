@@ -189,15 +189,13 @@ void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
 }
 
 template <int D>
-typename CurrentBeam<D>::MarkMotion CurrentBeam<D>::mark_motion(std::size_t which, const Eigen::VectorXd& y,
-                                                                double t) const {
+double CurrentBeam<D>::mark_at(std::size_t which, const Eigen::VectorXd& y, double t) const {
   const auto guide = guided(which, t);
-  if (guide) return {guide->value, guide->rate};
-  const Eigen::Index mark = places_[which].mark;
-  if (!sections_.nut || joint(which).pitch == 0) return {y[mark], y[coordinates() + mark]};
+  if (guide) return guide->value;
+  const double x = y[places_[which].mark];
+  if (!sections_.nut || joint(which).pitch == 0) return x;
   const double* const angle = y.data() + angles();
-  const auto place = sections_.nut->place(*sections_.spin, angle, angle + coordinates(), y[mark]);
-  return {place.x, place.rate};
+  return sections_.nut->place(*sections_.spin, angle, angle + coordinates(), x).x;
 }
 
 template <int D>

@@ -124,12 +124,7 @@ class SceneSchemaBuilder {
     schema.update(number("number", option.range));
     schema["type"] = Json::array({"number", "object"});
     schema["description"] = description(option);
-    if (!option.required) {
-      schema["default"] = standard;
-      return true;
-    }
-    Json& required = object(path, path.size() - 1)["required"];
-    if (std::find(required.begin(), required.end(), path.back()) == required.end()) required.push_back(path.back());
+    schema["default"] = standard;
     return true;
   }
 

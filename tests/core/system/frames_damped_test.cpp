@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scene/simulate.hpp"
-#include "tests/core/support/by_greens_law.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -17,7 +16,7 @@ RunResult run(const Scene& scene) {
 
 /// A rod without inertia to speak of, as a torque sets in: its angle grows like 1 - exp(-t/c).
 TEST(FramesDamped, ARodCreepsIntoItsTwist) {
-  Scene scene = test::by_greens_law();
+  Scene scene;
   scene.dimension = 3;
   scene.gravity = {};
   scene.beam.space_law = SpaceLaw::frames;
@@ -40,7 +39,7 @@ TEST(FramesDamped, ARodCreepsIntoItsTwist) {
 
 /// A cantilever in the plane on which a mass may slide, as the plane's own law has it, and with frames.
 Scene cantilever(bool frames, StrainLaw law, bool mass) {
-  Scene scene = test::by_greens_law();
+  Scene scene;
   scene.gravity = {0, -9.81, 0};
   scene.beam.strain_law = law;
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e3, .EI = 2, .rhoA = 1};

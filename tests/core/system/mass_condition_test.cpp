@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "scene/build.hpp"
-#include "tests/core/support/by_greens_law.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -16,7 +15,7 @@ double condition(const Scene& scene) {
 }
 
 TEST(MassCondition, OfTwoFixedElementsIsThatOfTheTextbookMatrix) {
-  Scene scene = test::by_greens_law();
+  Scene scene;
   scene.beam.element = ElementKind::ancf;
   scene.beam.elements = 2;
   scene.start.type = SupportType::pin;
@@ -35,7 +34,7 @@ TEST(MassCondition, OfTwoFixedElementsIsThatOfTheTextbookMatrix) {
 }
 
 Scene sliding() {
-  Scene scene = test::by_greens_law();
+  Scene scene;
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = 4;
   scene.start.type = SupportType::clamp;
