@@ -23,8 +23,8 @@
 namespace vlbeam {
 namespace {
 
-constexpr double step_ratio = 2;              // of a companion's steps
-constexpr double longer_explicit_share = 32;  // the same of methods of order five
+constexpr double step_ratio = 2;                          // of a companion's steps
+constexpr double implicit_order = 3, explicit_order = 5;  // of a step's error
 // Errors in time fall at least in proportion to the steps; those of a mesh may hardly fall while it locks. In
 // equilibria neither events nor friction lower the order of a mesh: they are trusted with one less than that of cubic
 // elements.
@@ -115,8 +115,7 @@ Scene longer_steps(const Scene& scene, double ratio) {
     return longer;
   }
   const bool implicit = has_fixed_step(scene.integrator.type);
-  return with_tolerance(scene,
-                        implicit ? portable::pow(ratio, 3) : portable::pow(longer_explicit_share, std::log2(ratio)));
+  return with_tolerance(scene, portable::pow(ratio, implicit ? implicit_order : explicit_order));
 }
 
 /// A chain of companions, each coarser than the one before.
