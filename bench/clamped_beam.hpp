@@ -12,6 +12,7 @@ inline Scene clamped_beam(int elements, double elements_behind) {
   scene.beam.curve.end[0] = length * elements;
   scene.beam.elements = elements;
   scene.beam.element = ElementKind::ale_ancf;
+  scene.beam.strain_law = StrainLaw::green;  // the falling beam's
   scene.sliding_mass = SlidingMassSpec{};
   scene.sliding_mass->position = length * elements_behind;
   return scene;

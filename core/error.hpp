@@ -11,7 +11,7 @@ namespace vlbeam {
 inline std::string in_digits(double value, int digits) {
   std::ostringstream stream;
   stream.precision(digits);
-  stream << value;
+  stream << (value == 0 ? 0.0 : value);  // not -0
   return stream.str();
 }
 inline std::string six_digits(double value) { return in_digits(value, 6); }

@@ -10,9 +10,11 @@
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "scene/build.hpp"
+#include "scene/options.hpp"
 #include "scene/simulate.hpp"
 #include "scene/stiffness.hpp"
 #include "scene/time_function.hpp"
+#include "scene/timetable.hpp"
 #include "scene/validate.hpp"
 
 namespace vlbeam {
@@ -23,7 +25,7 @@ constexpr double turn = 2 * std::numbers::pi;
 // The longest step at an accuracy of 1e-4; it goes with the root of the accuracy, for the method is of second order.
 constexpr double usual_accuracy = 1e-4;
 constexpr double steps_a_swing = 650;     // under gravity, over the beam's length, or of what turns from the start
-constexpr double steps_a_ramp = 80;       // of what grows
+constexpr double steps_a_ramp = 80;       // of what grows, where that is all that happens
 constexpr double steps_a_period = 160;    // of what is driven or loaded periodically
 constexpr double steps_an_element = 5;    // while something that is driven passes it
 constexpr double steps_of_fading = 10;    // while friction passes through where it fades
@@ -33,8 +35,9 @@ constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drive
 constexpr double implicit_share = 0.05, explicit_share = 0.05;
 constexpr double share_with_events =
     0.028;  // where joints pass freely from element to element: a whip multiplies errors
-constexpr double largest_explicit_tolerance = 1e-7;  // of the state in its own units, small motions included
-constexpr double newton_share = 0.1, relative_share = 1e-3;
+constexpr double largest_explicit_tolerance = 1e-7;  // small motions included
+// What Newton's iteration leaves of a step has one sign: it turns stiff rods, and pushes what slides along a curve.
+constexpr double newton_share = 1e-4, relative_share = 1e-3;
 constexpr double automatic_rho_inf = 0.8;  // what events put into fast vibrations dies out
 constexpr double whole_motion = 0.1;       // of the beam's length: displacement from which tolerances hold in full
 constexpr double least_tolerance = 1e-11, least_newton_tolerance = 1e-10, least_rtol = 1e-14;
@@ -89,11 +92,11 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.error_estimate = ErrorEstimate::filtered;
   spec.step = std::min(two_digits(longest_implicit_step(scene) * std::sqrt(accuracy / usual_accuracy)), scene.duration);
   spec.rho_inf = automatic_rho_inf;
-  spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   // what errors of steps add up to falls with the power 2/3 of their tolerance
   const auto joints = sliding_joints(scene);
   const bool events = scene.length_control.enabled &&
                       std::ranges::any_of(joints, [](const SlidingJointSpec& joint) { return !joint.x; });
+  spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   const double share =
       (events ? share_with_events : implicit_share) * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;
@@ -112,7 +115,9 @@ IntegratorSpec explicit_method(const Scene& scene, double accuracy) {
   spec.automatic = true;
   spec.accuracy = accuracy;
   spec.rtol = std::clamp(explicit_share * accuracy, least_tolerance, largest_explicit_tolerance);
-  spec.atol = spec.rtol * std::min(1.0, whole_length(scene));  // of beams shorter than a metre, too
+  const double length = spec.rtol * whole_length(scene);
+  const double swing = steps_a_swing * longest_implicit_step(scene);  // an error of a velocity acts for a part of it
+  spec.atol_by_kind = AbsoluteTolerances{.length = length, .velocity = turn / swing * length, .angle = {}, .spin = {}};
   return spec;
 }
 
@@ -146,11 +151,7 @@ double longest_implicit_step(const Scene& scene) {
     if (time > 0) step = std::min(step, time);
   };
   const double L = whole_length(scene), element = standard_length(scene);
-  const auto driven = [&](const TimeSpec& f) {
-    at_most(1 / std::abs(f.frequency) / steps_a_period);
-    at_most(std::max(f.ramp, f.rate_ramp) / steps_a_ramp);
-    at_most(shortest_interval(f) / steps_a_ramp);
-  };
+  const auto driven = [&](const TimeSpec& f) { at_most(1 / std::abs(f.frequency) / steps_a_period); };
   const auto passing = [&](const TimeSpec& x) {
     driven(x);
     at_most(element / (std::abs(x.rate) + steepest(x) + turn * std::abs(x.frequency * x.amplitude)) / steps_an_element);
@@ -158,7 +159,6 @@ double longest_implicit_step(const Scene& scene) {
   const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
   at_most(turn * std::sqrt(L / g) / steps_a_swing);
   if (scene.initial_velocity) at_most(turn / std::abs(scene.initial_velocity->rotation) / steps_a_swing);
-  at_most(scene.gravity_ramp / steps_a_ramp);
   for (const SlidingJointSpec& joint : sliding_joints(scene)) {
     at_most(element / std::abs(joint.velocity) / steps_an_element);
     if (joint.friction) at_most(joint.friction->velocity / (joint.friction->coefficient * g) / steps_of_fading);
@@ -184,15 +184,18 @@ double longest_implicit_step(const Scene& scene) {
     for (const auto& node : scene.flow->nodes) passing(node.x);
   }
   if (std::isfinite(step)) return step;
-  const BeamSection section = build_section(scene.beam);
-  return L * std::sqrt(section.rhoA / section.stiffness.EA) / steps_of_a_wave;
+  const BeamSection section = build_section(scene);
+  const double waves = L * std::sqrt(section.rhoA / section.stiffness.EA) / steps_of_a_wave;
+  const double change = shortest_change(scene) / steps_a_ramp;
+  return std::isfinite(change) ? std::max(waves, change) : waves;
 }
 
 IntegratorSpec automatic_integrator(const Scene& scene, double accuracy) {
   if (!(scene.duration > 0)) refuse("/duration", number_text(scene.duration), "it must be a number > 0 [s]");
   IntegratorSpec implicit;
+  implicit.automatic = true;
   implicit.type = IntegratorType::generalized_alpha;
-  implicit.step = std::min(implicit.step, scene.duration);
+  implicit.step = scene.duration;
   Scene tried = scene;  // generalized-alpha knows all that a scene can have: what it refuses is wrong with the scene
   tried.integrator = implicit;
   validate(tried);

@@ -5,10 +5,12 @@
 namespace vlbeam {
 
 /// Longest step of "generalized-alpha" at an accuracy of 1e-4 [s]. It is the least of these times, each over the number
-/// of steps that automatic_integrator.cpp states for it: a swing under gravity over the beam's length; ramps; periods
-/// of loads, drives and motions; the time in which a driven or a thrown body passes an element; the time in which its
+/// of steps that automatic_integrator.cpp states for it: a swing under gravity over the beam's length; periods of
+/// loads, drives and motions; the time in which a driven or a thrown body passes an element; the time in which its
 /// velocity passes the range where friction fades. If there is none of these, it is a hundred times a wave's time along
-/// the beam. Duration and output do not matter, nor do the beam's own vibrations: the error estimate finds those.
+/// the beam, or an eightieth of the shortest ramp or interval of a table where that is longer. While these last, the
+/// timetable of the scene holds the steps shorter (scene/timetable.hpp). Duration and output do not matter, nor do the
+/// beam's own vibrations: the error estimate finds those.
 double longest_implicit_step(const Scene& scene);
 
 /// What `"integrator": "auto"` stands for: of "generalized-alpha" and "dopri5", as far as the scene allows both, the

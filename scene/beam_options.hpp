@@ -122,14 +122,23 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
            "exactly, at an uneven speed (ALE-RANCF; conics with the paper's weights); if not given even, in the "
            "setting ding-ouyang-2022 exact where the scene allows it",
            beam.axis, {.source = "Ding & Ouyang 2022, Eq. 43 is exact"});
-    choice("/beam/rest_shape", "where strains are measured from: the initial shape, or a straight beam",
+    choice("/beam/rest_shape",
+           "where strains are measured from: the initial shape, or a straight beam (paper is its old name)",
            beam.rest_shape);
-    choice("/beam/strain_law", "how stretch and curvature are measured", beam.strain_law);
-    choice("/beam/compression",
-           "whether a rope (EI = 0) bears compression: as it bears tension, or not, and goes slack", beam.compression);
-    number("/beam/slack_over", "-", {.low = 0, .high = 1, .low_open = true},
-           "Green or engineering strain: beyond it a rope pulls in full, below minus that not at all", beam.slack_over,
-           {.when = only_if("/beam/compression", beam.compression, Compression::none)});
+    choice("/beam/strain_law",
+           "how stretch and curvature are measured: as data sheets do, the force is EA times the elongation over the "
+           "length (engineering), or by Green's strain, as the papers do",
+           beam.strain_law);
+    choice(
+        "/beam/compression",
+        "whether a beam bears compression as it bears tension (full), or goes slack, as a rope does (none, EI = 0); if "
+        "not given a rope does not, but with the integrator energy-momentum",
+        beam.compression);
+    number(
+        "/beam/slack_over", "-", {.low = 0, .high = 1, .low_open = true},
+        "strain, by the scene's law, beyond which a rope pulls in full, and below minus that not at all; if not given "
+        "a tenth of what all weights and loads strain it, together, at most 1e-3; 1e-5 where there are none",
+        beam.slack_over);
     choice("/beam/rotary_inertia",
            "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,
            {.source = "Katz 2001"});
@@ -144,7 +153,7 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
            beam.out_of_plane);
     choice("/beam/axial_strain",
            "where an element's axial strain is summed: at all its quadrature points (full), or at both nodes and the "
-           "middle (lobatto), which bends slender beams without locking",
+           "middle (lobatto), which bends slender beams and ropes without locking",
            beam.axial_strain);
     number("/beam/quadrature_points", "-", Range::closed(0, 25),
            "Gauss points an element, 3 to 25; 0 takes the element's default", beam.quadrature_points);

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
+#include "core/length_control/segmentation.hpp"
 #include "core/parts/ground.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_frames.hpp"
@@ -75,6 +76,51 @@ std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
   }
   x.push_back(breaks.back());
   return x;
+}
+
+/// Nodes of the point masses: those given, or the nearest that nothing else needs, which moves to the place given.
+void place_masses(const Scene& scene, const std::vector<double>& breaks, InitialNodes& nodes) {
+  const int n = scene.beam.elements;
+  const double rounding = corner_rounding * breaks.back();
+  std::vector<int> taken = nodes.joints;
+  for (const PointMassSpec& mass : scene.point_masses) {
+    if (!mass.position) taken.push_back(mass.node);
+  }
+  const auto is_taken = [&](int k) {
+    return std::ranges::find(taken, k) != taken.end() ||
+           std::binary_search(breaks.begin(), breaks.end(), nodes.x[static_cast<std::size_t>(k)]);
+  };
+  for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
+    const PointMassSpec& mass = scene.point_masses[i];
+    if (!mass.position) {
+      nodes.masses.push_back(mass.node);
+      continue;
+    }
+    const std::string key = "/point_masses/" + std::to_string(i) + "/position";
+    if (!(*mass.position <= drawn_axis<3>(scene.beam.curve).length() + rounding)) {
+      throw InvalidInput(
+          key, number_text(*mass.position),
+          "it must be on the beam, at most " + number_text(drawn_axis<3>(scene.beam.curve).length()) + " [m]");
+    }
+    const double x = std::min(position_on_axis(scene.beam.curve, breaks, *mass.position), breaks.back());
+    const auto there = std::ranges::find_if(nodes.x, [&](double at) { return std::abs(at - x) <= rounding; });
+    int node = static_cast<int>(there - nodes.x.begin());
+    if (there == nodes.x.end()) {
+      node = 0;
+      for (int k = 1; k < n; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        if (is_taken(k) || !(nodes.x[at - 1] < x && x < nodes.x[at + 1])) continue;
+        if (node == 0 || std::abs(nodes.x[at] - x) < std::abs(nodes.x[static_cast<std::size_t>(node)] - x)) node = k;
+      }
+      if (node == 0) {
+        throw InvalidInput(key, number_text(*mass.position),
+                           "the mass needs a node of its own there: take more elements than " + std::to_string(n));
+      }
+      nodes.x[static_cast<std::size_t>(node)] = x;
+    }
+    taken.push_back(node);
+    nodes.masses.push_back(node);
+  }
 }
 
 }  // namespace
@@ -148,15 +194,16 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
     nodes.joints.push_back(node);
     nodes.x[static_cast<std::size_t>(node)] = x;
   }
+  place_masses(scene, breaks, nodes);
   return nodes;
 }
 
 std::vector<PointMass> build_point_masses(const Scene& scene, const std::vector<double>& breaks) {
   std::vector<PointMass> masses;
   if (scene.point_masses.empty()) return masses;
-  const std::vector<double> nodes = place_nodes(scene, breaks).x;
-  for (const PointMassSpec& spec : scene.point_masses) {
-    masses.push_back({nodes[static_cast<std::size_t>(spec.node)], spec.mass});
+  const InitialNodes nodes = place_nodes(scene, breaks);
+  for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
+    masses.push_back({nodes.x[static_cast<std::size_t>(nodes.masses[i])], scene.point_masses[i].mass});
   }
   return masses;
 }
@@ -218,13 +265,13 @@ std::shared_ptr<const Part<D>> build_ground(const Scene& scene, const BeamModel<
                                                  .depth = ground.depth.value_or(weight / ground.stiffness),
                                                  .damping = ground.damping,
                                                  .friction = ground.friction},
-                                     model.quadrature_points);
+                                     model.quadrature_points, model.masses, model.section.rhoA);
 }
 
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
-  model.section = build_section(scene.beam);
+  model.section = build_section(scene);
   model.formulation = scene.formulation;
   model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
@@ -254,7 +301,7 @@ BeamModel<D> build_model(const Scene& scene) {
     const double x = placed.x[static_cast<std::size_t>(placed.joints[model.joints.size()])];
     ModelJoint<D>& joint = model.joints.emplace_back();
     joint.law = SlidingJoint{spec.mass, joint_slopes(scene, spec), spec.friction};
-    if (spec.pulley) joint.law.turning = spec.pulley->inertia / (spec.pulley->radius * spec.pulley->radius);
+    if (spec.pulley) joint.law.turning.inertia = spec.pulley->inertia / (spec.pulley->radius * spec.pulley->radius);
     if (spec.support == SupportType::pin) joint.support = Support<D>::pin();
     if (spec.support == SupportType::clamp) {
       joint.support = Support<D>::direction_clamp(axis.tangent(x));
@@ -395,6 +442,20 @@ void add_feeds(const Scene& scene, ChainState<D>& chain) {
   }
 }
 
+/// What the slope of a node changes by as it goes along element k, past x: as the element bends there, but for what the
+/// rest curve, which the node follows, bends otherwise than the element does at rest.
+template <int D>
+Vec<double, D> bend_along(const Scene& scene, const ChainState<D>& chain, int k, double x) {
+  const WeightTransport transport = weight_transport(scene);
+  const Vec<double, D> bend = motion_at(chain, k, x, transport).r_xx;
+  if (!has_rest_shape(scene)) return bend;
+  ChainState<D> at_rest = chain;
+  at_rest.q = chain.rest;
+  const Vec<double, D> lacks =
+      build_axis<D>(scene).straightened().derivatives(x)[2] - motion_at(at_rest, k, x, transport).r_xx;
+  return bend + rotation_from_rest(chain, k) * lacks;
+}
+
 template <int D>
 void set_in_motion(const Scene& scene, ChainState<D>& chain) {
   const Axis<D> axis = build_axis<D>(scene);
@@ -420,8 +481,8 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     if (built && has_rest_shape(scene)) {
       before = behind = rate * axis.derivatives(x)[2];
     } else if (!straight) {
-      before = rate * motion_at(chain, j - 1, x, weight_transport(scene)).r_xx;
-      behind = rate * motion_at(chain, j, x, weight_transport(scene)).r_xx;
+      before = rate * bend_along(scene, chain, j - 1, x);
+      behind = rate * bend_along(scene, chain, j, x);
     }
     const Vec<double, D> turning = slope<D>(chain.rate.data(), j);
     before += turning;
@@ -430,7 +491,8 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     slope<D>(chain.rate.data(), j) = joint.kink ? before : Vec<double, D>((before + behind) / 2);
     if (held) position<D>(chain.rate.data(), j).setZero();
     if constexpr (D == 3) {  // triads of the node are those of the material points that pass it
-      if (has_frames(scene)) chain.sections[static_cast<std::size_t>(j)].spin += rate * twist_rate_at(chain, j);
+      if (has_frames(scene))
+        chain.sections[static_cast<std::size_t>(j)].spin += rate * turning_along(chain, axis.straightened(), j);
     }
     if (joints[i].support != SupportType::clamp) continue;
     const auto sleeve = Support<D>::direction_clamp(axis.tangent(x));

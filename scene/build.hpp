@@ -16,16 +16,19 @@ Vec<double, D> vector_of(const Point& point) {
 template <int D>
 Axis<D> build_axis(const Scene& scene);
 
-/// Material coordinates of the initial nodes, and which of them are the joints'. Throws InvalidInput where a joint has
-/// no node of its own between two knots of a NURBS curve.
+/// Material coordinates of the initial nodes, and which of them are the joints' and the point masses'. Throws
+/// InvalidInput where a joint has no node of its own between two knots of a NURBS curve.
 struct InitialNodes {
   std::vector<double> x;
   std::vector<int> joints = {};
+  std::vector<int> masses = {};  ///< of the scene's point masses
 };
 InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks);
 
 /// Of two bending stiffnesses that about the section's axis y, which is across the plane where there is one.
 BeamSection build_section(const BeamSpec& beam);
+/// The same, of a rope that goes slack if the scene's does.
+BeamSection build_section(const Scene& scene);
 SpinSection build_spin(const BeamSpec& beam);
 FrameSection build_frames(const BeamSpec& beam);
 

@@ -4,6 +4,7 @@
 #include "core/element/circular_shaft.hpp"
 #include "core/geometry/elementary.hpp"
 #include "scene/build.hpp"
+#include "scene/slack.hpp"
 
 namespace vlbeam {
 namespace {
@@ -55,9 +56,14 @@ BeamSection build_section(const BeamSpec& beam) {
   }
   section.stiffness.EI = bending.EI_y;
   section.stiffness.law = beam.strain_law;
-  if (beam.compression == Compression::none) section.stiffness.slack_over = beam.slack_over;
   section.damping = beam.material.damping;
   section.curvature_regularization = beam.material.curvature_regularization;
+  return section;
+}
+
+BeamSection build_section(const Scene& scene) {
+  BeamSection section = build_section(scene.beam);
+  if (compression(scene) == Compression::none) section.stiffness.slack_over = slack_over(scene);
   return section;
 }
 

@@ -1,8 +1,10 @@
 #include "scene/build_winch.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "core/parts/drum.hpp"
+#include "core/statics/steady_flow.hpp"
 #include "scene/build.hpp"
 #include "scene/time_function.hpp"
 
@@ -21,9 +23,27 @@ TimeFunction push_of(const SupportSpec& end) {
   return [pull = time_function(*end.held_tension)](double t) -> Prescribed { return {-pull(t).value, 0, 0}; };
 }
 
-/// Of its drum, as a mass that moves with the beam [kg].
-double turning_of(const SupportSpec& end) {
-  return end.drum ? end.drum->inertia / (end.drum->radius * end.drum->radius) : 0;
+/// The stretch that a tension which is held gives the beam at the outlet; nothing where that is not given.
+std::function<double(double t)> stretch_of(const SupportSpec& end, const Stiffness& axial) {
+  if (!end.held_tension || end.winding != Winding::stretched) return {};
+  return [pull = time_function(*end.held_tension), EA = axial.EA, law = axial.law](double t) {
+    return stretch_under(pull(t).value, EA, law);
+  };
+}
+
+/// Of its drum, as a mass that moves with the beam; it falls by what runs off.
+Turning turning_of(const SupportSpec& end, double rhoA, double from, double outwards) {
+  if (!end.drum || end.drum->inertia == 0) return {};
+  return {.inertia = end.drum->inertia / (end.drum->radius * end.drum->radius),
+          .by_length = -outwards * rhoA,
+          .from = from,
+          .stretched = end.winding == Winding::stretched};
+}
+
+/// How much beam may run off it [m]; nothing where none is wound up on it.
+std::optional<double> stored_on(const SupportSpec& end, double rhoA) {
+  if (!end.drum || end.drum->inertia == 0) return std::nullopt;
+  return end.drum->wound.value_or(end.drum->inertia / (end.drum->radius * end.drum->radius * rhoA));
 }
 
 std::optional<EndStop> stop_of(const SupportSpec& end) {
@@ -55,9 +75,16 @@ void add_winch(const Scene& scene, bool at_start, double length, BeamModel<D>& m
     });
     return;
   }
-  joint.law.turning = turning_of(end);
-  model.parts.push_back(
-      std::make_shared<Drum<D>>(place, model.section.rhoA, push_of(end), model.loads.line_force, stop_of(end)));
+  joint.law.turning = turning_of(end, model.section.rhoA, place.from, place.outwards());
+  typename Drum<D>::Law law{.section = model.axis_section(),
+                            .winding = end.winding,
+                            .element_length = standard_length(scene),
+                            .push = push_of(end),
+                            .line = model.loads.line_force,
+                            .stop = stop_of(end),
+                            .stretch = stretch_of(end, model.section.stiffness)};
+  if (const auto stored = stored_on(end, model.section.rhoA)) law.store = typename Drum<D>::Store{*stored};
+  model.parts.push_back(std::make_shared<Drum<D>>(place, std::move(law)));
 }
 
 template <int D>
@@ -69,18 +96,29 @@ WinchSample look_at_winch(const Scene& scene, bool at_start, const BeamModel<D>&
   WinchSample sample{};
   sample.length = out * (joint.x - place.from);
   sample.rate = out * joint.rate;
-  double push = 0;  // on the beam, along what is paid out
+  const BeamSection section = model.axis_section();
+  Vec<double, D> line = Vec<double, D>::Zero();
+  if (model.loads.line_force) line = model.loads.line_force(t);
+  const double potential = potential_fed<D>(section.rhoA, gravity, line, joint.position);
+  const Winding winding = end.feed ? Winding::unstretched : end.winding;
+  Vec<double, D> slope = joint.slope;
+  if (const auto given = stretch_of(end, section.stiffness)) slope = given(t) * Vec<double, D>::UnitX();
+  const ComingIn<double, D> matter(section, winding, sample.rate, slope);
+  double push = 0;  // on the beam, along what is paid out, less what comes in brings
   if (end.feed) {
-    Vec<double, D> line = Vec<double, D>::Zero();
-    if (model.loads.line_force) line = model.loads.line_force(t);
-    push = out * forces.guiding[static_cast<std::size_t>(joint.index)] -
-           energy_fed<D>(model.section.rhoA, joint.rate, gravity, line, joint.position);
+    push = out * forces.guiding[static_cast<std::size_t>(joint.index)] - matter.kinetic - potential;
   } else {
+    const Turning& turning = model.joints[static_cast<std::size_t>(joint.index)].law.turning;
     const auto& accelerations = forces.mark_accelerations;
-    push = push_of(end)(t).value - turning_of(end) * out * (at_start ? accelerations.front() : accelerations.back());
+    const double a = at_start ? accelerations.front() : accelerations.back();
+    push = push_of(end)(t).value * matter.stretch -
+           out * (turning.against<D>(joint.x, joint.slope) * a +
+                  turning.lag<D>(joint.x, joint.rate, joint.slope, joint.slope_rate));
     if (const auto stop = stop_of(end)) push += stop->push(sample.length) - stop->drag(sample.length, sample.rate);
   }
-  sample.tension = -push;
+  sample.tension = winding == Winding::stretched
+                       ? -push / matter.stretch
+                       : outlet_tension<D>(section, push + matter.kinetic, sample.rate, joint.slope);
   sample.power = push * sample.rate;
   return sample;
 }

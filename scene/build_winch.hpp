@@ -19,7 +19,7 @@ template <int D>
 struct JointNow {
   int index;       ///< which of the model's
   double x, rate;  ///< material coordinate [m] and its rate [m/s]
-  Vec<double, D> position;
+  Vec<double, D> position, slope, slope_rate;
 };
 
 /// What the winch there does at an instant, by its joint and the accelerations and forces that belong to it.

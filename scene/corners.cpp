@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "core/error.hpp"
 #include "scene/build.hpp"
 
 namespace vlbeam {
@@ -31,7 +33,7 @@ bool may_have_knots(const Scene& scene) {
 /// The break of an axis that stands at x, or x.
 double snapped(const std::vector<double>& breaks, double x) {
   for (const double at : breaks) {
-    if (std::abs(at - x) <= at_corner * breaks.back()) return at;
+    if (std::abs(at - x) <= corner_rounding * breaks.back()) return at;
   }
   return x;
 }
@@ -98,7 +100,7 @@ std::vector<Knot> knots(const Scene& scene) {
   const auto kinked = [](const SlidingJointSpec& joint) { return joint.slopes != JointSlopes::continuous; };
   if (rope ? !std::ranges::all_of(joints, kinked) : std::ranges::none_of(joints, kinked)) return result;
   const auto drawn = drawn_axis<3>(scene.beam.curve);
-  const auto [x, taken] = place_nodes(scene, drawn.breaks());
+  const auto [x, taken, masses] = place_nodes(scene, drawn.breaks());
   const auto add = [&, &taken = taken](int node) {
     if (node <= 0 || node >= scene.beam.elements || std::ranges::find(taken, node) != taken.end()) return;
     const auto same = [node](const Knot& knot) { return knot.node == node; };
@@ -106,7 +108,7 @@ std::vector<Knot> knots(const Scene& scene) {
       result.push_back({node, rope ? JointSlopes::free : JointSlopes::continuous});
     }
   };
-  for (const PointMassSpec& mass : scene.point_masses) add(mass.node);
+  for (const int node : masses) add(node);
   for (const LoadSpec& load : scene.loads) {
     if (rope && load.type == LoadType::force && load.at == LoadPlace::node) add(load.node);
   }
@@ -132,6 +134,47 @@ std::vector<double> rounded_corners(const Scene& scene, const Axis<3>& drawn) {
     if (!joint && !knot) round.push_back(at);
   }
   return round;
+}
+
+void place_at_corners(Scene& scene) {
+  if (sliding_joint(scene) == nullptr) return;
+  const auto each = [&scene](const auto& place) {
+    if (scene.sliding_mass) place(*scene.sliding_mass, std::string("/sliding_mass"));
+    for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
+      place(static_cast<SlidingMassSpec&>(scene.sliding_joints[i]), "/sliding_joints/" + std::to_string(i));
+    }
+  };
+  const CurveSpec& curve = scene.beam.curve;
+  std::vector<double> kinks, corners;
+  const bool drawable = curve.type != CurveType::polyline ||
+                        (curve.points.size() > 2 && std::ranges::adjacent_find(curve.points) == curve.points.end());
+  if (may_have_corners(curve) && drawable) {
+    try {
+      const auto drawn = drawn_axis<3>(curve);
+      kinks = corners = drawn.kinks();
+      if (curve.type == CurveType::polyline) corners.assign(drawn.breaks().begin() + 1, drawn.breaks().end() - 1);
+    } catch (const NurbsError&) {
+      return;  // such a curve is refused
+    }
+  }
+  each([&](SlidingMassSpec& joint, const std::string& key) {
+    if (!joint.at_corner) return;
+    const int corner = joint.at_corner->corner;
+    if (corner < 1 || corner > static_cast<int>(corners.size())) {
+      throw InvalidInput(key + "/position/corner", std::to_string(corner),
+                         corners.empty() ? "the beam's axis has no corner"
+                                         : "the beam's axis has corners 1 to " + std::to_string(corners.size()));
+    }
+    joint.position = corners[static_cast<std::size_t>(corner) - 1];
+    joint.at_corner.reset();
+  });
+  if (kinks.empty()) return;
+  const double near = means_corner * standard_length(scene);
+  each([&](SlidingMassSpec& joint, const std::string&) {
+    for (const double at : kinks) {
+      if (std::abs(joint.position - at) <= near) joint.position = at;
+    }
+  });
 }
 
 double position_on_axis(const CurveSpec& curve, const std::vector<double>& breaks, double position) {

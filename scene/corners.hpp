@@ -20,7 +20,13 @@ Nurbs<D> drawn_nurbs(const CurveSpec& curve);
 bool may_have_corners(const CurveSpec& curve);
 
 /// How near a joint stands to a corner that is its own, over the length of the beam.
-constexpr double at_corner = 1e-9;
+constexpr double corner_rounding = 1e-9;
+/// How near a written position is that means the corner, over the standard length of an element.
+constexpr double means_corner = 1e-2;
+
+/// Gives joints that are placed by a corner of the drawn axis its material coordinate, and those of a position next to
+/// a corner exactly that. Throws InvalidInput for a corner that is not there.
+void place_at_corners(Scene& scene);
 
 /// A node of a rope with two slopes, as at a joint that keeps its place. A lumped mass hangs there, a force acts, or
 /// the drawn axis has a corner that no joint could reach. Where joints with kinks slide along a beam that bends, its

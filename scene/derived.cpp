@@ -5,6 +5,7 @@
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
+#include "scene/slack.hpp"
 
 namespace vlbeam {
 namespace {
@@ -28,6 +29,7 @@ Scene scene_in(SceneSetting setting) {
   if (setting == SceneSetting::standard) return scene;
   scene.beam.element = ElementKind::ale_rancf;
   scene.beam.rest_shape = RestShape::paper;
+  scene.beam.strain_law = StrainLaw::green;
   scene.formulation = Formulation::virtual_work;
   scene.weights = WeightTransport::frozen;
   scene.beam.axial_strain = AxialStrain::full;
@@ -66,21 +68,35 @@ int quadrature_points(const Scene& scene) {
 int points_of_polynomials(const Scene& scene) {
   if (scene.beam.polynomial_points > 0) return scene.beam.polynomial_points;
   if (scene.beam.quadrature_points > 0) return scene.beam.quadrature_points;
-  // where a rope goes slack its law bends sharply, and is no polynomial of anything
-  return scene.beam.compression == Compression::none ? quadrature_points(scene) : polynomial_points;
+  // where a rope goes slack its law bends sharply, and is no polynomial of anything; it may have points of its own
+  const bool bends_sharply = compression(scene) == Compression::none && axial_strain(scene) == AxialStrain::full;
+  return bends_sharply ? quadrature_points(scene) : polynomial_points;
 }
 
 AxialStrain axial_strain(const Scene& scene) {
   const double EA = build_section(scene.beam).stiffness.EA, l = standard_length(scene);
   const FrameSection bending = build_frames(scene.beam);
   const double EI = scene.dimension == 3 ? std::min(bending.EI_y, bending.EI_z) : bending.EI_y;
-  const bool locks = EI > 0 && EA * l * l > slender * EI;
+  // the outlet of a winch that runs freely pumps what sampled strain leaves without stiffness in a slack rope
+  const bool freely = scene.start.winds_freely() || scene.end.winds_freely();
+  const bool locks = EI > 0 ? EA * l * l > slender * EI : !has_bare_end(scene) && !freely;
   return scene.beam.axial_strain.value_or(locks ? AxialStrain::lobatto : AxialStrain::full);
 }
 
 double beam_length(const Scene& scene) { return build_axis<3>(scene).length(); }
 
 double standard_length(const Scene& scene) { return beam_length(scene) / scene.beam.elements; }
+
+StaticJoints static_joints(const Scene& scene) {
+  const auto is_ring = [](const SlidingJointSpec& joint) {
+    return joint.support == SupportType::pin && !joint.x && !joint.pulley && !joint.friction && joint.velocity == 0;
+  };
+  const auto& joints = scene.sliding_joints;
+  const bool rings = !build_section(scene.beam).bends() && !scene.sliding_mass && !joints.empty() &&
+                     std::ranges::all_of(joints, is_ring) && !fed(scene) && scene.blocks.empty();
+  const bool released = scene.analysis == Analysis::statics || rings;
+  return scene.statics.joints.value_or(released ? StaticJoints::released : StaticJoints::held);
+}
 
 AxisForm axis_form(const Scene& scene) {
   const bool curved = is_curved(scene);
@@ -97,8 +113,11 @@ CutPolicy cut_policy(const Scene& scene) {
 
 MergePolicy merge_policy(const Scene& scene) {
   const bool relaxes = axial_strain(scene) == AxialStrain::lobatto && !has_frames(scene);
+  // In space a point fits three equations to three weights: those of a nearly straight element become anything, and
+  // curvature and torsion at two points of an element with such weights are no longer its energy.
   const MergePolicy otherwise = relaxes                    ? MergePolicy::relaxed
                                 : is_curved_at_rest(scene) ? MergePolicy::rest_arc
+                                : has_frames(scene)        ? MergePolicy::unit
                                                            : MergePolicy::point_fit;
   return scene.length_control.merge.value_or(otherwise);
 }

@@ -18,7 +18,7 @@ int quadrature_points(const Scene& scene);
 int points_of_polynomials(const Scene& scene);
 
 /// Where the axial strain of the scene's elements is summed. By default: at nodes and middle if EA l^2/EI of an element
-/// of standard length is above 100, else at all points; at all points of ropes (EI = 0), too.
+/// of standard length is above 100; so of ropes (EI = 0) without a bare end or a winch that runs freely; else at all.
 AxialStrain axial_strain(const Scene& scene);
 
 /// Length of the beam [m] and standard element length L_std [m].
@@ -42,7 +42,7 @@ AxisForm axis_form(const Scene& scene);
 
 /// Where a cut's new node is, and how the scene's elements are merged. By default both are relaxed with sampled axial
 /// strain. Without it cuts are exact; merges are by the paper's fit, or with the weights of the arc if the beam is
-/// curved at rest.
+/// curved at rest, or with unit weights if its sections have frames.
 CutPolicy cut_policy(const Scene& scene);
 MergePolicy merge_policy(const Scene& scene);
 
@@ -101,11 +101,9 @@ inline bool starts_in_equilibrium(const Scene& scene) {
   return scene.analysis == Analysis::dynamics && scene.initial_shape == InitialShape::equilibrium;
 }
 
-/// What becomes of joints while an equilibrium is sought: released in statics, held where a motion starts from it.
-inline StaticJoints static_joints(const Scene& scene) {
-  return scene.statics.joints.value_or(scene.analysis == Analysis::statics ? StaticJoints::released
-                                                                           : StaticJoints::held);
-}
+/// What becomes of joints while an equilibrium is sought: released in statics. Where a motion starts from it they are
+/// held, but for a rope that runs through rings alone: an equilibrium is one of the rings, too.
+StaticJoints static_joints(const Scene& scene);
 
 /// How weights follow the ends of the scene's elements: by default they are frozen, but transported if the beam is
 /// curved at rest.

@@ -1,5 +1,6 @@
 #include "scene/initial_equilibrium.hpp"
 
+#include "core/error.hpp"
 #include "scene/build.hpp"
 
 namespace vlbeam {
@@ -55,8 +56,11 @@ EquilibriumOptions equilibrium_options(const Scene& scene) {
           .conditions_at_held = starts_in_equilibrium(scene)};
 }
 
+namespace {
+
 template <int D>
-std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, const std::function<bool()>& goes_on) {
+std::optional<InitialEquilibrium<D>> found_by(const Scene& scene, const EquilibriumOptions& options,
+                                              const std::function<bool()>& goes_on) {
   const ChainState<D> shape = build_shape<D>(scene);
   BeamSystem<D> system(at_start(build_model<D>(scene)), shape);
   std::optional<Equilibrium> last;
@@ -67,9 +71,23 @@ std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, con
     last.reset();
     return false;
   };
-  trace_equilibria<D>(system, equilibrium_options(scene), on_point, counters);
+  trace_equilibria<D>(system, options, on_point, counters);
   if (!last) return std::nullopt;
   return InitialEquilibrium<D>{system.chain(last->y, 0), static_sample_of(*last)};
+}
+
+}  // namespace
+
+template <int D>
+std::optional<InitialEquilibrium<D>> initial_equilibrium(const Scene& scene, const std::function<bool()>& goes_on) {
+  EquilibriumOptions options = equilibrium_options(scene);
+  try {
+    return found_by<D>(scene, options, goes_on);
+  } catch (const ComputationFailed&) {
+    if (!options.release || scene.statics.joints) throw;
+  }
+  options.release = false;  // the rings have none: they are held until t = 0, and the run says so
+  return found_by<D>(scene, options, goes_on);
 }
 
 template std::optional<InitialEquilibrium<2>> initial_equilibrium(const Scene&, const std::function<bool()>&);

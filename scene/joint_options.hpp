@@ -63,8 +63,19 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
                 at.drum)) {
       number(drum + "/radius", "m", Range::positive(), "of the drum", at.drum->radius, {.required = true});
       number(drum + "/inertia", "kg m^2", Range::non_negative(),
-             "moment of inertia about its axis, with what is wound up", at.drum->inertia, {.required = true});
+             "moment of inertia about its axis, with what is wound up at t = 0; it falls as beam runs off",
+             at.drum->inertia, {.required = true});
       time_function(drum + "/torque", "N m", at.drum->torque);
+      number(drum + "/wound", "m", Range::non_negative(),
+             "length of beam wound up at t = 0: the run ends when all of it has run off; left out, as much as the "
+             "inertia can be",
+             at.drum->wound);
+    }
+    if (at.winds_freely()) {
+      choice(entry + "/winds",
+             "how beam lies on a winch with a drum or a held_tension: stretched as at the outlet, so that the winch "
+             "holds the tension of the beam; or unstretched, so that it pulls in what is unstretched",
+             at.winding);
     }
     const std::string stop = entry + "/end_stop";
     if (present(stop, "what stops a winch with a drum or a held_tension, smoothly, on either side", at.end_stop)) {
@@ -82,9 +93,19 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
     const std::string friction = at + "/friction", at_support = at + "/at_support";
     number(at + "/mass", "kg", massless ? Range::non_negative() : Range::positive(), "mass", mass.mass,
            {.source = example1, .required = !massless});
-    number(at + "/position", "m", Range::positive(),
-           "material coordinate at t = 0, measured along the beam from its start", mass.position,
-           {.source = example1, .required = true});
+    const std::string position = at + "/position";
+    const Option line{.unit = "m", .source = example1, .range = Range::positive(), .required = true};
+    const bool at_corner = this->visitor.number_or(
+        Lines::named(
+            line, position,
+            "material coordinate at t = 0, measured along the beam from its start, or an object: the corner of "
+            "the axis where it stands"),
+        mass.position, mass.at_corner);
+    if (at_corner) {
+      number(position + "/corner", "-", Range::closed(1, 1e6),
+             "which inner point of a polyline, or which kink of a NURBS curve, counted from the start",
+             mass.at_corner->corner, {.required = true});
+    }
     number(at + "/velocity", "m/s", {}, "rate of the material coordinate at t = 0", mass.velocity);
     choice(at + "/slopes",
            "the beam's slopes before and behind the mass: one vector, one direction with two magnitudes, a kink with "

@@ -31,7 +31,8 @@ constexpr auto names(CurveType) {
   return std::to_array<Named<CurveType>>({{line, "line"}, {arc, "arc"}, {nurbs, "nurbs"}, {polyline, "polyline"}});
 }
 constexpr auto names(RestShape) {
-  return std::to_array<Named<RestShape>>({{RestShape::as_built, "as-built"}, {RestShape::paper, "paper"}});
+  return std::to_array<Named<RestShape>>(
+      {{RestShape::as_built, "as-built"}, {RestShape::straight, "straight"}, {RestShape::paper, "paper"}});
 }
 constexpr auto names(AxisForm) {
   return std::to_array<Named<AxisForm>>({{AxisForm::even, "even"}, {AxisForm::exact, "exact"}});
@@ -81,6 +82,9 @@ constexpr auto names(StaticJoints) {
 constexpr auto names(LoadPlace) {
   using enum LoadPlace;
   return std::to_array<Named<LoadPlace>>({{node, "node"}, {point, "point"}, {beam, "beam"}});
+}
+constexpr auto names(Winding) {
+  return std::to_array<Named<Winding>>({{Winding::stretched, "stretched"}, {Winding::unstretched, "unstretched"}});
 }
 constexpr auto names(ClampType) {
   return std::to_array<Named<ClampType>>({{ClampType::direction, "direction"}, {ClampType::full, "full"}});
@@ -178,6 +182,8 @@ constexpr auto names(WarningKind) {
                                             {buckled_elements, "buckled-elements"},
                                             {hidden_stability, "hidden-stability"},
                                             {assumed_material, "assumed-material"},
+                                            {rounded_corner, "rounded-corner"},
+                                            {held_ring, "held-ring"},
                                             {ringing_friction, "ringing-friction"},
                                             {error_in_time, "error-in-time"},
                                             {error_of_mesh, "error-of-mesh"},

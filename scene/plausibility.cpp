@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "scene/build.hpp"
+#include "scene/corners.hpp"
 #include "scene/derived.hpp"
+#include "scene/slack.hpp"
 
 namespace vlbeam {
 namespace {
@@ -15,6 +17,7 @@ constexpr double large_strains = 0.1;
 constexpr double lightest = 10;       // [kg/m^3], of foams
 constexpr double force_noise = 1e-3;  // of the largest axial force
 constexpr std::size_t least_samples = 8;
+constexpr double enlarged = 1.1;  // of friction by the swing of what it goes by
 
 template <class... Parts>
 std::string text_of(const Parts&... parts) {
@@ -36,9 +39,18 @@ void check_strain(const Scene& scene, const RunResult& result, std::vector<Warni
   };
   const auto at = std::ranges::max_element(result.samples, {}, largest);
   if (!(largest(*at) > large_strains)) return;
+  const auto strained =
+      std::ranges::count_if(result.samples, [&](const Sample& sample) { return largest(sample) > large_strains; });
+  const std::string message = text_of("the beam is strained by ", 100 * largest(*at), " % at ", when(scene, at->t));
+  // a wrong unit strains the beam as long as anything pulls at it
+  if (2 * strained < std::ssize(result.samples)) {
+    warnings.push_back({WarningKind::large_strain, message + ", for a while: by what strikes or jerks it there",
+                        "/beam/material/damping takes waves out; the strain laws know no limit of the material"});
+    return;
+  }
   const Section::Type type = scene.beam.section.type;
   warnings.push_back(
-      {WarningKind::large_strain, text_of("the beam is strained by ", 100 * largest(*at), " % at ", when(scene, at->t)),
+      {WarningKind::large_strain, message,
        type == Section::Type::circle      ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
        : type == Section::Type::rectangle ? "is /beam/material/youngs_modulus in Pa, and /beam/section in m?"
                                           : "is /beam/section/EA in N?"});
@@ -71,8 +83,10 @@ void check_section(const Scene& scene, std::vector<Warning>& warnings) {
   }
 }
 
-/// Compressed by more than Euler's load of one element between hinges, a beam folds between its nodes.
+/// Compressed by more than Euler's load of one element between hinges, a beam folds between its nodes. A rope that goes
+/// slack is not compressed, but for what damps it.
 void check_compression(const Scene& scene, const RunResult& result, std::vector<Warning>& warnings) {
+  if (compression(scene) == Compression::none) return;
   double least = 0, largest = 0, at = 0;
   for (const Sample& sample : result.samples) {
     const auto& [low, high] = sample.strains.axial_force;
@@ -91,11 +105,27 @@ void check_compression(const Scene& scene, const RunResult& result, std::vector<
                  : "a rope bears no compression: keep it taut, or give it /beam/section/EI"});
 }
 
+/// Friction goes by the size of the force across the beam: where that swings it is larger than by its mean.
 void check_friction(const Scene& scene, const RunResult& result, std::vector<Warning>& warnings) {
-  if (scene.beam.material.damping > 0 || result.samples.size() < least_samples) return;
   const auto joints = sliding_joints(scene);
+  const auto warn = [&](const std::string& message) {
+    warnings.push_back(
+        {WarningKind::ringing_friction,
+         message + ": a vibration of the beam " + (scene.beam.material.damping > 0 ? "" : "that nothing damps ") +
+             "decides how far it slides",
+         scene.beam.material.damping > 0 ? "more /beam/material/damping, or more elements" : "/beam/material/damping"});
+  };
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].friction) continue;
+    const FrictionPressure seen = i < result.pressures.size() ? result.pressures[i] : FrictionPressure{};
+    if (seen.way > 0) {
+      if (!(seen.size > enlarged * seen.mean)) continue;
+      warn(text_of("the force across the beam at ", joint_key(scene, i),
+                   ", by which friction goes, swings: its size is ", seen.size, " N on average, and it pushes with ",
+                   seen.mean, " N"));
+      continue;
+    }
+    if (result.samples.size() < least_samples) continue;
     const auto normal = [&](const Sample& sample) -> const JointSample* {
       const auto& joint = sample.joints.empty() ? sample.joint : sample.joints[i].on_beam;
       return joint ? &*joint : nullptr;
@@ -112,13 +142,50 @@ void check_friction(const Scene& scene, const RunResult& result, std::vector<War
       ++count;
     }
     if (count < static_cast<int>(least_samples) || !(swing > sum)) continue;
-    warnings.push_back({WarningKind::ringing_friction,
-                        text_of("the force across the beam at ", joint_key(scene, i),
-                                ", by which friction goes, swings from sample to sample by ", swing / (count - 1),
-                                " N about a mean of ", sum / count,
-                                " N: a vibration of the beam that nothing damps decides how far it slides"),
-                        "/beam/material/damping"});
+    warn(text_of("the force across the beam at ", joint_key(scene, i),
+                 ", by which friction goes, swings from sample to sample by ", swing / (count - 1),
+                 " N about a mean of ", sum / count, " N"));
   }
+}
+
+/// A corner that is rounded off next to a joint was most likely meant for it.
+void check_corners(const Scene& scene, std::vector<Warning>& warnings) {
+  if (!may_have_corners(scene.beam.curve)) return;
+  const auto drawn = drawn_axis<3>(scene.beam.curve);
+  const auto joints = sliding_joints(scene);
+  const auto& breaks = drawn.breaks();
+  for (const double at : rounded_corners(scene, drawn)) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const double beside = std::abs(joints[i].position - at);
+      if (!(beside < standard_length(scene))) continue;
+      const auto& among = scene.beam.curve.type == CurveType::polyline ? breaks : drawn.kinks();
+      const auto which =
+          std::ranges::lower_bound(among, at) - among.begin() + (scene.beam.curve.type == CurveType::polyline ? 0 : 1);
+      warnings.push_back(
+          {WarningKind::rounded_corner,
+           text_of("the rope's corner at ", at, " m is rounded off, for ", joint_key(scene, i), " is ", beside,
+                   " m beside it: the rope is shorter than it is drawn"),
+           text_of("\"position\": {\"corner\": ", which, "}, and slopes that are free or equal-stretch")});
+    }
+  }
+}
+
+/// A ring that something has to hold until the motion starts: what starts is no equilibrium of it.
+void check_held_rings(const Scene& scene, const RunResult& result, std::vector<Warning>& warnings) {
+  if (!starts_in_equilibrium(scene) || !is_rope(scene.beam)) return;
+  const auto& seen = result.samples.front().equilibrium;
+  const auto joints = sliding_joints(scene);
+  const bool ring = std::ranges::any_of(joints, [](const SlidingJointSpec& joint) {
+    return joint.support == SupportType::pin && !joint.x && !joint.friction;
+  });
+  double largest = 0;
+  for (const double force : result.samples.front().strains.axial_force) largest = std::max(largest, std::abs(force));
+  if (!ring || !seen || !(std::abs(seen->holding_force) > force_noise * largest)) return;
+  warnings.push_back(
+      {WarningKind::held_ring,
+       text_of("the equilibrium that the motion starts from is none of the rings: until t = 0 ",
+               std::abs(seen->holding_force), " N hold the rope in one, and then it is let go"),
+       "another position of the ring on the rope, or \"statics\": {\"joints\": \"held\"} if it is meant so"});
 }
 
 /// Of the last equilibrium, or of that from which a motion starts.
@@ -137,11 +204,13 @@ std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
   std::vector<Warning> warnings;
   check_material(scene, warnings);
   check_section(scene, warnings);
+  check_corners(scene, warnings);
   if (result.samples.empty()) return warnings;
   check_strain(scene, result, warnings);
   check_compression(scene, result, warnings);
   check_friction(scene, result, warnings);
   check_stability(scene, result, warnings);
+  if (!scene.statics.joints) check_held_rings(scene, result, warnings);
   return warnings;
 }
 

@@ -177,7 +177,9 @@ enum class WarningKind {
   buckled_elements,        ///< compressed beyond what a single element bears: it is slack, and its folds have no mesh
   hidden_stability,        ///< rounding hides whether an equilibrium is stable
   assumed_material,        ///< a file left out what the beam is of: the paper's soft one is run
-  ringing_friction,        ///< the force that friction goes by is that of a vibration which nothing damps
+  rounded_corner,          ///< a rope's corner beside a joint is rounded off: the joint is not on the corner
+  held_ring,               ///< a motion starts from an equilibrium in which something has to hold a ring on its rope
+  ringing_friction,        ///< the force that friction goes by is that of a vibration
   error_in_time,           ///< the steps err more than the accuracy asked allows
   error_of_mesh,           ///< the elements err by more than 1 % of the motion
   sudden_gravity,          ///< gravity that acts at once on an unstrained beam makes it vibrate
@@ -188,6 +190,13 @@ struct Warning {
   WarningKind kind;
   std::string message;  ///< what has happened, with numbers
   std::string remedy;   ///< what to try
+};
+
+/// The force across the beam by which friction at a joint goes, from step to step, over the way that it slides.
+struct FrictionPressure {
+  double size = 0;  ///< mean of its magnitude [N]
+  double mean = 0;  ///< magnitude of what it is over some steps [N]: less where it swings
+  double way = 0;   ///< that it slides [m]
 };
 
 /// Wall times [s]; never part of a committed report.
@@ -204,10 +213,11 @@ struct RunResult {
   std::vector<Sample> samples;
   std::vector<Configuration> configurations;
   std::vector<Event> events;
-  double max_kinetic = 0;           ///< largest kinetic energy of the samples [J]
-  double max_energy_drift = 0;      ///< over the samples: max |E - E_0 - supplied - jumps|, the model's own points [J]
-  ConstraintResidual slopes;        ///< largest of the samples: how far a kinked joint's slopes are from what ties them
-  std::vector<double> frequencies;  ///< about the last equilibrium [Hz]; see natural_frequencies()
+  double max_kinetic = 0;       ///< largest kinetic energy of the samples [J]
+  double max_energy_drift = 0;  ///< over the samples: max |E - E_0 - supplied - jumps|, the model's own points [J]
+  ConstraintResidual slopes;    ///< largest of the samples: how far a kinked joint's slopes are from what ties them
+  std::vector<FrictionPressure> pressures;  ///< of joints, where some with friction slide freely
+  std::vector<double> frequencies;          ///< about the last equilibrium [Hz]; see natural_frequencies()
   SolverCounters solver;
   std::vector<Warning> warnings;
   std::shared_ptr<const RunError> error;  ///< where the run was checked, see checked_run()

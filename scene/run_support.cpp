@@ -4,14 +4,18 @@
 #include <chrono>
 #include <cmath>
 #include <new>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "scene/build.hpp"
+#include "scene/timetable.hpp"
 
 namespace vlbeam {
 namespace {
 
 constexpr double largest_overshoot = 0.25;   // over L_std: of a step that chooses its length by the motion
+constexpr double steps_a_turn = 800;         // the first, of generalized-alpha in an automatic run, at an accuracy of
+constexpr double usual_accuracy = 1e-4;      // this; by the root of others
 constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
 
 std::vector<double> sample_times(const Scene& scene) {
@@ -73,6 +77,7 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   options.type = integrator.type;
   options.tolerances = tolerances_of(scene);
   options.first_step = first_step_courant * wave_time;
+  options.timetable = timetable(scene);
   options.locate_events = integrator.locate_events;
   if (options.tolerances.motion > 0) options.largest_overshoot = largest_overshoot;
   options.step = options.energy_momentum.step = integrator.step;
@@ -84,6 +89,11 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
                                .tolerances = options.tolerances,
                                .error_estimate = integrator.error_estimate,
                                .first_step = options.tolerances.motion > 0 ? wave_time : 0};
+  const auto turned = [](const SupportSpec& end) { return end.motion && end.motion->angle; };
+  if (integrator.automatic && !turned(scene.start) && !turned(scene.end)) {  // a turn that is given does not err
+    options.generalized_alpha.most_turn =
+        2 * std::numbers::pi / steps_a_turn * std::sqrt(integrator.accuracy / usual_accuracy);
+  }
   return options;
 }
 

@@ -14,6 +14,7 @@
 #include "core/joint/axial_friction.hpp"
 #include "core/joint/joint_slopes.hpp"
 #include "core/length_control/merge_policy.hpp"
+#include "core/parts/winding.hpp"
 #include "core/system/constraints.hpp"
 
 namespace vlbeam {
@@ -30,7 +31,11 @@ enum class SceneSetting {
 /// Rational or polynomial cubic elements, with a node that may move (ALE) or without.
 enum class ElementKind { ale_rancf, ale_ancf, rancf, ancf };
 /// What strains are measured from: the initial shape, or, as in the paper, a straight beam.
-enum class RestShape { as_built, paper };
+enum class RestShape {
+  as_built,
+  straight,  ///< an unstrained line
+  paper,     ///< the same, by its old name
+};
 /// How elements follow a curved initial axis.
 enum class AxisForm {
   even,   ///< elements run along the initial axis at its arc length, to a high order
@@ -142,9 +147,9 @@ struct BeamSpec {
   ElementKind element = ElementKind::ale_rancf;
   std::optional<AxisForm> axis = {};  ///< used with a curved axis; see axis_form()
   RestShape rest_shape = RestShape::as_built;
-  StrainLaw strain_law = StrainLaw::green;
-  Compression compression = Compression::full;
-  double slack_over = 1e-5;  ///< strain over which a rope goes slack
+  StrainLaw strain_law = StrainLaw::engineering;  ///< that of data sheets: force = EA elongation
+  std::optional<Compression> compression = {};    ///< see compression()
+  std::optional<double> slack_over = {};          ///< strain over which a rope goes slack; see slack_over()
   BendingInertia rotary_inertia = BendingInertia::none;
   std::optional<SpaceLaw> space_law = {};        ///< in space; see has_frames()
   std::optional<OutOfPlane> out_of_plane = {};   ///< to be said of a curved beam in space whose law is scalar
@@ -163,9 +168,10 @@ struct SupportMotionSpec {
 
 /// A drum that a motor turns: the length of beam that it pays out is an unknown.
 struct DrumSpec {
-  double radius = 0;     ///< [m]
-  double inertia = 0;    ///< about its axis, with what is wound up [kg m^2]
-  TimeSpec torque = {};  ///< of the motor, paying out where it is > 0 [N m]
+  double radius = 0;                 ///< [m]
+  double inertia = 0;                ///< about its axis, with what is wound up at t = 0 [kg m^2]
+  TimeSpec torque = {};              ///< of the motor, paying out where it is > 0 [N m]
+  std::optional<double> wound = {};  ///< length of beam on it at t = 0 [m]; else as much as its inertia can be
 };
 
 /// What stops a winch whose length is an unknown, smoothly.
@@ -184,11 +190,17 @@ struct SupportSpec {
   std::optional<TimeSpec> feed = {};  ///< length of beam that has come in through this end since t = 0: a winch [m]
   std::optional<TimeSpec> held_tension = {};  ///< with which a winch without inertia pulls, in place of it [N]
   std::optional<DrumSpec> drum = {};          ///< in place of both
-  std::optional<EndStopSpec> end_stop = {};   ///< of the latter two
+  Winding winding = Winding::stretched;       ///< of the latter two
+  std::optional<EndStopSpec> end_stop = {};   ///< of them, too
 
   /// Whether beam comes in or leaves there; whether as much as it wants.
   bool pays_out() const { return feed || held_tension || drum; }
   bool winds_freely() const { return held_tension || drum; }
+};
+
+/// A place on the drawn axis.
+struct CornerSpec {
+  int corner = 1;  ///< which inner point of a polyline, which kink of a NURBS curve, from the start
 };
 
 /// The mass that slides on the beam.
@@ -201,6 +213,7 @@ struct SlidingMassSpec {
   std::optional<double> separation_distance;  ///< distance from a free end where the mass leaves [m]; default 1e-3 L
   AtSupport at_support = AtSupport::stop;     ///< where it reaches an end that is not free
   double restitution = 1;                     ///< of a rebound
+  std::optional<CornerSpec> at_corner = {};   ///< in place of `position`, which place_at_corners() then fills in
 };
 
 /// A wheel over which the beam runs without slip, about a ring: its path round the wheel is not modelled.
@@ -265,7 +278,8 @@ struct FlowSpec {
 /// A lumped mass on the material point that a node marks at t = 0.
 struct PointMassSpec {
   int node = 0;
-  double mass = 1;  ///< [kg]
+  double mass = 1;                      ///< [kg]
+  std::optional<double> position = {};  ///< material coordinate [m], in place of a node: one moves there
 };
 
 /// Of a rigid motion, as far as supports allow it.

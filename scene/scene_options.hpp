@@ -82,7 +82,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
       number("/contact/restitution", "-", Range::closed(0, 1),
              "of their rebound: relative speed after it over that before", contact.restitution,
              {.when = only_if("/contact/joints", contact.joints, AtSupport::rebound)});
-      number("/contact/distance", "-", Range::closed(1e-3, 0.1),
+      number("/contact/distance", "-", Range::closed(1e-4, 0.3),
              "between the nodes of what touches, over the uniform element length: results converge as it falls, and "
              "steps get shorter",
              contact.distance);
@@ -159,8 +159,11 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     list("/point_masses", "lumped masses on material points", scene.point_masses);
     for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
       const std::string at = "/point_masses/" + std::to_string(i), node = at + "/node", mass = at + "/mass";
+      number(at + "/position", "m", Range::non_negative(),
+             "in place of node: material coordinate of the mass; the nearest node moves there",
+             scene.point_masses[i].position);
       number(node, "-", Range::non_negative(), "number of the node, from 0, that marks the material point at t = 0",
-             scene.point_masses[i].node, {.required = true});
+             scene.point_masses[i].node, {.required = !scene.point_masses[i].position, .instead = "position"});
       number(mass, "kg", Range::positive(), "mass", scene.point_masses[i].mass, {.required = true});
     }
   }
@@ -259,7 +262,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
            "shape turns by, or weights and slopes by the least change at constant strain energy, or (own) weights by a "
            "rule of the program that links the library, or (relaxed) weights as by default and the outer nodes at the "
            "least strain energy; if not given, relaxed with sampled axial strain, else rest-arc with an as-built arc "
-           "or NURBS curve, point-fit otherwise",
+           "or NURBS curve, unit with frames, point-fit otherwise",
            scene.length_control.merge, {.source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"});
     choice("/length_control/velocities",
            "velocities after length control: nodes keep theirs, or the old field is projected, or projected and scaled "
@@ -305,7 +308,9 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     choice("/statics/joints",
            "what becomes of a ring, a sleeve or a sliding mass, which keeps its place on the beam while the load "
            "grows: it is released and slides to where it is in equilibrium, or held, in the natural frequencies, too; "
-           "if not given released in statics, and held until t = 0 where a motion starts from the equilibrium",
+           "if not given released in statics; where a motion starts from the equilibrium held until t = 0, but "
+           "released if "
+           "the beam is a rope and rings without friction are all that slides on it",
            scene.statics.joints, {.when = equilibrium});
   }
 

@@ -28,7 +28,7 @@ void check(const Configuration& shape, int per_element) {
 
 template <int D>
 std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape, int per_element) {
-  const BeamSection section = build_section(scene.beam);
+  const BeamSection section = build_section(scene);
   const bool curved = has_rest_shape(scene), sampled = axial_strain(scene) == AxialStrain::lobatto;
   Configuration::Rest rest = shape.rest;
   if (curved && rest.r.empty()) {  // nodes that stand where they were built

@@ -9,6 +9,7 @@
 #include "scene/build.hpp"
 #include "scene/build_winch.hpp"
 #include "scene/energy_ledger.hpp"
+#include "scene/friction_watch.hpp"
 #include "scene/initial_equilibrium.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/plausibility.hpp"
@@ -74,13 +75,17 @@ class Run {
         checkpoints_(checkpoints),
         output_(output),
         stops_(scene),
-        system_(build_model<D>(scene), chain) {
+        system_(build_model<D>(scene), chain),
+        friction_(system_.model()) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_.on_step = [this](double t) {
       ++steps_;
       return !progress_ || progress_(t);
     };
     system_.on_event = [this](const EventRecord<D>& record) { event(record); };
+    if (friction_.watches()) {
+      system_.on_state = [this](const Eigen::VectorXd& y, double t) { friction_.step(system_, y, t); };
+    }
   }
 
   /// Remembers what the first sample says of the equilibrium that the run starts from.
@@ -96,6 +101,7 @@ class Run {
     run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
     result_.timing.motion -= result_.timing.length_control + observing_;
     result_.solver.rhs_evaluations = system_.rhs_evaluations();
+    if (friction_.watches()) result_.pressures = friction_.pressures();
     return std::move(result_);
   }
 
@@ -170,7 +176,11 @@ class Run {
     const auto winch = [&](bool at_start) {
       const JointPlace& place = at_start ? system_.places().front() : system_.places().back();
       const JointNow<D> joint{at_start ? system_.joint_index(0) : system_.joint_index(system_.places().size() - 1),
-                              y[place.mark], y[system_.coordinates() + place.mark], position<D>(y.data(), place.node)};
+                              y[place.mark],
+                              y[system_.coordinates() + place.mark],
+                              position<D>(y.data(), place.node),
+                              slope<D>(y.data(), place.node),
+                              slope<D>(y.data() + system_.coordinates(), place.node)};
       return look_at_winch<D>(scene_, at_start, system_.model(), joint, forces, system_.gravity(sample.t), sample.t);
     };
     if (scene_.start.pays_out()) sample.winches[0] = winch(true);
@@ -251,6 +261,7 @@ class Run {
     }
     if (record.type == EventType::separation) result_.status = RunStatus::separated;
     jumps_ += record.discrete_jump;
+    friction_.event();
     result_.timing.length_control += record.seconds;
     result_.events.push_back(std::move(event));
   }
@@ -261,6 +272,7 @@ class Run {
   const RunOutput& output_;
   Stops stops_;
   BeamSystem<D> system_;
+  FrictionWatch<D> friction_;
   RunResult result_;
   std::optional<StaticSample> start_;
   int steps_ = 0;

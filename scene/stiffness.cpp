@@ -47,7 +47,7 @@ struct ElementFrequencies {
   double axial, bending;
 };
 ElementFrequencies element_frequencies(const Scene& scene) {
-  const BeamSection section = build_section(scene.beam);
+  const BeamSection section = build_section(scene);
   const double l = beam_length(scene) / scene.beam.elements;
   const double stretching = axial_strain(scene) == AxialStrain::lobatto ? sampled_axial : axial;
   return {std::sqrt(stretching * section.stiffness.EA / section.rhoA) / l,

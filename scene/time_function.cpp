@@ -106,15 +106,6 @@ double steepest(const TimeSpec& f) {
   return rate;
 }
 
-double shortest_interval(const TimeSpec& f) {
-  double shortest = 0;
-  for (std::size_t i = 1; i < f.table.size(); ++i) {
-    const double h = f.table[i][0] - f.table[i - 1][0];
-    shortest = i == 1 ? h : std::min(shortest, h);
-  }
-  return shortest;
-}
-
 void check_time_function(const std::string& at, const TimeSpec& spec) {
   if (spec.ramp > 0 && spec.rate_ramp > 0) {
     refuse(at + "/rate_ramp", number_text(spec.rate_ramp), "it does not go together with \"ramp\": take one of them");

@@ -32,9 +32,8 @@ inline bool is_constant(const TimeSpec& f) {
 /// cosine (a phase of 90 degrees) is not quite 0.
 inline double largest_rate(const TimeSpec& f) { return std::abs(f.rate) + std::abs(f.amplitude * f.frequency); }
 
-/// The steepest rate between two entries of its table [1/s], and the shortest time between two [s]; 0 without a table.
+/// The steepest rate between two entries of its table [1/s]; 0 without a table.
 double steepest(const TimeSpec& f);
-double shortest_interval(const TimeSpec& f);
 
 /// A load of a scene, or a displacement of a support, as a function of time. In statics time is the load factor: it is
 /// the value after all ramps, times the factor.

@@ -159,6 +159,12 @@ void check_integrator(const Scene& scene) {
            "it must be at most the duration, " + number_text(scene.duration) + " [s]");
   }
   if (has_fixed_step(integrator.type) && scene.duration / integrator.step > most_steps) {
+    if (integrator.automatic) {
+      refuse("/duration", number_text(scene.duration),
+             "the longest step for this scene, " + six_digits(integrator.step) +
+                 " s, must leave at most 1e9 of them: it must be at most " + six_digits(most_steps * integrator.step) +
+                 " [s]");
+    }
     refuse("/integrator/step", number_text(integrator.step),
            "it must leave at most 1e9 steps in the duration of " + number_text(scene.duration) + " s");
   }

@@ -10,6 +10,7 @@
 #include "scene/corners.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
+#include "scene/slack.hpp"
 
 namespace vlbeam {
 namespace {
@@ -102,7 +103,7 @@ void check_corners(const Scene& scene) {
     const double turn = drawn.turn_at(at) * degrees;
     const std::string corner = "a corner of " + number_text(turn) + " degrees at " + number_text(at) + " m";
     const auto there = std::ranges::find_if(joints, [&](const SlidingJointSpec& joint) {
-      return std::abs(joint.position - at) <= at_corner * drawn.length();
+      return std::abs(joint.position - at) <= corner_rounding * drawn.length();
     });
     const bool is_round = std::ranges::find(round, at) != round.end();
     if (there != joints.end()) {
@@ -207,7 +208,11 @@ void check_beam(const Scene& scene) {
 
   const bool bends = build_section(beam).bends();
   if (beam.compression == Compression::none && bends) {
-    refuse("/beam/compression", quoted(beam.compression), "only a rope goes slack, \"EI\": 0: take \"full\"");
+    refuse("/beam/compression", quoted(*beam.compression), "only a rope goes slack, \"EI\": 0: take \"full\"");
+  }
+  if (beam.slack_over && compression(scene) != Compression::none) {
+    refuse("/beam/slack_over", number_text(*beam.slack_over),
+           "only a rope (\"EI\": 0) with \"compression\": \"none\" goes slack: leave it out");
   }
   const bool curved_in_space = scene.dimension == 3 && bends && has_rest_shape(scene) && is_curved(scene);
   const bool frames = has_frames(scene);

@@ -67,6 +67,16 @@ void check_winding(const Scene& scene, const std::string& at) {
   }
 }
 
+/// What is wound up has its share of the inertia.
+void check_wound(const Scene& scene, const DrumSpec& drum, const std::string& at) {
+  if (!drum.wound) return;
+  const double least = build_section(scene.beam).rhoA * *drum.wound * drum.radius * drum.radius;
+  if (drum.inertia >= least * (1 - 1e-12)) return;
+  refuse(at + "/inertia", number_text(drum.inertia),
+         "the " + number_text(*drum.wound) + " m wound up have " + number_text(least) +
+             " kg m^2 at that radius, and are part of it");
+}
+
 void check_end_stop(const SupportSpec& end, const std::string& at) {
   const EndStopSpec& stop = *end.end_stop;
   if (!end.winds_freely()) refuse(at, "this key", "it stops a winch with a \"drum\" or a \"held_tension\"");
@@ -94,6 +104,7 @@ void check_end(const Scene& scene, const std::string& support, const SupportSpec
     refuse(support + "/type", quoted(end.type), "beam is fed through a \"clamp\" or a \"pin\"");
   }
   check_parts(scene, at);
+  if (end.drum) check_wound(scene, *end.drum, at);
   if (end.winds_freely()) return check_winding(scene, at);
   if (end.feed->value != 0 && end.feed->ramp == 0) {
     refuse(
@@ -119,7 +130,7 @@ void check_way(const Scene& scene) {
   const double length = beam_length(scene);
   if (scene.start.winds_freely() || scene.end.winds_freely()) return;  // nobody knows
   const std::string fed = scene.start.feed ? "/supports/at=start/feed" : "/supports/at=end/feed";
-  const std::vector<double> nodes = place_nodes(scene, build_axis<3>(scene).breaks()).x;
+  const InitialNodes nodes = place_nodes(scene, build_axis<3>(scene).breaks());
   for (int i = 0; i <= instants; ++i) {
     const double t = scene.duration * i / instants;
     const auto [first, last] = ends(t);
@@ -133,9 +144,11 @@ void check_way(const Scene& scene) {
     }
     const double slack = 1e-9 * standard_length(scene);
     for (std::size_t k = 0; k < scene.point_masses.size(); ++k) {
-      const double x = nodes[static_cast<std::size_t>(scene.point_masses[k].node)];
+      const double x = nodes.x[static_cast<std::size_t>(nodes.masses[k])];
       if (x >= first - slack && x <= last + slack) continue;
-      refuse("/point_masses/" + std::to_string(k) + "/node", std::to_string(scene.point_masses[k].node),
+      const auto& mass = scene.point_masses[k];
+      refuse("/point_masses/" + std::to_string(k) + (mass.position ? "/position" : "/node"),
+             mass.position ? number_text(*mass.position) : std::to_string(mass.node),
              "the beam is drawn in there, at t = " + number_text(t) + " s: a mass does not pass a feed");
     }
   }

@@ -15,6 +15,7 @@ namespace vlbeam {
 namespace {
 
 constexpr int samples_of_a_way = 1000;
+constexpr double least_apart = 0.2;  // of an element's length: joints at the start
 
 /// Of several joints; `key` is what lets them rest.
 void check_rest(const Scene& scene, const std::string& key) {
@@ -67,13 +68,18 @@ void check_several_joints(const Scene& scene) {
   const auto& joints = scene.sliding_joints;
   if (scene.contact) check_contact(scene);
   if (joints.size() < 2) return;
-  const double apart = 0.2 * standard_length(scene);
+  // those that strike each other start farther apart than they touch
+  const bool strike = scene.contact && scene.contact->joints != AtSupport::stop;
+  const double share = strike ? std::max(least_apart, contact_distance(scene) * (1 + 1e-9)) : least_apart;
+  const double apart = share * standard_length(scene);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const std::string key = joint_key(scene, i);
     if (i > 0 && !(joints[i].position >= joints[i - 1].position + apart)) {
       refuse(key + "/position", number_text(joints[i].position),
-             "joints stand in order along the beam and a fifth of an element apart: at least " +
-                 number_text(joints[i - 1].position + apart) + " [m], by that of " + joint_key(scene, i - 1));
+             std::string("joints stand in order along the beam and ") +
+                 (share > least_apart ? "farther apart than /contact/distance" : "a fifth of an element apart") +
+                 ": at least " + number_text(joints[i - 1].position + apart) + " [m], by that of " +
+                 joint_key(scene, i - 1));
     }
     check_strike(scene, i);
   }

@@ -88,14 +88,17 @@ void check_resting_parts(const Scene& scene) {
 void check_fluid(const Scene& scene) {
   if (!scene.fluid) return;
   const FluidSpec& fluid = *scene.fluid;
+  if (fluid.velocity != Point{} && scene.analysis == Analysis::statics) {
+    refuse(scene.drag ? "/drag" : "/fluid/velocity", "this key",
+           "statics knows no drag, so no current either: leave both out, or let a motion with mass_damping come to "
+           "rest in "
+           "it");
+  }
   if (fluid.velocity != Point{} && !scene.drag) {
     refuse("/fluid/velocity", "this key", "without /drag it does nothing: give the coefficients, or leave it out");
   }
   if (fluid.velocity != Point{} && flows(scene)) {
     refuse("/fluid/velocity", "this key", "it goes together with neither /flow nor rotary inertia");
-  }
-  if (fluid.velocity != Point{} && scene.analysis == Analysis::statics) {
-    refuse("/fluid/velocity", "this key", "statics knows no drag: leave it out");
   }
   const bool circle = scene.beam.section.type == Section::Type::circle;
   if (circle && fluid.area) refuse("/fluid/area", "this key", "a circle has its own: leave it out");
@@ -135,7 +138,7 @@ void check_ground(const Scene& scene) {
 /// Lumped masses, and the joints that would pass them.
 void check_point_masses(const Scene& scene) {
   for (std::size_t i = 0; i < scene.point_masses.size(); ++i) {
-    if (scene.point_masses[i].node <= scene.beam.elements) continue;
+    if (scene.point_masses[i].position || scene.point_masses[i].node <= scene.beam.elements) continue;
     refuse("/point_masses/" + std::to_string(i) + "/node", std::to_string(scene.point_masses[i].node),
            "the last node is " + std::to_string(scene.beam.elements) + ": beyond the ends there is none");
   }
@@ -144,17 +147,17 @@ void check_point_masses(const Scene& scene) {
   // joints with kinks cannot pass them, where they are knots
   const auto joints = sliding_joints(scene);
   const auto its_knots = knots(scene);
-  const auto stops = [&](const PointMassSpec& mass) {
-    const bool at_end = mass.node == 0 || mass.node == scene.beam.elements;
-    return at_end || std::ranges::find(its_knots, mass.node, &Knot::node) != its_knots.end();
+  const std::vector<int> masses = place_nodes(scene, build_axis<3>(scene).breaks()).masses;
+  const auto stops = [&](int node) {
+    const bool at_end = node == 0 || node == scene.beam.elements;
+    return at_end || std::ranges::find(its_knots, node, &Knot::node) != its_knots.end();
   };
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (joints[i].slopes == JointSlopes::continuous) continue;
-    const auto passed = std::ranges::find_if_not(scene.point_masses, stops);
-    if (passed == scene.point_masses.end()) continue;
+    const auto passed = std::ranges::find_if_not(masses, stops);
+    if (passed == masses.end()) continue;
     refuse(joint_key(scene, i) + "/slopes", quoted(joints[i].slopes),
-           "a kink that passes over a mass, here that of /point_masses/" +
-               std::to_string(passed - scene.point_masses.begin()) +
+           "a kink that passes over a mass, here that of /point_masses/" + std::to_string(passed - masses.begin()) +
                ", is an impact: take \"continuous\", or give the mass a node where no joint is, all joints a kink, and "
                "the scene an explicit integrator or \"generalized-alpha\"");
   }

@@ -62,6 +62,8 @@ class EnergyMomentum final : public Stepper {
     if (memory.reads()) factor(tangent_step_);
   }
 
+  void pass_corner() override {}
+
   void reset() override {
     acceleration_.resize(0);
     tangent_step_ = 0;

@@ -61,6 +61,24 @@ class Interpolant {
 
 bool is_due(const Guard& guard) { return guard.value > std::max(event_tolerance, guard.rounding); }
 
+/// Whether a guard that rises at the start of a step of length h, and falls at its end, is due in between: by the cubic
+/// of its values and rates.
+bool is_due_within(const Guard& start, const Guard& end, double h) {
+  if (!(start.rate > 0 && end.rate < 0) || is_due(start) || is_due(end)) return false;
+  const double m0 = h * start.rate, m1 = h * end.rate, rise = end.value - start.value;
+  const double c2 = 3 * rise - 2 * m0 - m1, c3 = m0 + m1 - 2 * rise;
+  const double u = m0 / (std::sqrt(c2 * c2 - 3 * c3 * m0) - c2);  // where its derivative, m0 + 2 c2 u + 3 c3 u^2, is 0
+  return is_due({start.kind, start.part, start.value + u * (m0 + u * (c2 + u * c3)), start.rounding});
+}
+
+bool any_is_due_within(const Guards& start, const Guards& end, double h) {
+  if (start.size() != end.size()) return false;
+  for (std::size_t k = 0; k < end.size(); ++k) {
+    if (is_due_within(start[k], end[k], h)) return true;
+  }
+  return false;
+}
+
 /// Root of guard `k` of the interpolant, from the start of the step.
 double interpolated_root(EventedOde& ode, Interpolant& interpolant, const WholeStep& step, std::size_t k) {
   auto interpolated = [&](double tau) { return ode.guards(interpolant(tau), step.t0 + tau)[k].value; };
@@ -111,9 +129,11 @@ const Eigen::VectorXd& EventSearch::at(const WholeStep& step, double t) {
   }
 }
 
-LocatedEvent EventSearch::first(const WholeStep& step, const Guards& at_end) {
-  if (std::ranges::none_of(
-          at_end, [&](const Guard& guard) { return is_due(guard) || guard.value > options_.largest_overshoot; })) {
+LocatedEvent EventSearch::first(const WholeStep& step, const Guards& before, const Guards& at_end) {
+  const bool passes = any_is_due_within(before, at_end, step.t1 - step.t0);
+  if (!passes && std::ranges::none_of(at_end, [&](const Guard& guard) {
+        return is_due(guard) || guard.value > options_.largest_overshoot;
+      })) {
     return {};
   }
   const bool exactly = options_.locate_events;
@@ -123,7 +143,8 @@ LocatedEvent EventSearch::first(const WholeStep& step, const Guards& at_end) {
       return {static_cast<int>(k), step.t0, step.y0, LocatedEvent::Where::start};
     }
   }
-  if (std::ranges::any_of(at_end, [&](const Guard& guard) { return guard.value > options_.largest_overshoot; })) {
+  if (passes ||
+      std::ranges::any_of(at_end, [&](const Guard& guard) { return guard.value > options_.largest_overshoot; })) {
     throw SideStepUnderflow{step.t0, 0};
   }
   struct Candidate {
@@ -164,10 +185,28 @@ bool EventAim::all_stay_behind(const Guards& now, double t, double dt) const {
   return true;
 }
 
+void EventAim::stand_at(const Eigen::VectorXd& start, double t) {
+  if (t == now_t_) return;
+  if (t == end_t_) {
+    now_ = at_end_;
+  } else {
+    now_ = ode_.guards(start, t);
+  }
+  now_t_ = t;
+}
+
+double EventAim::longest() const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const Guard& guard : now_) {
+    if (guard.rate > 0 && guard.value < 0) longest = std::min(longest, (guard.room - guard.value) / guard.rate);
+  }
+  return longest;
+}
+
 double EventAim::take(const Eigen::VectorXd& start, double t, double dt, Eigen::VectorXd& y) {
   guard_ = -1;
   if (!takes_aim_ || t == missed_from_) return dt;
-  const Guards now = t == end_t_ ? at_end_ : ode_.guards(start, t);
+  const Guards& now = now_;
   const bool behind = all_stay_behind(now, t, dt);
   known_ = now;
   known_t_ = t;

@@ -31,7 +31,8 @@ class EventSearch {
 
   /// The first event in the step, at whose end the guards are `at_end`, or index -1. Unless events are to be located
   /// its time is the end of the step. Throws SideStepUnderflow where the step is too long to be looked into.
-  LocatedEvent first(const WholeStep& step, const Guards& at_end);
+  /// A guard whose rate is known, and that may have been positive within the step alone, makes it such a one.
+  LocatedEvent first(const WholeStep& step, const Guards& at_start, const Guards& at_end);
 
   /// The solution at `t` within the step. Where steps inside it cannot be taken, that one being too long, an
   /// interpolant has to do: a sample must not change the way of the run. Valid until the next step of either stepper.
@@ -52,8 +53,14 @@ class EventAim {
   EventAim(EventedOde& ode, Stepper& main, const IntegrationOptions& options)
       : ode_(ode), main_(main), takes_aim_(options.locate_events) {}
 
+  /// Looks at the guards at (t, start), where the next step is to start.
+  void stand_at(const Eigen::VectorXd& start, double t);
+  const Guards& at_start() const { return now_; }
+  /// [s], by which no guard will be farther beyond zero than it has room, by its rate.
+  double longest() const;
   /// How long the next step from (t, start) is to be, of at most `dt`: up to the first event that is expected in it, or
   /// dt. `y` is where the step will take place, and equals `start`: it looks ahead there, and leaves it as it was.
+  /// Behind stand_at().
   double take(const Eigen::VectorXd& start, double t, double dt, Eigen::VectorXd& y);
   /// Whether the last call of take() has found an event to aim at.
   bool aims() const { return guard_ >= 0; }
@@ -75,7 +82,7 @@ class EventAim {
   /// Guards are others from now on.
   void forget() {
     known_.clear();
-    end_t_ = never;
+    end_t_ = now_t_ = never;
   }
 
   void exchange(Memory& memory);
@@ -91,7 +98,9 @@ class EventAim {
   Stepper& main_;
   bool takes_aim_;
   bool repeats_ = false;  ///< the method can, and knows accelerations
-  Guards known_;          ///< at the start of the last step
+  Guards now_;            ///< where the next step starts, which is at
+  double now_t_ = never;
+  Guards known_;  ///< at the start of the last step
   double known_t_ = 0;
   Guards at_end_;  ///< of the last step, where it ended last:
   double end_t_ = never;

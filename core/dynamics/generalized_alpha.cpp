@@ -24,6 +24,7 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
+constexpr double turn_slack = 1.1, turn_share = 0.85;                     // of the longest step for what it turns
 constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
 constexpr double least_motion = 1e-5;  // of Tolerances::motion
 
@@ -34,7 +35,8 @@ class GeneralizedAlpha final : public Stepper {
         options_(options),
         counters_(counters),
         rule_(options.rho_inf),
-        tolerance_(options.newton_tolerance > 0 ? options.newton_tolerance : first_newton) {
+        tolerance_(options.newton_tolerance > 0 ? options.newton_tolerance : first_newton),
+        usual_(options.adaptive && options.first_step > 0 ? options.first_step : options.step) {
     history_.reserve(static_cast<std::size_t>(options.newton_iterations));
     if (counters) counters->longest.reserve(history_.capacity());
   }
@@ -46,11 +48,11 @@ class GeneralizedAlpha final : public Stepper {
     repeats_start_ = true;
     step_.end.resize(step_.d.size());
     const bool prescribed = system_.multipliers() > 0 || system_.driven();
-    if (h < shortest_share * options_.step && !stalled_ && prescribed) {
+    if (h < shortest_share * std::min(longest_, usual_) && !stalled_ && prescribed) {
       drift(y, t, h);
       nearby_ = false;
       solved_h_ = 0;
-      dt = options_.step;
+      dt = longest_;
       return true;
     }
     const double given_h = step_.start.h;
@@ -91,13 +93,13 @@ class GeneralizedAlpha final : public Stepper {
     solved_h_ = h;
     is_smooth_ = acceleration_predicts(h);
     if (options_.newton_tolerance == 0) choose_tolerance();
-    if (!nearby) shorter_.taken(h, options_.step);
-    double next = shorter_.longest(options_.step);
+    if (!nearby) shorter_.taken(h, longest_);
+    double next = shorter_.longest(longest_);
     if (options_.adaptive) {
       const double ratio = error_ratio(t, h);
       double factor = std::clamp(safety / portable::cbrt(std::max(ratio, 1e-12)), least_factor, largest_factor);
       if (ratio > 1) {
-        dt = h * factor;
+        dt = usual_ = h * factor;
         calm_ = calm_steps;
         return give_up();
       }
@@ -106,6 +108,11 @@ class GeneralizedAlpha final : public Stepper {
         factor = std::min(factor, 1.0);
       }
       next = std::min(next, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
+      if (options_.most_turn > 0) {  // in jumps: a step that is a little shorter each time gains energy
+        const double turn = within_turn(t + h);
+        if (next > turn) next = h < turn_slack * turn ? std::min(h, next) : turn_share * turn;
+      }
+      usual_ = next;
     }
     assign(step_.end.a, next_a);
     accept(y, t, h, dissipation);
@@ -130,6 +137,10 @@ class GeneralizedAlpha final : public Stepper {
     tangent_by_a_ = 0;
   }
 
+  void pass_corner() override {}  // its accelerations go on: the step that they are off is one, and short
+
+  void limit(double longest) override { longest_ = std::min(options_.step, longest); }
+
   void keep_for_event(const Stepper& other, bool at_start) override {
     const auto& to_event = dynamic_cast<const GeneralizedAlpha&>(other);
     const EndAccelerations& last = at_start ? to_event.step_.start : to_event.here();
@@ -149,6 +160,9 @@ class GeneralizedAlpha final : public Stepper {
     if (crosses_event_) step_.end.exchange(memory);
     memory(motion_);
     memory(calm_);
+    memory(usual_);
+    memory(turned_);
+    memory(turned_until_);
     shorter_.exchange(memory);
     kept_.exchange(memory);
     memory(is_smooth_);
@@ -184,10 +198,14 @@ class GeneralizedAlpha final : public Stepper {
       motion_ = main.motion_;
       motion_until_event_ = main.motion_until_event_;
       calm_ = main.calm_;
+      usual_ = main.usual_;
+      turned_ = main.turned_;
+      turned_until_ = main.turned_until_;
       kept_ = {};
       step_.start.take(main.step_.start);
     }
     repeats_start_ = true;
+    longest_ = main.longest_;
     shorter_ = main.shorter_;
     tolerance_ = main.tolerance_;
     is_smooth_ = main.is_smooth_;
@@ -197,7 +215,7 @@ class GeneralizedAlpha final : public Stepper {
   }
 
  private:
-  double length(double dt) const { return dt <= options_.step * (1 + 2 * slightly_longer) ? dt : options_.step; }
+  double length(double dt) const { return dt <= longest_ * (1 + 2 * slightly_longer) ? dt : longest_; }
 
   /// A step from (t, y), of length h.
   void begin(const Eigen::VectorXd& y, double t, double h) {
@@ -397,6 +415,17 @@ class GeneralizedAlpha final : public Stepper {
     return largest;
   }
 
+  /// How long the next step may be for what it turns [s]. The error of a turn adds to those before it: that of a step
+  /// goes with the square of its angle, and the sum of all so with the logarithm of what has turned, not in proportion.
+  double within_turn(double t) {
+    const double rate = system_.turning(step_.q, step_.v);
+    if (t > turned_until_) {  // a step that is repeated does not count again
+      turned_ += rate * (t - turned_until_);
+      turned_until_ = t;
+    }
+    return options_.most_turn / (std::sqrt(1 + turned_) * std::max(rate, std::numeric_limits<double>::min()));
+  }
+
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
   void choose_tolerance() {
@@ -478,6 +507,7 @@ class GeneralizedAlpha final : public Stepper {
   GeneralizedAlphaOptions options_;
   NewtonCounters* counters_;
   AlphaRule rule_;
+  double longest_ = options_.step;  ///< [s], of the next steps
   bool started_ = false;
   bool stalled_ = false;  ///< Newton's iteration has asked for the shorter step
   ShorterSteps shorter_;  ///< since Newton's iteration failed
@@ -487,6 +517,9 @@ class GeneralizedAlpha final : public Stepper {
   double solved_h_ = 0;      ///< [s]; 0 for none
   double tolerance_;         ///< of Newton's iteration, of the increment
   int calm_ = 0;             ///< steps that may not be longer than the one before
+  double usual_;             ///< [s], length that the error last allowed: next to it a step has next to no length
+  double turned_ = 0;        ///< [rad], so far
+  double turned_until_ = 0;  ///< [s]
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;     ///< where checkpoints are kept
   AlphaStep step_;

@@ -21,7 +21,9 @@ struct GeneralizedAlphaOptions {
   Tolerances tolerances;                              ///< of an adaptive step
   ErrorEstimate error_estimate = ErrorEstimate::all;  ///< of an adaptive step
   double first_step = 0;                              ///< [s]; 0: the longest
-  bool checkpoints = false;                           ///< it may be asked for what it keeps (Stepper::exchange)
+  /// [rad] of SecondOrderSystem::turning() in an adaptive step, over the root of 1 + what has turned so far; 0: any.
+  double most_turn = 0;
+  bool checkpoints = false;  ///< it may be asked for what it keeps (Stepper::exchange)
 };
 
 /// Generalized-alpha method for M(q) q'' = Q (Arnold & Bruels 2007). Second order, also where the length of the step

@@ -9,6 +9,7 @@
 
 #include "core/dynamics/assign.hpp"
 #include "core/dynamics/event_search.hpp"
+#include "core/dynamics/progress.hpp"
 #include "core/dynamics/step_length.hpp"
 #include "core/error.hpp"
 
@@ -16,6 +17,7 @@ namespace vlbeam {
 namespace {
 
 constexpr double whole_step = 1e-9;    // no step for what rounding leaves of the run
+constexpr double corner_reach = 1e-8;  // of the step to a corner, that it may end short of it
 constexpr int longest_cascade = 8;     // events at one instant
 constexpr int most_looks_beyond = 10;  // steps beyond the end of the run: there may be nothing behind it
 
@@ -26,13 +28,15 @@ double first_step(const IntegrationOptions& options) {
   return starts_short ? std::min(first, longest_step(options)) : longest_step(options);
 }
 
+/// Whether a step from `from` that was to end at a corner has: at it, or as near as rounding and methods allow.
+bool is_there(double corner, double from, double t) { return std::abs(t - corner) <= corner_reach * (corner - from); }
+
 [[noreturn]] void underflow(double t, double dt, bool implicit) {
   std::ostringstream what;
   what << "step underflow: the integrator needs steps below " << dt << " s; "
-       << (implicit ? "Newton's iteration does not converge even then: "
-                    : "the scene may be too stiff for an explicit method, ")
-       << "an element " << (implicit ? "may be too short, the motion too violent for the step, " : "too short ")
-       << "or the curve degenerate";
+       << (implicit ? "Newton's iteration does not converge even then"
+                    : "the scene may be too stiff for an explicit method")
+       << "; the last shape may show an element that is far shorter than the others, or pressed together to a point";
   throw ComputationFailed(what.str(), t);
 }
 
@@ -168,10 +172,23 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     log.set_next(t);
   }
   Eigen::VectorXd before = y;
+  Progress progress(t, t_end, options.first_step, counters);
+  const std::function<std::string()> where = [&] { return ode.fastest(y); };
 
   while (t < t_end) {
+    progress.tries(t, where);
     assign(before, y);
     const double t_before = t;
+    const double proposed = dt;
+    aim.stand_at(before, t);
+    const double clear = aim.longest();
+    const bool nears = clear < dt;
+    if (nears) dt = clear;
+    const Timetable::Step stretch = options.timetable.step(t, dt);
+    if (!options.timetable.empty()) {
+      dt = stretch.length;
+      stepper->limit(stretch.longest);
+    }
     const bool last = t_end - t <= dt * (1 + whole_step), beyond = last && looks_beyond > 0;
     if (beyond) --looks_beyond;
     if (last && !beyond) dt = t_end - t;
@@ -195,12 +212,13 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       continue;
     }
     if (last && !beyond && !aim.aims()) t = t_end;
+    if (stretch.corner && !aim.aims() && is_there(*stretch.corner, t_before, t)) t = *stretch.corner;
 
     const double longest = whole * (1 + slightly_longer);
     const EventAim::Shot shot =
         aim.shoot(before, t_before, beyond ? longest : std::min(longest, t_end - t_before), y, t);
     if (shot == EventAim::Shot::missed) {
-      dt = whole;
+      dt = proposed;
       if (beyond) ++looks_beyond;
       continue;
     }
@@ -210,7 +228,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       if (hit) {
         event = {aim.guard(), t, {}, LocatedEvent::Where::end};
       } else {
-        event = search.first({t_before, before, t, y}, aim.at_end());
+        event = search.first({t_before, before, t, y}, aim.at_start(), aim.at_end());
       }
     } catch (const SideStepUnderflow& stuck) {  // a step too long to be looked into
       y = before;
@@ -238,10 +256,13 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     for (; next_sample != sample_times.end() && *next_sample <= t; ++next_sample) {
       log.sample(search.at({t_before, before, t, y}, *next_sample), *next_sample);
     }
-    if (!cut && !hit && !last) {
+    const bool at_corner = stretch.corner == t;
+    if (!cut && !hit && !last && !at_corner) {
       counters.smallest_step = counters.smallest_step == 0 ? tried : std::min(counters.smallest_step, tried);
     }
-    length.accepted(tried, event.index >= 0, last && !beyond);
+    length.accepted(tried, event.index >= 0 || nears, whole < proposed || (last && !beyond));
+    if (at_corner || nears) dt = std::max(dt, proposed);
+    if (at_corner) stepper->pass_corner();
     if (event.index >= 0) {
       cascade = t - last_event > smallest ? 0 : cascade + 1;
       last_event = t;
@@ -251,7 +272,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       log.event(event.index, y, t);
       stepper->reset();
       aim.forget();
-      dt = whole;
+      dt = proposed;
     }
     const bool goes_on = ode.proceed(y, t);
     if (log.due(t, goes_on)) {

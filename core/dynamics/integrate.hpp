@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "core/dynamics/checkpoint.hpp"
@@ -10,6 +11,7 @@
 #include "core/dynamics/generalized_alpha.hpp"
 #include "core/dynamics/ode.hpp"
 #include "core/dynamics/stepper.hpp"
+#include "core/dynamics/timetable.hpp"
 
 namespace vlbeam {
 
@@ -24,6 +26,8 @@ class EventedOde : public Ode {
   virtual void sample(const Eigen::VectorXd& y, double t) = 0;
   /// After each step, which ended at (t, y); false interrupts.
   virtual bool proceed(const Eigen::VectorXd& y, double t) = 0;
+  /// What moves fastest in a state, in words: where a run is stuck.
+  virtual std::string fastest(const Eigen::VectorXd& /*y*/) const { return ""; }
   /// Writes or reads what it keeps beside the state since its last event.
   virtual void exchange(Memory& /*memory*/) {}
 };
@@ -35,6 +39,7 @@ struct IntegrationOptions {
   double step = 1e-3;        ///< [s], of Adams-Bashforth-Moulton
   GeneralizedAlphaOptions generalized_alpha;
   EnergyMomentumOptions energy_momentum;
+  Timetable timetable;        ///< corners of the equations, at which steps of all methods end
   bool locate_events = true;  ///< false: an event happens at the end of the step in which it is due
   /// Of a guard at the end of a step: one that is farther beyond zero makes the step too long, and it is halved.
   double largest_overshoot = std::numeric_limits<double>::infinity();
@@ -44,8 +49,9 @@ struct IntegrationOptions {
 /// where the step across them started, so that they have its full order and neither the steps nor the results depend on
 /// the output. An event is located where its guard is zero to 1e-12, unless the options let it come late: by up to a
 /// step, which leaves any method of first order. Where steps inside one cannot be taken, that one is halved. Returns
-/// false if interrupted. Throws ComputationFailed on step underflow and on a cascade of events without progress in
-/// time; `y` and `t` are then the last good state.
+/// false if interrupted. Steps end at the corners of the options' timetable. Throws ComputationFailed on step
+/// underflow, on a cascade of events without progress in time, and where steps get too short to come to the end
+/// (Progress); `y` and `t` are then the last good state.
 ///
 /// With `checkpoints` it may go on from one, with the digits of the run that left it: `ode` must then be as it was at
 /// the start of that run, and samples and events up to there happen to it once more. Checkpoints are kept at the first

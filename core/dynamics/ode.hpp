@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct Guard {
   int part;  ///< of which part of the system
   double value;
   double rounding = 0;  ///< what it is known to
+  /// Its rate [1/s], where it is known: it is then watched between both ends of a step, too.
+  double rate = std::numeric_limits<double>::quiet_NaN();
+  /// How far beyond zero a step may end, by the rate at its start.
+  double room = std::numeric_limits<double>::infinity();
 };
 /// As many and in the same order until the next event.
 using Guards = std::vector<Guard>;

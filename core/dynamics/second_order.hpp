@@ -67,6 +67,8 @@ class SecondOrderSystem {
   virtual bool driven_offset(const Eigen::VectorXd& /*q*/, double /*t*/, Eigen::VectorXd& /*offset*/) const {
     return false;
   }
+  /// How fast what moves turns as a whole, or its path does [rad/s]; vibrations hardly count.
+  virtual double turning(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const { return 0; }
   /// Which energies the state counts.
   virtual Tallies tallies() const { return {}; }
   /// Powers with which supports and loads do work at (q, v, a, t) [W].

@@ -35,6 +35,10 @@ class Stepper {
   virtual bool try_step(Ode& ode, Eigen::VectorXd& y, double& t, double& dt) = 0;
   /// Forgets what it kept of earlier steps: for a state or an equation that is not the last step's.
   virtual void reset() = 0;
+  /// The last step ended at a corner of the equations: state and time are as it left them, derivatives may have jumped.
+  virtual void pass_corner() { reset(); }
+  /// From now on no step is to be longer than this [s], and a short one is short against it.
+  virtual void limit(double /*longest*/) {}
   /// Keeps what is to go on through an event, after which it is reset(): from the end of the last step of `other`, a
   /// stepper of the same method, or, `at_start`, from where that step started.
   virtual void keep_for_event(const Stepper& /*other*/, bool /*at_start*/) {}

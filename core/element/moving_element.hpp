@@ -113,11 +113,18 @@ MovingEquations<Real, D> moving_sums(const MovingCoordinates<Real, D>& q, const 
         }
         const Real& wl = point.weight;
         if (section.damped()) {
+          StrainChange<Real> rest_rate;
+          if (rest != nullptr) rest_rate = rest->rate(rate.x_a, rate.x_b);
           const DampingStress<Real, D> viscous(at.r_x, at.r_xx, at.v_x, at.v_xx, section.stiffness, section.damping,
-                                               section.curvature_regularization);
+                                               section.curvature_regularization,
+                                               rest != nullptr ? &rest_rate : nullptr);
           p += viscous.p;
           m += viscous.m;
           eq.dissipation += wl * viscous.power;
+          if (rest != nullptr) {
+            if constexpr (Kinematics::a_moves) eq.force_a += wl * viscous.work(rest->by_a);
+            if constexpr (Kinematics::b_moves) eq.force_b += wl * viscous.work(rest->by_b);
+          }
         }
 
         const Real mu = wl * Real(rhoA);

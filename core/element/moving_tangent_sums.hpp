@@ -84,6 +84,8 @@ TangentOf<Real, Ends, D, Unknown> tangent_sums(const MovingCoordinates<Real, D>&
         [[maybe_unused]] Work along{Vec<double, D>::Zero(), Vec<double, D>::Zero()};  // of the stresses on rest strains
         std::array<Work, Unknown> on_end;
         on_end.fill(along);
+        // of the viscous ones, by the nodal vectors
+        [[maybe_unused]] std::array<std::array<Vector, 4>, Unknown> viscous_on_end;
         if constexpr (!plain) {
           if (rest != nullptr) {
             const RestTangent<double, D> from_rest(at.r_x, at.r_xx, *rest, section);
@@ -112,7 +114,9 @@ TangentOf<Real, Ends, D, Unknown> tangent_sums(const MovingCoordinates<Real, D>&
         }
         if constexpr (!plain) {
           if (section.damped()) {
-            const DampingTangent<D> viscous(at, section);
+            StrainChange<double> rest_rate;
+            if (rest != nullptr) rest_rate = rest->rate(rate.x_a, rate.x_b);
+            const DampingTangent<D> viscous(at, section, rest != nullptr ? &rest_rate : nullptr);
             p += viscous.viscous_p;
             m += viscous.viscous_m;
             for (int j = 0; j < 4; ++j) {
@@ -121,6 +125,13 @@ TangentOf<Real, Ends, D, Unknown> tangent_sums(const MovingCoordinates<Real, D>&
               for (std::size_t n = 0; n < 4; ++n) {
                 by_p[i] += viscous.p[n] * by_rates[n];
                 by_m[i] += viscous.m[n] * by_rates[n];
+              }
+              for (int e = 0; e < Unknown; ++e) {
+                Vector& of_end = viscous_on_end[static_cast<std::size_t>(e)][i];
+                of_end.setZero();
+                for (std::size_t n = 0; rest != nullptr && n < 4; ++n) {
+                  of_end += viscous.work(is_end_a<Ends>(e) ? rest->by_a : rest->by_b, n) * by_rates[n];
+                }
               }
             }
           }
@@ -147,6 +158,7 @@ TangentOf<Real, Ends, D, Unknown> tangent_sums(const MovingCoordinates<Real, D>&
             if constexpr (!plain) {
               const Work& from_end = on_end[static_cast<std::size_t>(e)];
               end += wl * (from_end.by_slope * by.r_x[j] + from_end.by_second * by.r_xx[j]);
+              if (section.damped()) end += wl * viscous_on_end[static_cast<std::size_t>(e)][jj];
             }
             if (variational) {
               const Vector by_lagrangian =

@@ -7,12 +7,6 @@
 
 namespace vlbeam {
 
-/// Changes of both strains along one direction.
-template <class Real>
-struct StrainChange {
-  Real axial = Real(0), curvature = Real(0);
-};
-
 /// Strains of the stress-free shape at one point of an element. In the plane the curvature is signed; in space it is a
 /// magnitude.
 template <class Real>
@@ -20,6 +14,11 @@ struct RestStrain {
   Real axial, curvature;
   StrainChange<Real> along;       ///< derivatives along the beam
   StrainChange<Real> by_a, by_b;  ///< by x_A and x_B at a fixed material point, as far as the ends move
+
+  /// At a fixed material point, while the ends move along the beam [1/s], [1/(m s)].
+  StrainChange<Real> rate(const Real& x_rate_a, const Real& x_rate_b) const {
+    return {by_a.axial * x_rate_a + by_b.axial * x_rate_b, by_a.curvature * x_rate_a + by_b.curvature * x_rate_b};
+  }
 };
 
 /// Signed curvature f/g^(n/2) in the plane, f = r_x x r_xx, g = r_x.r_x, n = 3 (green) or 2 (engineering); in space

@@ -96,22 +96,40 @@ struct ElasticStress {
   }
 };
 
-/// Kelvin-Voigt stresses EA c eps' and EI c kappa' as generalized stresses, rates at a fixed material point.
-/// In space kappa' dkappa is 0/0 where the beam is straight; it is regularised as
+/// Changes of both strains along one direction.
+template <class Real>
+struct StrainChange {
+  Real axial = Real(0), curvature = Real(0);
+};
+
+/// Kelvin-Voigt stresses EA c (eps - eps_0)' and EI c (kappa - kappa_0)' as generalized stresses, rates at a fixed
+/// material point; of a rope that goes slack EA c psi''(eps) eps' (SlackLaw), by its strain from a straight, unstrained
+/// shape. The strains eps_0 and kappa_0 at rest change there while a node moves past: an element of the rest shape
+/// follows the rest curve as well as its present ends allow. `rest`, unless null, is their rate. In space
+/// kappa' dkappa is 0/0 where the beam is straight; it is regularised as
 /// (kappa kappa')(kappa dkappa)/(kappa^2 + kappa_reg^2). In the plane the signed curvature needs no such thing.
 template <class Real, int D>
 struct DampingStress {
   Vec<Real, D> p, m;
-  Real power;  ///< dissipated power per length [W/m]
+  Real power;                     ///< dissipated power per length [W/m]
+  Real tension, moment{Real(0)};  ///< [N], [N m]; the moment where the beam bends
 
   DampingStress(const Vec<Real, D>& rx, const Vec<Real, D>& rxx, const Vec<Real, D>& vx, const Vec<Real, D>& vxx,
-                const Stiffness& k, double c, double curvature_regularization) {
+                const Stiffness& k, double c, double curvature_regularization,
+                const StrainChange<Real>* rest = nullptr) {
     using std::sqrt;
     const Real g = rx.dot(rx);
     const Vec<Real, D> strain_gradient = k.green() ? rx : Vec<Real, D>(rx * Real(Real(1) / sqrt(g)));
-    const Real strain_rate = strain_gradient.dot(vx);
-    p = strain_gradient * Real(Real(c * k.EA) * strain_rate);
-    power = Real(c * k.EA) * strain_rate * strain_rate;
+    Real strain_rate = strain_gradient.dot(vx);
+    if (rest != nullptr) strain_rate -= rest->axial;
+    Real resists = Real(c * k.EA);
+    if (k.slackens()) {
+      const Real eps = k.green() ? Real(Real(0.5) * (g - Real(1))) : Real(sqrt(g) - Real(1));
+      resists *= SlackLaw<Real>(eps, k.slack_over).stiffness;
+    }
+    tension = resists * strain_rate;
+    p = strain_gradient * tension;
+    power = resists * strain_rate * strain_rate;
     m.setZero();
     if (k.bends()) {
       const double n = k.curvature_power();
@@ -122,9 +140,11 @@ struct DampingStress {
         by_slope << rxx[1] * scale, -(rxx[0] * scale);
         by_slope -= rx * Real(Real(n) * f * scale / g);
         by_second << -(rx[1] * scale), rx[0] * scale;
-        const Real rate = by_slope.dot(vx) + by_second.dot(vxx);
-        p += by_slope * Real(Real(c * k.EI) * rate);
-        m = by_second * Real(Real(c * k.EI) * rate);
+        Real rate = by_slope.dot(vx) + by_second.dot(vxx);
+        if (rest != nullptr) rate -= rest->curvature;
+        moment = Real(c * k.EI) * rate;
+        p += by_slope * moment;
+        m = by_second * moment;
         power += Real(c * k.EI) * rate * rate;
       } else {
         const CrossProduct<Real, D> cross(rx, rxx);
@@ -133,15 +153,23 @@ struct DampingStress {
         const Real curvature_squared = cross.squared * scale;
         const Vec<Real, D> by_slope = cross.by_slope * scale - rx * Real(Real(n) * curvature_squared * inverse);
         const Vec<Real, D> by_second = cross.by_second * scale;
-        const Real rate = by_slope.dot(vx) + by_second.dot(vxx);  // kappa kappa'
-        const Real over =
-            Real(c * k.EI) / (curvature_squared + Real(curvature_regularization * curvature_regularization));
+        Real rate = by_slope.dot(vx) + by_second.dot(vxx);  // kappa kappa'
+        const Real squared = curvature_squared + Real(curvature_regularization * curvature_regularization);
+        const Real over = Real(c * k.EI) / squared;
+        if (rest != nullptr) {
+          const Real kappa = sqrt(squared);
+          rate -= kappa * rest->curvature;
+          moment = over * rate * kappa;
+        }
         p += by_slope * Real(over * rate);
         m = by_second * Real(over * rate);
         power += over * rate * rate;
       }
     }
   }
+
+  /// Work per length on a change of the rest strains, in space only with a rate of these.
+  Real work(const StrainChange<Real>& change) const { return tension * change.axial + moment * change.curvature; }
 };
 
 }  // namespace vlbeam

@@ -70,8 +70,13 @@ struct StrainExtremes {
     strain.add(from_rest);
     // what is conjugate to Green's strain acts on the length before, the force on the length after
     const auto& k = section.stiffness;
-    const Real pull = k.slackens() ? SlackLaw<Real>(from_rest, k.slack_over).pull : from_rest;
-    const Real conjugate = Real(k.EA) * (pull + Real(section.damping) * rate);
+    Real pull = from_rest, viscous = Real(section.damping) * rate;
+    if (k.slackens()) {
+      const SlackLaw<Real> rope(from_rest, k.slack_over);
+      pull = rope.pull;
+      viscous *= rope.stiffness;
+    }
+    const Real conjugate = Real(k.EA) * (pull + viscous);
     force.add(green ? Real(conjugate * stretch) : conjugate);
   }
   template <class Real, int D>

@@ -23,8 +23,11 @@ struct DampingStress<Real, 1> {
   Real power;
 
   DampingStress(const Vec<Real, 1>& /*twist*/, const Vec<Real, 1>& /*twist_x*/, const Vec<Real, 1>& twist_rate,
-                const Vec<Real, 1>& /*twist_rate_x*/, const Stiffness& k, double c, double /*regularization*/)
+                const Vec<Real, 1>& /*twist_rate_x*/, const Stiffness& k, double c, double /*regularization*/,
+                const StrainChange<Real>* /*rest*/ = nullptr)
       : p(twist_rate * Real(c * k.EA)), m(Vec<Real, 1>::Zero()), power(p.dot(twist_rate)) {}
+
+  Real work(const StrainChange<Real>& change) const { return p[0] * change.axial; }
 };
 
 }  // namespace vlbeam

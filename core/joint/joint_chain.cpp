@@ -102,7 +102,7 @@ void JointChain<D>::assemble(const std::vector<MovingEquations<double, D>>& equa
     }
     station.rhs[station.mark] = force[joint.place.mark];
     for (int c = 0; c < D; ++c) station.mass(c, c) = joint.law->mass;
-    station.mass(station.mark, station.mark) = motion[j].x_inertia + joint.law->turning;
+    station.mass(station.mark, station.mark) = motion[j].x_inertia;
   }
   const auto add_side = [&](const Span<D>& span, std::size_t part, std::size_t joint_end, std::optional<Side>& open) {
     open.emplace(span, equations[part], joint_end);
@@ -177,8 +177,14 @@ void JointChain<D>::hold(std::size_t which) {
   auto own = station.mass.template topLeftCorner<2 * D, 2 * D>();
   const Eigen::Matrix<double, 2 * D, 2 * D> whole = own.template selfadjointView<Eigen::Upper>();
   own = keep * whole * keep;
-  own.diagonal().array() += 1;
-  own -= keep;
+  // what is held has a mass of the size of what is free: the unit of mass must not matter
+  const auto fix = [&](int at, const typename Support<D>::Components& free) {
+    const double size = whole.template block<D, D>(at, at).trace();
+    own.template block<D, D>(at, at) +=
+        size * (station.held->frame * (1 - free).matrix().asDiagonal() * station.held->frame.transpose());
+  };
+  fix(0, station.held->free_position);
+  fix(D, station.held->free_slope);
   const auto keep_rows_of = [&](auto rows) { rows = (keep * rows).eval(); };
   keep_rows_of(station.mass.template topRightCorner<2 * D, most - 2 * D>());
   keep_rows_of(station.next.template topRows<2 * D>());

@@ -69,7 +69,11 @@ void hold(const Support<D>& held, Eigen::Matrix<double, Unknowns, Unknowns>& mas
   keep.template block<D, D>(0, 0) = share(held.free_position);
   keep.template block<D, D>(D, D) = share(held.free_slope);
   const Matrix whole = mass.template selfadjointView<Eigen::Upper>();
-  mass = keep * whole * keep + (Matrix::Identity() - keep);
+  // what is held has a mass of the size of what is free: the unit of mass must not matter
+  Eigen::Matrix<double, Unknowns, 1> size = Eigen::Matrix<double, Unknowns, 1>::Zero();
+  size.template segment<D>(0).setConstant(whole.template block<D, D>(0, 0).trace());
+  size.template segment<D>(D).setConstant(whole.template block<D, D>(D, D).trace());
+  mass = keep * whole * keep + size.asDiagonal() * (Matrix::Identity() - keep);
   rhs = keep * rhs;
 }
 
@@ -91,7 +95,7 @@ std::optional<double> solve(const Span<D>& left, const Span<D>& right, const Mov
   if constexpr (Kinked) rhs.template segment<D>(behind) = Eigen::Map<const Vec<double, D>>(joint_force + 1);
   rhs[x] = *joint_force;
   mass.diagonal().template head<D>().array() += joint.mass;
-  mass(x, x) += joint.turning;
+  mass(x, x) += motion.x_inertia;
   JointSide<D, unknowns, D> left_side(left, left_element, 2);
   JointSide<D, unknowns, behind> right_side(right, right_element, 0);
   left_side.eliminate(force, mass, rhs);

@@ -7,6 +7,7 @@
 #include "core/element/moving_element.hpp"
 #include "core/joint/friction.hpp"
 #include "core/joint/slope_conditions.hpp"
+#include "core/joint/turning.hpp"
 
 namespace vlbeam {
 
@@ -16,7 +17,7 @@ struct SlidingJoint {
   double mass;  ///< [kg]
   JointSlopes slopes = JointSlopes::continuous;
   std::optional<AxialFriction> friction = std::nullopt;
-  double turning = 0;  ///< inertia against x'' of a wheel that the beam turns without slip, I/radius^2 [kg]
+  Turning turning = {};  ///< a wheel or a drum that the beam turns
 
   /// The beam has two slopes at the joint.
   bool kinked() const { return slopes != JointSlopes::continuous; }
@@ -35,7 +36,7 @@ struct JointMotion {
   double x_rate;                                        ///< [m/s]
   Vec<double, D> gravity;                               ///< [m/s^2]
   std::optional<double> x_acceleration = std::nullopt;  ///< [m/s^2], where a guide prescribes it
-  double x_inertia = 0;                                 ///< against x'' itself: of what turns with a nut [kg]
+  double x_inertia = 0;                                 ///< against x'' itself: of what turns [kg]
 };
 
 /// Solves M a = f of two spans joined by a sliding joint at node left.open() + 1, friction included. On entry `force`

@@ -7,6 +7,7 @@
 #include "core/parts/line_force.hpp"
 #include "core/parts/one_sided.hpp"
 #include "core/parts/part.hpp"
+#include "core/parts/point_masses.hpp"
 
 namespace vlbeam {
 
@@ -41,17 +42,24 @@ struct FloorLaw {
   }
 };
 
-/// The floor as a part of the equations.
+/// The floor as a part of the equations. It bears a lumped mass as it bears as much of the beam.
 template <int D>
 class Ground final : public Part<D> {
  public:
-  Ground(const FloorLaw<D>& law, int quadrature_points) : law_(law), points_(quadrature_points) {}
+  /// `rhoA` is the beam's mass per length [kg/m].
+  Ground(const FloorLaw<D>& law, int quadrature_points, const PointMasses<D>& masses = {}, double rhoA = 1)
+      : law_(law), points_(quadrature_points), masses_(masses), rhoA_(rhoA) {}
   Tally add_force(const Motion<D>& motion, double* force) const override;
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override;
 
  private:
+  /// Length of beam that has the mass of the `i`-th lumped one [m].
+  double as_length(std::size_t i) const { return masses_.points[i].mass / rhoA_; }
+
   FloorLaw<D> law_;
   int points_;
+  PointMasses<D> masses_;
+  double rhoA_;
 };
 
 extern template class Ground<2>;

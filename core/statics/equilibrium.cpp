@@ -39,7 +39,7 @@ class Path {
     search_.residual(q, 0);
     // without what is softer than that, the tangent still has no negative pivot
     holds_at_start_ = search_.linearize(q, 0, -search_.soft()) && equations_.negative_pivots(0) == 0;
-    const bool at_rest = search_.r.norm() <= no_force * system_.model().section.stiffness.EA;
+    const bool at_rest = search_.force_of(search_.r) <= no_force * system_.model().section.stiffness.EA;
     if (at_rest && !on_point(search_.point(q, 0))) return;
     const bool grown = options_.arc_length ? follow_arc(q, on_point) : follow_load(q, on_point);
     if (!grown || !options_.release) return;
@@ -54,15 +54,24 @@ class Path {
     for (int step = 1; step <= options_.steps; ++step) {
       const double from = static_cast<double>(step - 1) / options_.steps,
                    to = static_cast<double>(step) / options_.steps;
-      if (!advance(q, from, to, most_halvings, step == 1)) {
+      if (!advance(q, from, to, most_halvings, step == 1) && !snaps(q, to)) {
         throw ComputationFailed("no equilibrium near the last one at load factor " + in_digits(to, 4) + ": " +
                                     free_direction(system_, equations_, q, to) +
-                                    "; past a limit point \"arc-length\" goes on" + too_slender(),
+                                    (system_.model().driven() ? "" : "; past a limit point \"arc-length\" goes on") +
+                                    too_slender(),
                                 from);
       }
       ++counters_.steps;
       if (!on_point(search_.point(q, to))) return false;
     }
+    return true;
+  }
+
+  /// Beyond a limit point of what supports move, where no path by arc-length goes on, a beam snaps to where it is
+  /// stable.
+  bool snaps(Eigen::VectorXd& q, double to) {
+    if (!system_.model().driven() || system_.model().guides() || !search_.relax(q, to)) return false;
+    system_.follow(q);
     return true;
   }
 

@@ -98,6 +98,19 @@ class StaticSearch {
     return std::isfinite(change.sum()) ? largest : std::numeric_limits<double>::infinity();
   }
 
+  /// Of forces, of moments over the mean length of an element, and of conditions on slopes times EA [N].
+  double force_of(const Eigen::VectorXd& residual) const {
+    const double element = length / system.mesh().elements();
+    double sum = 0;
+    for_each_coordinate(system.fields(), [&](Field field, Eigen::Index i) {
+      const bool turns = field == Field::slope || field == Field::angle;
+      const double force = turns ? residual[i] / element : residual[i];
+      sum += force * force;
+    });
+    const double EA = system.model().section.stiffness.EA;
+    return std::sqrt(sum + EA * EA * residual.tail(residual.size() - system.coordinates()).squaredNorm());
+  }
+
   void impose(Eigen::VectorXd& q, double factor) const {
     Eigen::VectorXd y = state_of(q);
     system.impose(y, load(factor));
@@ -133,12 +146,12 @@ class StaticSearch {
 
   /// Whether the residual, which was asked for last, is rounding, and less than a little of what acts on the beam.
   bool rests(const Eigen::VectorXd& q) {
-    const double left = r.norm();
+    const double left = force_of(r);
     if (!(left <= force_by_rounding * system.model().section.stiffness.EA)) return false;
     const Eigen::VectorXd lacking = r;
     equations.residual(q, 0, r);
     r -= lacking;
-    const double acts = r.norm();
+    const double acts = force_of(r);
     r = lacking;
     return acts == 0 || left <= rounding_share * acts;
   }
@@ -212,7 +225,7 @@ class StaticSearch {
   bool hang(Eigen::VectorXd& q, double factor) {
     if (system.model().section.stiffness.bends()) return false;
     residual(q, factor);
-    const double bears = r.norm();
+    const double bears = force_of(r);
     if (!(bears > 0)) return false;
     for (const int pace : {1, 5, 25}) {
       Eigen::VectorXd tried = q;

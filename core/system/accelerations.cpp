@@ -41,8 +41,10 @@ Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t
     lost += eq.dissipation;
   }
   power.dissipated += lost;
-  for (std::size_t i = 0; i < beam_.places().size(); ++i)
+  for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     position<D>(force, beam_.places()[i].node) += beam_.joint(i).law.mass * g;
+    force[beam_.places()[i].mark] -= beam_.turning_lag(i, q, rate);
+  }
   if (beam_.moving_mesh()) beam_.moving_mesh()->add_inflow(beam_.view(q, rate), force);
   return power;
 }
@@ -140,13 +142,13 @@ bool Accelerations<D>::solve_at_joints(const double* q, const double* rate, doub
   motions_.clear();
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     motions_.push_back(mass_.joint_motion(i, q, rate, t));
-    if (beam_.frames() != nullptr) motions_[i].x_inertia = beam_.frames()->mark_inertia(i, i);
+    if (beam_.frames() != nullptr) motions_[i].x_inertia += beam_.frames()->mark_inertia(i, i);
   }
   if (const auto which = beam_.nut_place()) {
     Nut& nut = beam_.nut();
     const Eigen::Index mark = beam_.places()[*which].mark, at = beam_.angles();
     if (!nut.couple(*beam_.spin(), q + at, rate + at, a + at, q[mark], rate[mark])) return false;
-    motions_[*which].x_inertia = nut.load().inertia;
+    motions_[*which].x_inertia += nut.load().inertia;
     a[mark] += nut.load().force;
   }
   pull = mass_.prescribed(elements_, q, rate, a, t);

@@ -36,8 +36,12 @@ bool BeamMass<D>::chained() const {
 template <int D>
 JointMotion<D> BeamMass<D>::joint_motion(std::size_t which, const double* q, const double* rate, double t) const {
   const auto guide = beam_.guided(which, t);
-  return {beam_.joint_slopes(which, q), beam_.joint_slopes(which, rate), rate[beam_.places()[which].mark],
-          beam_.gravity(t), guide ? std::optional(guide->acceleration) : std::nullopt};
+  return {beam_.joint_slopes(which, q),
+          beam_.joint_slopes(which, rate),
+          rate[beam_.places()[which].mark],
+          beam_.gravity(t),
+          guide ? std::optional(guide->acceleration) : std::nullopt,
+          beam_.turning_inertia(which, q)};
 }
 
 template <int D>
@@ -122,7 +126,8 @@ bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, do
   std::vector<JointMotion<D>> at_rest;
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     const auto kept = beam_.guides(i) || beam_.joint(i).pitch != 0 ? std::optional(0.0) : std::nullopt;
-    at_rest.push_back({beam_.joint_slopes(i, q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero(), kept});
+    at_rest.push_back({beam_.joint_slopes(i, q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero(), kept,
+                       beam_.turning_inertia(i, q)});
   }
   return solve_chain(elements, at_rest, p, part).has_value();
 }
@@ -196,7 +201,7 @@ void BeamMass<D>::multiply(const JointElements& elements, const double* q, const
   }
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     position<D>(out, beam_.places()[i].node) += beam_.joint(i).law.mass * position<D>(rate, beam_.places()[i].node);
-    out[beam_.places()[i].mark] += beam_.joint(i).law.turning * rate[beam_.places()[i].mark];
+    out[beam_.places()[i].mark] += beam_.turning_inertia(i, q) * rate[beam_.places()[i].mark];
   }
 }
 

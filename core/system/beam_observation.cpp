@@ -99,7 +99,7 @@ Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y
   }
   for (std::size_t i = 0; i < beam.places().size(); ++i) {
     const double x_rate = y[beam.coordinates() + beam.places()[i].mark];
-    seen.energy.kinetic += 0.5 * beam.joint(i).law.turning * x_rate * x_rate;
+    seen.energy.kinetic += 0.5 * beam.turning_inertia(i, y.data()) * x_rate * x_rate;
   }
   if (beam.spin()) {
     const Spin::Seen turning =

@@ -29,6 +29,28 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& of, const ChainState<D>& chain)
 }
 
 template <int D>
+std::string BeamSystem<D>::fastest(const Eigen::VectorXd& y) const {
+  double most = 0;
+  std::string who;
+  const auto look = [&](double speed, const std::string& name) {
+    if (!(speed > most)) return;
+    most = speed;
+    who = name;
+  };
+  const double* const rate = y.data() + coordinates();
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const std::string end = places()[i].node == 0 ? "start" : "end";
+    look(std::abs(rate[places()[i].mark]),
+         Beam::feeds(i) ? "the beam that is paid out at its " + end : "the joint " + std::to_string(joint_index(i)));
+  }
+  for (int k = 0; k <= mesh().last(); ++k) {
+    look(position<D>(rate, k).norm(), "node " + std::to_string(k));
+    look(slope<D>(rate, k).norm() * model().length_control.standard_length, "the slope of node " + std::to_string(k));
+  }
+  return who.empty() ? "" : who + " moves fastest, at " + six_digits(most) + " m/s";
+}
+
+template <int D>
 BeamSystem<D>::~BeamSystem() = default;
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -71,13 +72,17 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
   void sample(const Eigen::VectorXd& y, double t) override;
   bool proceed(const Eigen::VectorXd& y, double t) override {
+    check_order(y, t);
     if (ramp_.due(t)) ramp_.advance(t, moment(y, t));
+    if (on_state) on_state(y, t);
     return !on_step || on_step(t);
   }
+  std::string fastest(const Eigen::VectorXd& y) const override;
   void exchange(Memory& memory) override;
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
   std::function<void(const EventRecord<D>&)> on_event;
+  std::function<void(const Eigen::VectorXd& y, double t)> on_state;  ///< after each step, before on_step
   std::function<bool(double t)> on_step;
 
   Eigen::VectorXd initial_state() const { return initial_; }
@@ -110,6 +115,8 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   MergedWeights renew_weights(ChainState<D>& chain, std::size_t which, double t) const;
   /// The joint leaves the beam where it may; throws ComputationFailed where it may not.
   void check_leaving(const PendingEvent& due, double t) const;
+  /// Throws ComputationFailed where joints are no longer in their order along the beam: events have to prevent it.
+  void check_order(const Eigen::VectorXd& y, double t) const;
   /// What an event makes of the chain, and of `y` where it is an impact.
   MergedWeights change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
   /// What events of the mesh that are due at once make of it.

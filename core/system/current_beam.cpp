@@ -189,13 +189,15 @@ void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
 }
 
 template <int D>
-double CurrentBeam<D>::mark_at(std::size_t which, const Eigen::VectorXd& y, double t) const {
+typename CurrentBeam<D>::MarkMotion CurrentBeam<D>::mark_motion(std::size_t which, const Eigen::VectorXd& y,
+                                                                double t) const {
   const auto guide = guided(which, t);
-  if (guide) return guide->value;
-  const double x = y[places_[which].mark];
-  if (!sections_.nut || joint(which).pitch == 0) return x;
+  if (guide) return {guide->value, guide->rate};
+  const Eigen::Index mark = places_[which].mark;
+  if (!sections_.nut || joint(which).pitch == 0) return {y[mark], y[coordinates() + mark]};
   const double* const angle = y.data() + angles();
-  return sections_.nut->place(*sections_.spin, angle, angle + coordinates(), x).x;
+  const auto place = sections_.nut->place(*sections_.spin, angle, angle + coordinates(), y[mark]);
+  return {place.x, place.rate};
 }
 
 template <int D>

@@ -171,7 +171,12 @@ class CurrentBeam {
   }
   /// Material coordinate of a joint on the beam: an event will find a guided one where it is to be, not where
   /// integration has it [m].
-  double mark_at(std::size_t which, const Eigen::VectorXd& y, double t) const;
+  double mark_at(std::size_t which, const Eigen::VectorXd& y, double t) const { return mark_motion(which, y, t).x; }
+  /// With its rate [m/s].
+  struct MarkMotion {
+    double x, rate;
+  };
+  MarkMotion mark_motion(std::size_t which, const Eigen::VectorXd& y, double t) const;
   /// Material coordinate of a node of the mesh [m].
   double mark_of(int node, const double* q) const { return view(q, q).mark_of(node); }
   /// A joint on the beam has passed a point mass, forwards or backwards.
@@ -189,6 +194,19 @@ class CurrentBeam {
   /// Slopes at a joint, before and behind it, of an array of coordinates or rates.
   Eigen::Matrix<double, 2 * D, 1> joint_slopes(std::size_t which, const double* q) const {
     return slopes_at<D>(places_[which], q);
+  }
+  /// Of what turns at a joint, against the acceleration of its material coordinate [kg].
+  double turning_inertia(std::size_t which, const double* q) const {
+    const Turning& turning = joint(which).law.turning;
+    if (!turning.present()) return 0;
+    return turning.against<D>(q[places_[which].mark], slope<D>(q, places_[which].node));
+  }
+  /// What that inertia needs on the coordinate besides [N].
+  double turning_lag(std::size_t which, const double* q, const double* rate) const {
+    const Turning& turning = joint(which).law.turning;
+    if (!turning.stretched) return 0;
+    const JointPlace& place = places_[which];
+    return turning.lag<D>(q[place.mark], rate[place.mark], slope<D>(q, place.node), slope<D>(rate, place.node));
   }
   /// How far the slopes at joints are from their conditions [-], [1/s].
   ConstraintResidual slope_residual(const Eigen::VectorXd& y) const;

@@ -86,7 +86,8 @@ void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& 
     const Vec<double, D> inertia = joint.mass * (position<D>(now.a, places[i].node) - now.gravity);
     const Vec<double, D> pull = beam_.held(i) == nullptr ? inertia : Vec<double, D>(-lacking);
     lacking += inertia;
-    r[places[i].mark] += joint.turning * now.a[places[i].mark];
+    r[places[i].mark] +=
+        beam_.turning_inertia(i, beam.q) * now.a[places[i].mark] + beam_.turning_lag(i, beam.q, beam.rate);
     if (!joint.friction) continue;
     const auto friction = friction_at<D>(joint, places[i], pull, beam.q, beam.rate);
     r[places[i].mark] -= friction.force;
@@ -161,7 +162,7 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     const SlidingJoint& joint = beam_.joint(i).law;
     tangent.add_mass(beam_.places()[i].node, by.a * joint.mass);
-    tangent.entry(beam_.places()[i].mark, beam_.places()[i].mark) += by.a * joint.turning;
+    if (joint.turning.present()) add_turning(i, now, by, tangent);
   }
   if (const auto& rider = beam_.rider()) {
     tangent.add_border(rider->element);
@@ -177,6 +178,27 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
       const int last = tangent.borders() - 1;
       tangent.corner(last, last) = by.a * joints[static_cast<std::size_t>(index)].law.mass;
     }
+  }
+}
+
+/// What the beam turns at a joint.
+template <int D>
+void Equations<D>::add_turning(std::size_t which, const Motion<D>& now, const TangentWeights& by,
+                               BeamMatrix<D>& tangent) const {
+  const Turning& turning = beam_.joint(which).law.turning;
+  const JointPlace& place = beam_.places()[which];
+  const double x = now.beam.q[place.mark], rate = now.beam.rate[place.mark], a = now.a[place.mark], m = turning.at(x);
+  const Vec<double, D> s = slope<D>(now.beam.q, place.node), s_rate = slope<D>(now.beam.rate, place.node);
+  double& own = tangent.entry(place.mark, place.mark);
+  own += by.a * turning.against<D>(x, s);
+  if (!turning.stretched) {
+    own += by.q * turning.by_length * a;
+    return;
+  }
+  own += by.v * m * s.dot(s_rate) + by.q * turning.by_length * (s.squaredNorm() * a + s.dot(s_rate) * rate);
+  for (int c = 0; c < D; ++c) {
+    tangent.entry(place.mark, Eigen::Index{node_size<D>} * place.node + D + c) +=
+        m * (by.q * (2 * s[c] * a + s_rate[c] * rate) + by.v * s[c] * rate);
   }
 }
 

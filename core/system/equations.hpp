@@ -40,6 +40,7 @@ class Equations {
   void add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const;
   void add_rider(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const;
   void add_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
+  void add_turning(std::size_t which, const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
   void add_travelling_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
   /// Calls function(part, law) with the ends of the part for the elements at joints.
   template <class Function>

@@ -104,9 +104,13 @@ void EventGuards<D>::add_joint_guards(std::size_t which, const Eigen::VectorXd& 
   };
   const bool to_end = node + 1 == mesh.last(), to_start = node == 1;
   const bool joint_ahead = beam_.at_joint(node + 1), joint_behind = beam_.at_joint(node - 1);
-  const double x = beam_.mark_at(which, y, t);
-  const double low = joint_behind ? beam_.mark_at(which - 1, y, t) : beam_.mark_of(node - 1, y.data());
-  const double high = joint_ahead ? beam_.mark_at(which + 1, y, t) : beam_.mark_of(node + 1, y.data());
+  using Mark = typename CurrentBeam<D>::MarkMotion;
+  const auto neighbour = [&](bool is_joint, std::size_t joint, int at) {
+    return is_joint ? beam_.mark_motion(joint, y, t) : Mark{beam_.mark_of(at, y.data()), 0};
+  };
+  const auto [x, rate] = beam_.mark_motion(which, y, t);
+  const auto [low, low_rate] = neighbour(joint_behind, which - 1, node - 1);
+  const auto [high, high_rate] = neighbour(joint_ahead, which + 1, node + 1);
   const double behind = x - low, ahead = high - x;
   if (control.enabled) {
     if (!to_end) add(Kind::forward, (behind - control.trigger_length()) / unit);
@@ -115,10 +119,20 @@ void EventGuards<D>::add_joint_guards(std::size_t which, const Eigen::VectorXd& 
   auto reach = [&](bool releases, bool at_last) {
     return releases && at_last ? beam_.joint(which).separation_distance / unit : contact_distance;
   };
-  if (!joint_ahead) add(Kind::end, reach(model.end_releases, to_end) - ahead / unit);
-  if (!joint_behind) add(Kind::start, reach(model.start_releases, to_start) - behind / unit);
+  if (!joint_ahead) {
+    add(Kind::end, reach(model.end_releases, to_end) - ahead / unit);
+    guards.back().rate = rate / unit;
+    if (several && !(to_end && model.end_releases)) guards.back().room = contact_distance / 2;  // no step over a node
+  }
+  if (!joint_behind) {
+    add(Kind::start, reach(model.start_releases, to_start) - behind / unit);
+    guards.back().rate = -rate / unit;
+    if (several && !(to_start && model.start_releases)) guards.back().room = contact_distance / 2;
+  }
   if (joint_ahead && (model.at_meeting.law == AtSupport::stop || beam_.feeds(which + 1))) {
     add(Kind::meeting, model.contact_distance - ahead / unit);
+    guards.back().rate = (rate - high_rate) / unit;
+    guards.back().room = model.contact_distance / 2;
   }
   if (model.transport == WeightTransport::transported) {
     const auto j = static_cast<std::size_t>(node);
@@ -151,8 +165,15 @@ void EventGuards<D>::add_contact_guards(const Eigen::VectorXd& y, double t, Guar
       continue;
     }
     const auto gap = links_.gap(contacts[i], y);
-    const double value = (contacts[i].distance - gap.distance) / unit;  // what parts is clear of each other
-    guards.push_back({number(Kind::contact), part, gap.rate > 0 ? value - clearance : value});
+    // beyond each other they are less than no distance apart
+    const bool crossed = beam_.mark_of(contacts[i].ahead, y.data()) < beam_.mark_of(contacts[i].behind, y.data());
+    const double side = crossed ? -1 : 1, rate = side * gap.rate;
+    const double value = (contacts[i].distance - side * gap.distance) / unit;
+    guards.push_back({.kind = number(Kind::contact),
+                      .part = part,
+                      .value = rate > 0 ? value - clearance : value,  // what parts is clear of each other
+                      .rate = -rate / unit,
+                      .room = contacts[i].distance / (2 * unit)});
   }
 }
 
@@ -167,9 +188,10 @@ void EventGuards<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y
   const bool at_start = beam_.places()[which].node == 0;
   const int next = at_start ? 1 : beam_.mesh().last() - 1;
   const bool joint_next = beam_.at_joint(next);
-  const double x = beam_.mark_at(which, y, t);
-  const double x_next =
-      joint_next ? beam_.mark_at(at_start ? which + 1 : which - 1, y, t) : beam_.mark_of(next, y.data());
+  using Mark = typename CurrentBeam<D>::MarkMotion;
+  const auto [x, rate] = beam_.mark_motion(which, y, t);
+  const auto [x_next, next_rate] =
+      joint_next ? beam_.mark_motion(at_start ? which + 1 : which - 1, y, t) : Mark{beam_.mark_of(next, y.data()), 0};
   const double unit = control.standard_length, length = at_start ? x_next - x : x - x_next;
   const auto add = [&](Kind kind, double value) {
     guards.push_back({number(kind), static_cast<int>(which), value, rounding_of(beam_.mesh()) / unit});
@@ -180,12 +202,17 @@ void EventGuards<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y
     add(Kind::weights, lost_weight(at_start ? weights.on(x, x_next) : weights.on(x_next, x)));
   }
   if (joint_next) {
-    if (at_start) add(Kind::meeting, beam_.model().contact_distance - length / unit);
+    if (at_start) {
+      add(Kind::meeting, beam_.model().contact_distance - length / unit);
+      guards.back().rate = (rate - next_rate) / unit;
+      guards.back().room = beam_.model().contact_distance / 2;
+    }
   } else if (next != 0 && next != beam_.mesh().last() && control.enabled) {
     add(at_start ? Kind::merge_ahead : Kind::merge_behind,
         (control.merge_length() * (1 - merge_slack) - length) / unit);
   } else {
     add(Kind::used_up, least_left - length / unit);
+    guards.back().rate = (at_start ? rate : -rate) / unit;
   }
 }
 
@@ -228,8 +255,10 @@ Guards EventGuards<D>::rider_guards(const Eigen::VectorXd& y, double t) const {
   const bool releases = at_end ? beam_.model().end_releases : beam_.model().start_releases;
   const double least = releases ? beam_.model().joints.front().separation_distance : 0;
   const double known = rounding_of(beam_.mesh()) / unit;
-  return {{number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit, known},
-          {number(Kind::away), 0, (distance - cut_limit_) / unit, known}};
+  const double rate = y[beam_.coordinates() + beam_.layout().mark()];
+  return {
+      {number(at_end ? Kind::end : Kind::start), 0, (least - distance) / unit, known, (at_end ? rate : -rate) / unit},
+      {number(Kind::away), 0, (distance - cut_limit_) / unit, known}};
 }
 
 template <int D>

@@ -133,9 +133,12 @@ std::array<Energy, Rules> energy_jumps(const CurrentBeam<D>& beam, const ChainSt
   for (const auto& from : before.joints) {
     const auto to = std::ranges::find(after.joints, from.index, &ChainState<D>::Joint::index);
     const SlidingJoint& law = model.joints[static_cast<std::size_t>(from.index)].law;
+    const auto turning = [&law](const ChainState<D>& chain, int node) {
+      return law.turning.against<D>(chain.mesh.x[static_cast<std::size_t>(node)], slope<D>(chain.q.data(), node));
+    };
     if (to ==
         after.joints.end()) {  // a mass flies on; what holds a ring, and its wheel, have no more to do with the beam
-      jump.kinetic -= 0.5 * law.turning * from.rate * from.rate;
+      jump.kinetic -= 0.5 * turning(before, from.node) * from.rate * from.rate;
       if (std::ranges::count(after.departed, from.index, &ChainState<D>::Departed::index) > 0) continue;
       const Vec<double, D> v = position<D>(before.rate.data(), from.node);
       jump.kinetic -= 0.5 * law.mass * v.squaredNorm();
@@ -143,7 +146,8 @@ std::array<Energy, Rules> energy_jumps(const CurrentBeam<D>& beam, const ChainSt
       continue;
     }
     add_lumped(law.mass, position<D>(before.rate.data(), from.node), position<D>(after.rate.data(), to->node));
-    jump.kinetic += 0.5 * law.turning * (to->rate - from.rate) * (to->rate + from.rate);
+    jump.kinetic +=
+        0.5 * (turning(after, to->node) * to->rate * to->rate - turning(before, from.node) * from.rate * from.rate);
   }
   std::array<Energy, Rules> jumps;
   for (std::size_t i = 0; i < Rules; ++i) {

@@ -68,6 +68,17 @@ void BeamSystem<D>::check_leaving(const PendingEvent& due, double t) const {
 }
 
 template <int D>
+void BeamSystem<D>::check_order(const Eigen::VectorXd& y, double t) const {
+  for (std::size_t i = 1; i < places().size(); ++i) {
+    if (Beam::mark_at(i - 1, y, t) < Beam::mark_at(i, y, t)) continue;
+    throw ComputationFailed("the joints " + std::to_string(joint_index(i - 1)) + " and " +
+                                std::to_string(joint_index(i)) +
+                                " have passed each other unseen: this is an error of the program, please report it",
+                            t);
+  }
+}
+
+template <int D>
 MergedWeights BeamSystem<D>::change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t) {
   const auto& control = model().length_control;
   switch (due.type) {
@@ -424,6 +435,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
 template MergedWeights BeamSystem<2>::renew_weights(ChainState<2>&, std::size_t, double) const;
 template double BeamSystem<2>::clear_of_end() const;
 template void BeamSystem<2>::check_leaving(const PendingEvent&, double) const;
+template void BeamSystem<2>::check_order(const Eigen::VectorXd&, double) const;
 template MergedWeights BeamSystem<2>::change(const PendingEvent&, ChainState<2>&, Eigen::VectorXd&, double);
 template void BeamSystem<2>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<2>>&, double) const;
 template int BeamSystem<2>::relax_after(const std::vector<PendingEvent>&, ChainState<2>&, double, double) const;
@@ -448,6 +460,7 @@ template void BeamSystem<2>::handle_event(int, Eigen::VectorXd&, double);
 template MergedWeights BeamSystem<3>::renew_weights(ChainState<3>&, std::size_t, double) const;
 template double BeamSystem<3>::clear_of_end() const;
 template void BeamSystem<3>::check_leaving(const PendingEvent&, double) const;
+template void BeamSystem<3>::check_order(const Eigen::VectorXd&, double) const;
 template MergedWeights BeamSystem<3>::change(const PendingEvent&, ChainState<3>&, Eigen::VectorXd&, double);
 template void BeamSystem<3>::change_mesh(const std::vector<PendingEvent>&, std::vector<EventRecord<3>>&, double) const;
 template int BeamSystem<3>::relax_after(const std::vector<PendingEvent>&, ChainState<3>&, double, double) const;

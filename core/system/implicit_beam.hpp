@@ -12,6 +12,7 @@
 #include "core/system/node_link.hpp"
 #include "core/system/observation.hpp"
 #include "core/system/support_constraints.hpp"
+#include "core/system/turning.hpp"
 #include "core/tangent_weights.hpp"
 
 namespace vlbeam {
@@ -53,6 +54,9 @@ class ImplicitBeam final : public SecondOrderSystem {
                         Eigen::VectorXd& rates) const override;
   bool driven() const override { return beam_.model().driven() || beam_.nut_place(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
+  double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
+    return turning_of(beam_, q.data(), v.data());
+  }
   Tallies tallies() const override { return beam_.model().tallies(); }
   Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
   std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,

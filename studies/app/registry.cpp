@@ -30,19 +30,20 @@ Study space_study();
 Study suspended_beam_study();
 Study thresholds_study();
 Study torsion_study();
+Study trust_study();
 Study weights_study();
 Study work_precision_study();
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = [] {
     std::vector<Study> list = {
-        across_events_study(),  defaults_study(),   drill_stem_study(),      energy_drift_study(),
-        equilibria_study(),     exact_arc_study(),  exact_solutions_study(), falling_beam_study(),
-        hard_cases_study(),     joints_study(),     judge_study(),           manufactured_study(),
-        moving_string_study(),  quadrature_study(), rational_study(),        ropes_study(),
-        rotating_load_study(),  semicircle_study(), slender_study(),         space_study(),
-        suspended_beam_study(), thresholds_study(), torsion_study(),         weights_study(),
-        work_precision_study(),
+        across_events_study(),  defaults_study(),       drill_stem_study(),      energy_drift_study(),
+        equilibria_study(),     exact_arc_study(),      exact_solutions_study(), falling_beam_study(),
+        hard_cases_study(),     joints_study(),         judge_study(),           manufactured_study(),
+        moving_string_study(),  quadrature_study(),     rational_study(),        ropes_study(),
+        rotating_load_study(),  semicircle_study(),     slender_study(),         space_study(),
+        suspended_beam_study(), thresholds_study(),     torsion_study(),         trust_study(),
+        weights_study(),        work_precision_study(),
     };
     std::stable_partition(list.begin(), list.end(), [](const Study& study) { return !study.measures_time; });
     return list;

@@ -19,6 +19,8 @@ Scene beam(int elements, double EA, double EI) {
   scene.analysis = Analysis::statics;
   scene.gravity = {};
   scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
+  scene.beam.strain_law = StrainLaw::green;
+  scene.beam.compression = Compression::full;
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = elements;
   scene.beam.axial_strain = AxialStrain::full;  // orders are judged

@@ -57,6 +57,8 @@ Scene beam_at_rest(int elements, double EA, double EI, const Point& end, AxialSt
   scene.gravity = {};
   scene.beam.curve.end = end;
   scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
+  scene.beam.strain_law = StrainLaw::green;
+  scene.beam.compression = Compression::full;
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = elements;
   scene.beam.axial_strain = strain;

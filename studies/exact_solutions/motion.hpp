@@ -15,6 +15,8 @@ inline Scene moving_beam(int elements, const Section& section, const Point& end,
   scene.gravity = {};
   scene.beam.curve.end = end;
   scene.beam.section = section;
+  scene.beam.strain_law = StrainLaw::green;
+  scene.beam.compression = Compression::full;
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = elements;
   scene.integrator = {};

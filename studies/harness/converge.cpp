@@ -27,6 +27,7 @@ namespace {
 
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // of a value: what no refinement can show
 constexpr double mesh_order = 4;       // of displacements of cubic elements; what converges faster is not trusted to
+constexpr double contact_order = 1;    // of the distance at which joints touch, a share of the mesh size
 constexpr double step_order = 2;       // of generalized-alpha and energy-momentum
 constexpr double tolerance_order = 1;  // the global error follows the tolerance of a step
 constexpr double adaptive_order = 2.0 / 3;  // that of steps h of generalized-alpha, h^2, whose own error is h^3
@@ -36,6 +37,14 @@ constexpr int least_elements = 2;
 constexpr double perturbation = 1e-8;
 constexpr const char* absent = "the quantity is not there at this time";
 constexpr const char* no_time = "stopped: no time was left";
+
+/// Whether joints strike each other, or several of them supports.
+bool joints_strike(const Scene& scene) {
+  const auto& joints = scene.sliding_joints;
+  const auto strikes = [](const SlidingJointSpec& joint) { return joint.at_support != AtSupport::stop; };
+  return joints.size() > 1 &&
+         ((scene.contact && scene.contact->joints != AtSupport::stop) || std::ranges::any_of(joints, strikes));
+}
 
 /// From one level of time to the next finer one.
 double finer(const Scene& scene, double accuracy) { return accuracy / (has_step(scene) ? 2 : 10); }
@@ -188,7 +197,7 @@ class Converger {
   }
 
   double expected_order(Refined refined) const {
-    if (refined == Refined::mesh) return mesh_order;
+    if (refined == Refined::mesh) return joints_strike(scene_) ? contact_order : mesh_order;
     if (refined == Refined::quadrature) return 0;
     if (!has_step(scene_)) return scene_.integrator.adaptive ? adaptive_order : tolerance_order;
     return scene_.integrator.type == IntegratorType::adams_bashforth_moulton ? 0 : step_order;

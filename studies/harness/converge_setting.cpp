@@ -66,7 +66,9 @@ Scene on_mesh(const Scene& scene, int elements, int points) {
   for (LoadSpec& load : changed.loads) {
     if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, elements, "/loads");
   }
-  for (PointMassSpec& mass : changed.point_masses) mass.node = renumbered(mass.node, from, elements, "/point_masses");
+  for (PointMassSpec& mass : changed.point_masses) {
+    if (!mass.position) mass.node = renumbered(mass.node, from, elements, "/point_masses");
+  }
   return changed;
 }
 

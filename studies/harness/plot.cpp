@@ -131,7 +131,7 @@ Series point_masses_at(const RunFile& run, const std::vector<Configuration>& sha
   for (const Configuration& shape : shapes) {
     const std::vector<ShapePoint> points = points_along(run.scene, shape, intervals(run));
     for (const PointMassSpec& mass : run.scene.point_masses) {
-      const double x = mass.node * l;
+      const double x = mass.position.value_or(mass.node * l);
       const auto nearest =
           std::ranges::min_element(points, {}, [x](const ShapePoint& point) { return std::abs(point.x - x); });
       masses.x.push_back(nearest->r[across]);

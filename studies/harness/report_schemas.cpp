@@ -270,6 +270,7 @@ Json run_schema() {
                                "of a checked run: what companions with longer steps and on coarser "
                                "meshes tell of its errors")},
            {"scene", described(scene, "as understood, every default filled in")},
+           {"law", described(any_text, "how the axial force follows from the stretch, in words")},
            {"samples", samples_schema()},
            {"configurations", described(array_of(configuration), "the whole shape at the times asked for")},
            {"events", described(array_of(event), "changes of the mesh, located in time")},
@@ -292,7 +293,7 @@ Json run_schema() {
                       "of a run whose scene leaves the integrator to the program")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
-          {"failure", "error", "frequencies", "initial_equilibrium", "integrator_choice"}));
+          {"failure", "error", "law", "frequencies", "initial_equilibrium", "integrator_choice"}));
 }
 
 Json study_schema() {

@@ -69,9 +69,9 @@ auto members(Is<RunError> auto& of) {
 }
 auto members(Is<RunResult> auto& of) {
   auto& [status, failure, failure_time, samples, configurations, events, max_kinetic, max_energy_drift, slopes,
-         frequencies, solver, warnings, error, timing] = of;
+         pressures, frequencies, solver, warnings, error, timing] = of;
   return std::tie(status, failure, failure_time, samples, configurations, events, max_kinetic, max_energy_drift, slopes,
-                  frequencies, solver, warnings, error, timing);
+                  pressures, frequencies, solver, warnings, error, timing);
 }
 auto members(Is<RunOutcome> auto& of) {
   auto& [result, thrown] = of;

@@ -264,6 +264,7 @@ void write_run_report(const Scene& scene, const RunResult& result, const Shapes&
   value("warnings", warnings_json(result.warnings));
   if (result.error) value("error", error_json(scene, *result.error));
   value("scene", scene_to_json(scene));
+  value("law", law_in_words(scene));
   key("samples");
   write_samples(sample_quantities(scene), result.samples, out);
   list("configurations",

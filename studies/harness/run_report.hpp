@@ -23,6 +23,9 @@ Json run_timing(const RunTiming& timing);
 /// Writes the samples as a table with one line of column names and units; empty cells where a quantity is not there.
 void write_samples_csv(const Scene& scene, const RunResult& result, const TextSink& sink);
 
+/// How the axial force follows from the stretch, in words.
+std::string law_in_words(const Scene& scene);
+
 /// What was run and how it went, for a reader at the terminal.
 std::string run_summary(const Scene& scene, const RunResult& result);
 

@@ -10,6 +10,7 @@
 #include "scene/energy_ledger.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
+#include "scene/slack.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/run_report.hpp"
 
@@ -205,6 +206,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
   line("status", std::string(to_string(result.status)) +
                      (result.status == RunStatus::failed ? " at load factor " + six_digits(result.failure_time) : ""));
   line("beam", beam_text(scene));
+  line("law", law_in_words(scene));
   line("equilibria", std::to_string(result.samples.size()) + ", control by " +
                          std::string(to_string(scene.statics.control)) + ", " +
                          std::to_string(result.solver.newton.iterations) + " iterations");
@@ -252,6 +254,13 @@ void joint_lines(const Scene& scene, const Sample& last, const Line& line) {
 
 }  // namespace
 
+std::string law_in_words(const Scene& scene) {
+  const std::string law = scene.beam.strain_law == StrainLaw::engineering
+                              ? "force = EA x elongation (engineering strain)"
+                              : "force = EA x Green's strain x stretch";
+  return law + (compression(scene) == Compression::none ? ", no compression" : "");
+}
+
 std::string run_summary(const Scene& scene, const RunResult& result) {
   if (scene.analysis == Analysis::statics) return static_summary(scene, result);
   std::ostringstream text;
@@ -262,6 +271,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
   line("status", std::string(to_string(result.status)) + when_text(result));
   line("beam", beam_text(scene));
+  line("law", law_in_words(scene));
   line("integrator", integrator_text(scene.integrator));
   if (!scene.integrator.reason.empty()) line("", choice_text(scene));
   if (!result.samples.empty()) {

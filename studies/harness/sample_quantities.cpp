@@ -296,8 +296,7 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
              [end](const Sample& s) { return s.winches[end]->length; });
     q.number("winches/" + name + "_rate", "winch_" + name + "_rate", "m/s", "its rate",
              [end](const Sample& s) { return s.winches[end]->rate; });
-    q.number("winches/" + name + "_tension", "winch_" + name + "_tension", "N",
-             "with which the beam pulls at it, by its length before stretching",
+    q.number("winches/" + name + "_tension", "winch_" + name + "_tension", "N", "of the beam at its outlet",
              [end](const Sample& s) { return s.winches[end]->tension; });
     q.number("winches/" + name + "_power", "winch_" + name + "_power", "W",
              "of its push on the beam, without the energy that the beam brings along",

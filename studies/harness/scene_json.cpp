@@ -9,9 +9,11 @@
 
 #include "core/error.hpp"
 #include "scene/automatic_integrator.hpp"
+#include "scene/corners.hpp"
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
 #include "scene/scene_options.hpp"
+#include "scene/slack.hpp"
 #include "scene/validate.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/nearest.hpp"
@@ -206,7 +208,13 @@ class Reader {
   template <class T>
   bool number_or(const Option& option, double& number, std::optional<T>& part) const {
     const Json* const file = file_.find(option.pointer);
-    if (file == nullptr) return false;
+    if (file == nullptr) {
+      if (option.required && file_.has_parent(option.pointer)) {
+        throw InvalidInput(file_.in_file(option.pointer), InvalidInput::missing,
+                           "it must be " + allowed_text<double>(option) + ", or an object");
+      }
+      return false;
+    }
     if (file->is_object()) {
       part.emplace();
     } else if (!read(*file, option, number)) {
@@ -370,8 +378,10 @@ class Writer {
 Scene scene_with_every_part() {
   Scene scene;
   scene.sliding_mass.emplace().friction.emplace();
+  scene.sliding_mass->at_corner.emplace();
   scene.sliding_joints.emplace_back().support = SupportType::pin;  // one that needs no mass
   scene.sliding_joints.back().friction.emplace();
+  scene.sliding_joints.back().at_corner.emplace();
   scene.sliding_joints.back().x.emplace();
   scene.sliding_joints.back().pitch.emplace();
   scene.sliding_joints.back().motion.emplace();
@@ -449,6 +459,7 @@ Scene scene_from_json(Json json) {
     visit_options(reader, scene);
   }
   try {
+    place_at_corners(scene);
     if (automatic && !(published && left_out)) {
       scene.integrator = automatic_integrator(scene, scene.integrator.accuracy);
     }
@@ -501,6 +512,8 @@ Json scene_to_json(const Scene& scene) {
   filled.beam.quadrature_points = quadrature_points(scene);
   filled.beam.polynomial_points = points_of_polynomials(scene);
   filled.beam.axial_strain = axial_strain(scene);
+  filled.beam.compression = compression(scene);
+  if (filled.beam.compression == Compression::none) filled.beam.slack_over = slack_over(scene);
   if (auto& mass = filled.sliding_mass) mass->separation_distance = separation_distance(scene, *mass);
   for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene, joint);
   filled.length_control.end_merge = end_merge(scene);

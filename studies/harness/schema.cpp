@@ -124,7 +124,12 @@ class SceneSchemaBuilder {
     schema.update(number("number", option.range));
     schema["type"] = Json::array({"number", "object"});
     schema["description"] = description(option);
-    schema["default"] = standard;
+    if (!option.required) {
+      schema["default"] = standard;
+      return true;
+    }
+    Json& required = object(path, path.size() - 1)["required"];
+    if (std::find(required.begin(), required.end(), path.back()) == required.end()) required.push_back(path.back());
     return true;
   }
 

@@ -38,6 +38,7 @@ PAPERS = [
 # Documents that are pages of the site: file, what the menu calls it, and what the first page says of it.
 DOCUMENTS = {
     "docs/own_scene.md": ("A scene of your own", "Print, run, draw; joints, winches, loads; how far a number can be trusted; sweeps."),
+    "docs/ropes.md": ("Ropes", "Which law, which strain, slack, corners, winches, starts."),
     "docs/scene_keys.md": ("Keys of a scene", "Every key with its values, default, unit and meaning."),
     "docs/use.md": ("Program, library, Python", "Commands, exit codes, make, CMake, pip."),
     "docs/limits.md": ("Limits", "Where answers are wrong or get worse, the most dangerous first."),

@@ -125,6 +125,76 @@ TEST(AutomaticIntegrator, FollowsSmallVibrationsOfAStiffCantilever) {
   }
 }
 
+// A stiff rod that turns about its end: it goes round and round, and what a turn errs by adds up.
+TEST(AutomaticIntegrator, KeepsItsAccuracyOverManyTurns) {
+  Scene scene;
+  scene.gravity = {};
+  scene.beam.curve.end = {2, 0, 0};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e7, .EI = 1e5, .rhoA = 1};
+  scene.beam.elements = 8;
+  scene.start.type = SupportType::pin;
+  scene.initial_velocity = InitialVelocitySpec{.rotation = 3};
+  scene.output.interval = 0.1;
+  scene.duration = 10;
+  scene.integrator = automatic_integrator(scene);
+  const RunResult run = simulate(scene);
+  ASSERT_EQ(run.status, RunStatus::completed);
+  // its mean stretch under the centrifugal force, from angular momentum: by 4/5 rho w^2 L^2/(EA) more slowly
+  const double slower = 0.8 * 9 * 4 / 1e7;
+  for (const Sample& sample : run.samples) {
+    const double angle = 3 * (1 - slower) * sample.t;
+    EXPECT_LE(std::hypot(sample.end[0] - 2 * std::cos(angle), sample.end[1] - 2 * std::sin(angle)), 2e-4) << sample.t;
+  }
+  EXPECT_LE(run.max_energy_drift, 1e-4 * 12);
+}
+
+// A steel rod let go from the horizontal: the physical pendulum, by steps of Runge and Kutta's method.
+TEST(AutomaticIntegrator, KeepsItsAccuracyOverTheSwingsOfAStiffRod) {
+  Scene scene;
+  scene.beam.section.radius = 0.01;
+  scene.beam.material = {.density = 7850, .youngs_modulus = 2.1e11};
+  scene.beam.elements = 10;
+  scene.start.type = SupportType::pin;
+  scene.output.interval = 0.05;
+  scene.duration = 5;
+  scene.integrator = automatic_integrator(scene);
+  const RunResult run = simulate(scene);
+  ASSERT_EQ(run.status, RunStatus::completed);
+  double angle = 0, rate = 0;
+  const auto acceleration = [](double at) { return -1.5 * 9.81 * std::cos(at); };
+  constexpr int steps = 200;  // a sample
+  constexpr double h = 0.05 / steps;
+  for (const Sample& sample : run.samples) {
+    EXPECT_LE(std::hypot(sample.end[0] - std::cos(angle), sample.end[1] - std::sin(angle)), 2e-4) << sample.t;
+    for (int i = 0; i < steps; ++i) {
+      const double a1 = acceleration(angle), a2 = acceleration(angle + h / 2 * rate),
+                   a3 = acceleration(angle + h / 2 * rate + h * h / 4 * a1),
+                   a4 = acceleration(angle + h * rate + h * h / 2 * a2);
+      angle += h * rate + h * h / 6 * (a1 + a2 + a3);
+      rate += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    }
+  }
+}
+
+// The duration is named where it is too long for any step, not a step that the scene does not have.
+TEST(AutomaticIntegrator, NamesTheDurationWhereItIsTooLong) {
+  Scene scene = wire(steel);
+  scene.sliding_mass.reset();
+  scene.gravity = {};
+  scene.output.interval = 1e4;
+  scene.duration = 1.5e6;
+  EXPECT_NO_THROW(automatic_integrator(scene));
+  scene.duration = 1e12;
+  scene.output.interval = 1e10;
+  try {
+    scene.integrator = automatic_integrator(scene);
+    simulate(scene);
+    ADD_FAILURE() << "it is taken";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, "/duration");
+  }
+}
+
 // What the accuracy promises, against a run that resolves everything.
 TEST(AutomaticIntegrator, KeepsItsAccuracy) {
   Scene scene = wire(rubber);

@@ -134,8 +134,12 @@ TEST(JointContact, RefusesWhatItDoesNotKnow) {
   scene.sliding_joints.pop_back();
   EXPECT_EQ(test::refused(scene), "/contact");
   scene = good;
-  scene.contact->distance = 0.2;
+  scene.contact->distance = 0.4;
   EXPECT_EQ(test::refused(scene), "/contact/distance");
+  scene = good;
+  scene.contact->distance = 0.3;
+  scene.sliding_joints[1].position = 0.5 + 0.25 * of_rope;
+  EXPECT_EQ(test::refused(scene), "/sliding_joints/1/position");
   scene = good;
   scene.sliding_joints[0].position = 0.012;
   scene.sliding_joints[0].at_support = AtSupport::rebound;

@@ -58,6 +58,17 @@ TEST(Plausibility, NamesUnitsThatMayBeWrong) {
   EXPECT_NE(warnings[0].remedy.find("youngs_modulus"), std::string::npos);
 }
 
+// A jerk strains a beam of the right stiffness, too: no unit is to blame.
+TEST(Plausibility, BlamesNoUnitForAJerk) {
+  RunResult run;
+  run.samples.resize(10);
+  run.samples[7].strains.axial_strain = {-0.05, 0.2};
+  const auto warnings = implausible(hanging_bar(), run);
+  ASSERT_EQ(kinds(warnings), std::vector{WarningKind::large_strain});
+  EXPECT_EQ(warnings[0].remedy.find("youngs_modulus"), std::string::npos);
+  EXPECT_NE(warnings[0].message.find("jerks"), std::string::npos) << warnings[0].message;
+}
+
 TEST(Plausibility, TellsSlackBeams) {
   RunResult run;
   run.samples = {with_force(0, 0, 20), with_force(1, -10, 20)};
@@ -65,6 +76,8 @@ TEST(Plausibility, TellsSlackBeams) {
   scene.beam.section.radius = 5e-4;  // an element bears 1.6 N
   EXPECT_EQ(kinds(implausible(scene, run)), std::vector{WarningKind::buckled_elements});
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e5, .EI = 0, .rhoA = 0.1};
+  EXPECT_TRUE(implausible(scene, run).empty()) << "a rope may go slack";
+  scene.beam.compression = Compression::full;
   EXPECT_EQ(kinds(implausible(scene, run)), std::vector{WarningKind::buckled_elements});
   run.samples.back().strains.axial_force = {-1e-3, 20};
   EXPECT_TRUE(implausible(scene, run).empty()) << "rounding and ringing of a taut rope";
@@ -100,8 +113,15 @@ TEST(Plausibility, TellsFrictionByAVibration) {
   };
   EXPECT_TRUE(implausible(scene, run(0.3)).empty());
   EXPECT_EQ(kinds(implausible(scene, run(0.9))), std::vector{WarningKind::ringing_friction});
-  scene.beam.material.damping = 1e-4;
-  EXPECT_TRUE(implausible(scene, run(0.9)).empty()) << "damped, it rings off";
+  scene.beam.material.damping = 1e-4;  // too little
+  EXPECT_EQ(kinds(implausible(scene, run(0.9))), std::vector{WarningKind::ringing_friction});
+  // what each step says goes before samples
+  RunResult seen = run(0.9);
+  seen.pressures = {{1.05, 1, 3}};
+  EXPECT_TRUE(implausible(scene, seen).empty());
+  seen = run(0);
+  seen.pressures = {{1.3, 1, 3}};
+  EXPECT_EQ(kinds(implausible(scene, seen)), std::vector{WarningKind::ringing_friction});
 }
 
 TEST(Plausibility, IsAskedOfEveryRun) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/simulate.hpp"
+#include "tests/core/support/by_greens_law.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -27,7 +28,7 @@ Eigen::Vector4d final_state(Scene scene, double step, double rho_inf = 0.9) {
 }
 
 Scene pendulum() {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.start.type = SupportType::pin;
   scene.gravity_ramp = 0.25;
   scene.beam.elements = 4;
@@ -111,7 +112,7 @@ TEST(GeneralizedAlpha, RejectsAStepThatNewtonCannotSolveAndGoesOn) {
 
 /// A steel cantilever that vibrates in its first mode under a weight `share` of its own that is there at once.
 Scene vibrating(double share) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.start.type = SupportType::clamp;
   scene.beam.elements = 8;
   scene.beam.material.youngs_modulus = 2.1e11;

@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// Full Newton ends at once where rounding is all that is left: what the last correction of another step was, of a
 /// sample or an event, must not tell.
 TEST(Output, ChangesNoDigitOfAMotionThatNewtonFollowsToRounding) {
-  Scene scene;  // a bead on a stiff incline
+  Scene scene = test::by_greens_law();  // a bead on a stiff incline
   scene.beam.curve.end = {0.8660254037844387, -0.5, 0};
   scene.beam.elements = 8;
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e6, .EI = 1e4, .rhoA = 1e-3};

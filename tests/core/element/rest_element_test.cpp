@@ -83,13 +83,48 @@ TYPED_TEST(RestElements, AnElementInItsRestShapeIsFreeOfStress) {
   });
 }
 
+/// Strains count from those at rest, which an element has others of wherever its ends are: none of its matter is
+/// strained where these run along a beam that rests.
+TYPED_TEST(RestElements, NothingDampsAnElementWhoseEndsFollowTheRestCurve) {
+  constexpr int D = TypeParam::value;
+  this->for_each_element(2, [this](const auto&) {
+    const auto rest = this->draw_rest_shape();
+    this->q_ << rest.a.curve[0], rest.a.curve[1], rest.b.curve[0], rest.b.curve[1], rest.a.x, rest.b.x;
+    const double x_a = 1.3, x_b = -0.7;
+    ElementColumn<double, D> rate;
+    rate << x_a * rest.a.curve[1], x_a * rest.a.curve[2], x_b * rest.b.curve[1], x_b * rest.b.curve[2], x_a, x_b;
+    auto law = this->law(Formulation::virtual_work, rest);
+    const auto undamped = dense(this->equations_with(law, rate));
+    law.section.damping = 0.3;
+    const auto damped = this->equations_with(law, rate);
+    EXPECT_LE(damped.dissipation, 1e-24);
+    EXPECT_LE((dense(damped).force - undamped.force).norm(), 1e-11);
+  });
+}
+
+TYPED_TEST(RestElements, DampingTakesThePowerThatItsForceLoses) {
+  this->for_each_element(2, [this](const auto&) {
+    const auto rest = this->draw_rest_shape();
+    auto law = this->law(Formulation::virtual_work, rest);
+    const auto undamped = dense(this->equations_with(law, this->rate_));
+    law.section.damping = 0.3;
+    const auto damped = this->equations_with(law, this->rate_);
+    EXPECT_GT(damped.dissipation, 0);
+    EXPECT_NEAR((undamped.force - dense(damped).force).dot(this->rate_), damped.dissipation,
+                1e-11 * (damped.dissipation + undamped.force.norm()));
+  });
+}
+
 TYPED_TEST(RestElements, TangentIsTheDerivativeOfTheResidual) {
   constexpr int D = TypeParam::value;
   using Real = Dual<double>;
   const TangentWeights by{0.7, 30, 900};
-  this->for_each_element(1, [&](const auto& kind) {
+  double damping = 0.02;
+  this->for_each_element(2, [&](const auto& kind) {
     if (kind.law != StrainLaw::green) return;
     const auto rest = this->draw_rest_shape();
+    this->oracle_.section.damping = damping;
+    damping = 0.02 - damping;  // every other time
     std::array<ElementColumn<double, D>, 3> state{this->q_, this->rate_, this->random_.template vector<4 * D + 2>()};
     state[1][4 * D] = state[2][4 * D] = 0;
     const ShapeTabulation table(this->oracle_.rule, this->oracle_.stored.w);

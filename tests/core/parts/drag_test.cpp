@@ -110,7 +110,7 @@ TYPED_TEST(DragTest, InProportionToTheMassIsTheSumOverPoints) {
 
 /// A free rod that falls, along its axis or across it.
 Scene falling_rod(bool across) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.elements = 4;
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 6000, .EI = 0.2, .rhoA = 2};
   if (!across) scene.beam.curve.end = {0, -1, 0};

@@ -229,7 +229,7 @@ TEST(GuidedJointStatics, EndsWhereItIsLed) {
 TEST(SeveralFromTheirEquilibrium, StayAtRest) {
   for (const StaticJoints joints : {StaticJoints::held, StaticJoints::released}) {
     const bool released = joints == StaticJoints::released;
-    Scene scene;
+    Scene scene = test::by_greens_law();
     scene.beam.curve = {
         .type = CurveType::arc, .center = {0, 0, 0}, .radius = 1, .from_degrees = 200, .to_degrees = 340};
     scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e4, .EI = 0, .rhoA = 1};

@@ -8,12 +8,13 @@
 #include "core/error.hpp"
 #include "scene/derived.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/by_greens_law.hpp"
 
 namespace vlbeam::test {
 
 /// Example 1 of Ding & Ouyang (2022): a mass slides along a beam that falls about its clamp.
 inline Scene falling_beam(ElementKind element, int elements) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.element = element;
   scene.beam.elements = elements;
   scene.beam.axial_strain = AxialStrain::full;
@@ -26,7 +27,7 @@ inline Scene falling_beam(ElementKind element, int elements) {
 
 /// The same beam without the mass, pinned and let go from the horizontal under a smooth gravity.
 inline Scene flexible_pendulum(int elements) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.element = ElementKind::ancf;
   scene.beam.elements = elements;
   scene.beam.axial_strain = AxialStrain::full;
@@ -38,7 +39,7 @@ inline Scene flexible_pendulum(int elements) {
 
 /// A shaft that spins and bears a load that turns about it and travels along it, with the node in the middle.
 inline Scene shaft_under_turning_load(int elements) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.dimension = 3;
   scene.gravity = {};
   scene.beam.curve.end = {0, 0, 1};
@@ -58,13 +59,14 @@ inline Scene shaft_under_turning_load(int elements) {
 
 /// A weightless beam whose equilibria are sought.
 inline Scene at_rest(int elements, double EA, double EI) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.analysis = Analysis::statics;
   scene.gravity = {};
   scene.beam.section = {.type = Section::Type::stiffness, .EA = EA, .EI = EI, .rhoA = 1};
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = elements;
   scene.beam.axial_strain = AxialStrain::full;
+  scene.beam.compression = Compression::full;
   return scene;
 }
 
@@ -100,7 +102,7 @@ inline SlidingJointSpec slider(double position, double mass, double velocity = 0
 
 /// A soft beam of 2 m between two pins, with something that slides on it.
 inline Scene rope(const std::vector<SlidingJointSpec>& joints, ElementKind element = ElementKind::ale_ancf) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.element = element;
   scene.beam.elements = 16;
   scene.beam.curve.end = {2, 0, 0};
@@ -116,7 +118,7 @@ inline Scene rope(const std::vector<SlidingJointSpec>& joints, ElementKind eleme
 
 /// Example 3 of Ding & Ouyang (2022): a mass slides along a semicircle suspended at both ends.
 inline Scene semicircle(int elements) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.curve = {.type = CurveType::arc, .radius = 2, .from_degrees = 180, .to_degrees = 360};
   scene.beam.section.radius = 0.02;
   scene.beam.material.youngs_modulus = 2e8;

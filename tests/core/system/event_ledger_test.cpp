@@ -22,7 +22,7 @@ Energy whole(const CurrentBeam<D>& beam, const ChainState<D>& chain, int points)
     const SlidingJoint& law = beam.model().joints[static_cast<std::size_t>(joint.index)].law;
     seen.add_mass(law.mass, position<D>(chain.q.data(), joint.node), position<D>(chain.rate.data(), joint.node),
                   beam.gravity(0));
-    seen.energy.kinetic += 0.5 * law.turning * joint.rate * joint.rate;
+    seen.energy.kinetic += 0.5 * law.turning.inertia * joint.rate * joint.rate;
   }
   return seen.energy;
 }

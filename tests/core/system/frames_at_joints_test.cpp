@@ -8,6 +8,7 @@
 #include "scene/build.hpp"
 #include "scene/energy_ledger.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/by_greens_law.hpp"
 #include "tests/core/support/checkpoints.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/random.hpp"
@@ -27,7 +28,7 @@ struct BeadOnHelix {
   double length() const { return std::hypot(full_turn * radius, pitch); }
   double at(double t) const { return position + velocity * t + standard_gravity * -pitch / length() * t * t / 2; }
   Scene scene() const {
-    Scene scene;
+    Scene scene = test::by_greens_law();
     scene.dimension = 3;
     scene.gravity = {0, 0, -standard_gravity};
     scene.beam.curve = {.type = CurveType::arc,
@@ -80,7 +81,7 @@ TEST(FramesAtJoints, AMirrorImageRunsAlike) {
 
 /// A free beam that is curved in space and bends more easily one way, on which a mass slides.
 Scene free_helix(int elements) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.dimension = 3;
   scene.gravity = {};
   scene.beam.curve = {.type = CurveType::arc, .pitch = 0.8, .from_degrees = 0, .to_degrees = 120};

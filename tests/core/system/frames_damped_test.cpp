@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/simulate.hpp"
+#include "tests/core/support/by_greens_law.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -16,7 +17,7 @@ RunResult run(const Scene& scene) {
 
 /// A rod without inertia to speak of, as a torque sets in: its angle grows like 1 - exp(-t/c).
 TEST(FramesDamped, ARodCreepsIntoItsTwist) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.dimension = 3;
   scene.gravity = {};
   scene.beam.space_law = SpaceLaw::frames;
@@ -39,7 +40,7 @@ TEST(FramesDamped, ARodCreepsIntoItsTwist) {
 
 /// A cantilever in the plane on which a mass may slide, as the plane's own law has it, and with frames.
 Scene cantilever(bool frames, StrainLaw law, bool mass) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.gravity = {0, -9.81, 0};
   scene.beam.strain_law = law;
   scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e3, .EI = 2, .rhoA = 1};

@@ -8,6 +8,7 @@
 #include "core/statics/static_equations.hpp"
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/by_greens_law.hpp"
 #include "tests/core/support/checkpoints.hpp"
 
 namespace vlbeam::test {
@@ -21,7 +22,7 @@ Section section(double EA, double EI, double GIp) {
 
 /// A clamped arc under a force across its plane at its end.
 Scene loaded_arc(int elements, double radius, double degrees, const Section& of, double force) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.dimension = 3;
   scene.gravity = {};
   scene.analysis = Analysis::statics;
@@ -152,7 +153,7 @@ TEST(FramesInSpace, AShaftBucklesByTorque) {
 
 /// A free arc with two bending stiffnesses.
 Scene free_arc() {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.dimension = 3;
   scene.gravity = {};
   scene.beam.curve = {.type = CurveType::arc, .from_degrees = 0, .to_degrees = 120};
@@ -226,7 +227,7 @@ TEST(FramesInSpace, AMomentRollsARodUpToAHelix) {
   const Eigen::Vector3d u = (start - 0.8 * axis) / 0.6, v = axis.cross(u);
   const double turning = 4 * pi;  // M/EI, over the length of 1
   const Eigen::Vector3d exact = 0.8 * axis + 0.6 / turning * (std::sin(turning) * u + (1 - std::cos(turning)) * v);
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.dimension = 3;
   scene.analysis = Analysis::statics;
   scene.gravity = {};

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "scene/build.hpp"
+#include "tests/core/support/by_greens_law.hpp"
 
 namespace vlbeam::test {
 namespace {
@@ -15,7 +16,7 @@ double condition(const Scene& scene) {
 }
 
 TEST(MassCondition, OfTwoFixedElementsIsThatOfTheTextbookMatrix) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.element = ElementKind::ancf;
   scene.beam.elements = 2;
   scene.start.type = SupportType::pin;
@@ -34,7 +35,7 @@ TEST(MassCondition, OfTwoFixedElementsIsThatOfTheTextbookMatrix) {
 }
 
 Scene sliding() {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.element = ElementKind::ale_ancf;
   scene.beam.elements = 4;
   scene.start.type = SupportType::clamp;

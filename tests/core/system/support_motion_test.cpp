@@ -115,7 +115,7 @@ TYPED_TEST(DrivenEquations, JacobianIsTheDerivativeOfTheRightHandSide) {
 
 /// A run of a beam whose supports may move, seen at its end.
 struct DrivenRun {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   SupportMotion<2> start_motion, end_motion;
 
   struct Seen {

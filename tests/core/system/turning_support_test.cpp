@@ -232,7 +232,7 @@ TEST(TurningSupport, KeepsTheOrderOfGeneralizedAlpha) {
 TEST(TurningSupport, KeepsASteadyRotation) {
   constexpr double omega = 3, EA = 2000, rhoA = 2;
   const double k = omega * std::sqrt(rhoA / EA);
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.gravity = {};
   scene.beam.elements = 8;
   scene.beam.element = ElementKind::ale_ancf;
@@ -277,7 +277,7 @@ TEST(TurningSupport, KeepsASteadyRotation) {
 /// Simo & Vu-Quoc (1986), their beam without shear, by the Green strain of this library: offsets of the tip at `time`.
 std::array<double, 2> spun_up(double time, int elements, ElementKind element, double step) {
   constexpr double pi = std::numbers::pi, spin_up = 15, omega = 6, share = omega / spin_up;
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.gravity = {};
   scene.beam.curve.end = {10, 0, 0};
   scene.beam.elements = elements;

@@ -20,7 +20,7 @@ std::vector<Place> off_inextensible(const nlohmann::json& exact, double EA) {
   const double length = rod.at("length"), in_front = rod.at("in_front"),
                angle = rod.at("inclination_degrees").get<double>() * std::numbers::pi / 180;
   const Place along{std::cos(angle), std::sin(angle)};
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.gravity = {0, -rod.at("gravity").get<double>(), 0};
   scene.beam.elements = 64;
   scene.beam.element = ElementKind::ale_ancf;

@@ -60,7 +60,7 @@ Return there_and_back(const Scene& scene, double tolerance = 1e-12) {
 
 /// A soft beam that turns about its pin and falls.
 Scene thrown(ElementKind element) {
-  Scene scene;
+  Scene scene = test::by_greens_law();
   scene.beam.element = element;
   scene.beam.elements = 8;
   scene.start.type = SupportType::pin;

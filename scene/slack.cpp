@@ -1,0 +1,85 @@
+#include "scene/slack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/build.hpp"
+#include "scene/corners.hpp"
+#include "scene/derived.hpp"
+
+namespace vlbeam {
+namespace {
+
+// a narrower transition costs steps, wherever a taut rope swings until it is just slack
+constexpr double of_everything = 0.1, at_most = 1e-3;
+constexpr double without_loads = 1e-5;
+
+double size(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
+
+/// What a function of time comes up to, roughly.
+double size(const TimeSpec& f, double duration) {
+  double most = std::abs(f.value) + std::abs(f.rate) * duration + std::abs(f.acceleration) * duration * duration / 2 +
+                std::abs(f.amplitude);
+  for (const Point& pair : f.table) most = std::max(most, std::abs(pair[1]));
+  return most;
+}
+
+/// Masses beside the beam's own [kg].
+double lumped_mass(const Scene& scene) {
+  double mass = 0;
+  for (const PointMassSpec& point : scene.point_masses) mass += point.mass;
+  for (const SlidingJointSpec& joint : sliding_joints(scene)) mass += joint.mass;
+  for (const BlockSpec& block : scene.blocks) mass += block.mass;
+  return mass;
+}
+
+/// Forces of the scene's loads and winches, one by one, added up [N].
+double applied(const Scene& scene) {
+  double force = 0;
+  for (const LoadSpec& load : scene.loads) {
+    if (load.type != LoadType::force) continue;
+    const double length = load.at == LoadPlace::beam ? beam_length(scene) : 1;
+    force += size(load.magnitude, scene.duration) * length;
+  }
+  for (const SupportSpec* end : {&scene.start, &scene.end}) {
+    if (end->held_tension) force += size(*end->held_tension, scene.duration);
+    if (end->drum) force += size(end->drum->torque, scene.duration) / end->drum->radius;
+  }
+  return force;
+}
+
+}  // namespace
+
+Compression compression(const Scene& scene) {
+  const bool knows_none =
+      scene.analysis == Analysis::dynamics && scene.integrator.type == IntegratorType::energy_momentum;
+  const bool slackens = is_rope(scene.beam) && !knows_none;
+  return scene.beam.compression.value_or(slackens ? Compression::none : Compression::full);
+}
+
+double slack_over(const Scene& scene) {
+  if (scene.beam.slack_over) return *scene.beam.slack_over;
+  const BeamSection section = build_section(scene.beam);
+  const double g = size(scene.gravity), own = section.rhoA * beam_length(scene) * g;
+  const double all = own + lumped_mass(scene) * g + applied(scene);
+  return all > 0 ? std::min(of_everything * all / section.stiffness.EA, at_most) : without_loads;
+}
+
+bool has_bare_end(const Scene& scene) {
+  const auto bears = [&scene](int node, double x) {
+    return std::ranges::any_of(scene.point_masses,
+                               [&](const PointMassSpec& mass) {
+                                 return mass.position
+                                            ? std::abs(*mass.position - x) <= corner_rounding * beam_length(scene)
+                                            : mass.node == node;
+                               }) ||
+           std::ranges::any_of(scene.loads, [&](const LoadSpec& load) {
+             return load.type == LoadType::force && load.at == LoadPlace::node && load.node == node;
+           });
+  };
+  return (scene.start.type == SupportType::free && !bears(0, 0)) ||
+         (scene.end.type == SupportType::free && !bears(scene.beam.elements, beam_length(scene)));
+}
+
+}  // namespace vlbeam

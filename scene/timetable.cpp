@@ -1,0 +1,97 @@
+#include "scene/timetable.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "scene/scene_options.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double steps_a_change = 10, steps_a_period = 10;
+constexpr double automatic_steps_a_change = 80;   // of generalized-alpha at an accuracy of 1e-4,
+constexpr double accuracy_of_these_steps = 1e-4;  // by its root at others: it is of second order
+
+/// Something changes from one instant to another [s].
+struct Change {
+  double from, to;
+  bool rests = false;  ///< it does not: a table says the same twice
+};
+/// Something oscillates until then [s].
+struct Swing {
+  double until, period;
+};
+
+/// Notes when the functions of time of a scene change. It looks at nothing else in the table of options.
+class Course {
+ public:
+  explicit Course(const Scene& scene) {
+    visit_options(*this, scene);
+    add(0, scene.gravity_ramp);
+    for (const LoadSpec& load : scene.loads) {
+      if (load.turn.rate != 0) swings.push_back({Timetable::never, 2 * std::numbers::pi / std::abs(load.turn.rate)});
+    }
+  }
+
+  template <class T>
+  void operator()(const Option& /*option*/, const T& /*member*/) const {}
+  template <class T>
+  bool present(const Option& /*option*/, const std::optional<T>& part) const {
+    return part.has_value();
+  }
+  template <class T>
+  bool number_or(const Option& /*option*/, double /*number*/, const std::optional<T>& part) const {
+    return part.has_value();
+  }
+  template <class T>
+  void list(const Option& /*option*/, const std::vector<T>& /*entries*/) const {}
+  void section(const Option& /*option*/) const {}
+
+  void time_function(const std::string& /*at*/, const TimeSpec& f) {
+    for (std::size_t i = 1; i < f.table.size(); ++i) {
+      add(f.table[i - 1][0], f.table[i][0], f.table[i - 1][1] == f.table[i][1]);
+    }
+    add(0, f.ramp);
+    add(0, f.rate_ramp);
+    const bool oscillates = f.amplitude != 0 && f.frequency != 0;
+    if (f.until && (oscillates || f.rate != 0 || f.acceleration != 0)) add(0, *f.until);
+    if (oscillates) swings.push_back({f.until.value_or(Timetable::never), 1 / std::abs(f.frequency)});
+  }
+
+  std::vector<Change> changes;
+  std::vector<Swing> swings;
+
+ private:
+  void add(double from, double to, bool rests = false) {
+    if (to > std::max(from, 0.0)) changes.push_back({from, to, rests});
+  }
+};
+
+}  // namespace
+
+Timetable timetable(const Scene& scene) {
+  const IntegratorSpec& integrator = scene.integrator;
+  double steps = steps_a_change;
+  if (integrator.automatic && integrator.type == IntegratorType::generalized_alpha) {
+    steps = std::max(steps, automatic_steps_a_change * std::sqrt(accuracy_of_these_steps / integrator.accuracy));
+  }
+  const Course course(scene);
+  std::vector<Timetable::Stretch> stretches;
+  for (const auto& [from, to, rests] : course.changes) {
+    stretches.push_back({from, to, rests ? Timetable::never : (to - from) / steps});
+  }
+  for (const auto& [until, period] : course.swings) stretches.push_back({0, until, period / steps_a_period});
+  return Timetable(stretches);
+}
+
+double shortest_change(const Scene& scene) {
+  double shortest = Timetable::never;
+  for (const auto& [from, to, rests] : Course(scene).changes) {
+    if (!rests) shortest = std::min(shortest, to - from);
+  }
+  return shortest;
+}
+
+}  // namespace vlbeam
