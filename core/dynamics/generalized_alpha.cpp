@@ -24,7 +24,7 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 // Of the step: below, rounding of constraints and of what supports drive, over h, would go into velocities and forces.
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
-constexpr double turn_slack = 1.1, turn_share = 0.85;                     // of the longest step for what it turns
+constexpr double turn_margin = 1.1, turn_share = 0.85;                    // of the longest step for what it turns
 constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
 constexpr double least_motion = 1e-5;  // of Tolerances::motion
 
@@ -110,7 +110,7 @@ class GeneralizedAlpha final : public Stepper {
       next = std::min(next, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
       if (options_.most_turn > 0) {  // in jumps: a step that is a little shorter each time gains energy
         const double turn = within_turn(t + h);
-        if (next > turn) next = h < turn_slack * turn ? std::min(h, next) : turn_share * turn;
+        if (next > turn) next = h < turn_margin * turn ? std::min(h, next) : turn_share * turn;
       }
       usual_ = next;
     }

@@ -178,13 +178,11 @@ void JointChain<D>::hold(std::size_t which) {
   const Eigen::Matrix<double, 2 * D, 2 * D> whole = own.template selfadjointView<Eigen::Upper>();
   own = keep * whole * keep;
   // what is held has a mass of the size of what is free: the unit of mass must not matter
-  const auto fix = [&](int at, const typename Support<D>::Components& free) {
+  for (const int at : {0, D}) {
     const double size = whole.template block<D, D>(at, at).trace();
     own.template block<D, D>(at, at) +=
-        size * (station.held->frame * (1 - free).matrix().asDiagonal() * station.held->frame.transpose());
-  };
-  fix(0, station.held->free_position);
-  fix(D, station.held->free_slope);
+        size * (Eigen::Matrix<double, D, D>::Identity() - keep.template block<D, D>(at, at));
+  }
   const auto keep_rows_of = [&](auto rows) { rows = (keep * rows).eval(); };
   keep_rows_of(station.mass.template topRightCorner<2 * D, most - 2 * D>());
   keep_rows_of(station.next.template topRows<2 * D>());

@@ -6,14 +6,14 @@
 
 namespace vlbeam {
 template <int D>
-void check_places(const std::vector<PointLoad<D>>& loads, double until, double slack,
+void check_places(const std::vector<PointLoad<D>>& loads, double until, double beyond,
                   const std::function<std::pair<double, double>(double t)>& ends) {
   constexpr int instants = 2000;
   for (const PointLoad<D>& load : loads) {
     for (int i = 0; load.x && i <= instants; ++i) {
       const double t = until * i / instants, x = load.x(t);
       const auto [first, last] = ends(t);
-      if (x >= first - slack && x <= last + slack) continue;
+      if (x >= first - beyond && x <= last + beyond) continue;
       throw ModelError(
           "loads", "one at the material coordinate " + six_digits(x) + " m at t = " + six_digits(t) + " s",
           "it must be a point of the beam, " + six_digits(first) + " to " + six_digits(last) + " m at that time");

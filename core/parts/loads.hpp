@@ -37,9 +37,9 @@ struct PointLoad {
 };
 
 /// Throws ModelError where the material point of a load is not between the ends of the beam in [0, until]; `ends`
-/// gives their material coordinates, `slack` [m] is what rounding may be off.
+/// gives their material coordinates, `beyond` [m] is what rounding may be off.
 template <int D>
-void check_places(const std::vector<PointLoad<D>>& loads, double until, double slack,
+void check_places(const std::vector<PointLoad<D>>& loads, double until, double beyond,
                   const std::function<std::pair<double, double>(double t)>& ends);
 
 /// Conjugate to the slope r_x, what a moment M does: M times the derivative of the slope's angle.

@@ -145,7 +145,7 @@ void EventGuards<D>::add_joint_guards(std::size_t which, const Eigen::VectorXd& 
   if (passed < masses.size()) add(Kind::pass_forward, (x - masses[passed].x) / unit);
   if (passed > 0) add(Kind::pass_backward, (masses[passed - 1].x - x) / unit);
   if (control.enabled && control.lower > 0) {
-    const double least = control.merge_length() * (1 - merge_slack);
+    const double least = control.merge_length() * (1 - merge_margin);
     if (!to_end && !joint_ahead) add(Kind::merge_ahead, (least - ahead) / unit);
     if (!to_start && !joint_behind) add(Kind::merge_behind, (least - behind) / unit);
   }
@@ -209,7 +209,7 @@ void EventGuards<D>::add_feed_guards(std::size_t which, const Eigen::VectorXd& y
     }
   } else if (next != 0 && next != beam_.mesh().last() && control.enabled) {
     add(at_start ? Kind::merge_ahead : Kind::merge_behind,
-        (control.merge_length() * (1 - merge_slack) - length) / unit);
+        (control.merge_length() * (1 - merge_margin) - length) / unit);
   } else {
     add(Kind::used_up, least_left - length / unit);
     guards.back().rate = (at_start ? rate : -rate) / unit;
@@ -273,7 +273,7 @@ Remeshing EventGuards<D>::wanted(std::size_t which, Direction direction, const E
   const bool may_cut = far >= 0 && far <= beam_.mesh().last(),
              may_merge = next > 0 && next < beam_.mesh().last() && !beam_.at_joint(next);
   return {may_cut && reach(far) > control.trigger_length() - same_instant * control.standard_length,
-          may_merge && reach(next) < control.merge_length() * (1 + merge_slack)};
+          may_merge && reach(next) < control.merge_length() * (1 + merge_margin)};
 }
 
 template <int D>

@@ -39,10 +39,11 @@ void EventMap<D>::carry_node(const CurrentBeam<D>& beam, int node, const Eigen::
     from = chain.part.before + static_cast<int>(at - x_before.begin());
     if (joint_of(places, from) >= 0) from = -1;
   }
+  const bool turns = beam.frames() != nullptr;
   if (from >= 0) {
     to.segment<node_size<D>>(Eigen::Index{node_size<D>} * node) =
         a.segment<node_size<D>>(Eigen::Index{node_size<D>} * from);
-    if (beam.frames() != nullptr) to[beam.layout().angle() + node] = a[was.angle() + from];
+    if (turns) to[beam.layout().angle() + node] = a[was.angle() + from];
     return;
   }
   const WeightTransport transport = beam.model().transport;

@@ -366,7 +366,7 @@ def check_the_rest():
     ahead = tension * exp(mu * phi)
     contact = sqrt((ahead * cos(phi) - tension) ** 2 + (ahead * sin(phi)) ** 2)
     t, k = tanh(mu * phi / 2), sin(phi / 2) ** 2
-    say("(12.9)  friction at a kink", abs(ahead - tension - contact * t / sqrt(t * t + k * (1 - t * t))), 1e-40)
+    say("(12.12) friction at a kink", abs(ahead - tension - contact * t / sqrt(t * t + k * (1 - t * t))), 1e-40)
 
 
 def cross(a, b):

@@ -163,12 +163,19 @@ def test_converge():
     assert abs(found.answer - -0.7772451393) <= found.uncertainty <= 1e-4
 
 
+def test_a_run_tells_its_error(falling):
+    run = vlbeam.run(falling)
+    assert run.error.time >= 0 and run.error.mesh > 0 and 0 < run.error.trusted_until <= falling["duration"]
+    assert {"end", "joint 0", "shape", "energy"} <= {row.quantity for row in run.error.quantities}
+    assert vlbeam.run(falling, check=False).error is None
+
+
 def test_sweep(falling):
     found = vlbeam.sweep(falling, {"/beam/elements": [4, 8], "/sliding_mass/mass": [0.5, 0.8]}, quantities=["end.y"])
     assert found["/beam/elements"].tolist() == [4, 4, 8, 8]
     assert found["/sliding_mass/mass"].tolist() == [0.5, 0.8, 0.5, 0.8]
     falling["beam"]["elements"], falling["sliding_mass"]["mass"] = 8, 0.5
-    assert found["end.y"][2] == vlbeam.run(falling).end[-1, 1]
+    assert found["end.y"][2] == vlbeam.run(falling, check=False).end[-1, 1]
     with pytest.raises(vlbeam.InvalidInput, match="/beam/elements"):
         vlbeam.sweep(falling, {"/beam/elements": [4, -1]})
 

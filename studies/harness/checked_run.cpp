@@ -71,8 +71,8 @@ void run(Seen& seen, const std::vector<double>& times, const ProgressCallback& p
   if (in_time) {
     scene.output.configurations.insert(scene.output.configurations.end(), times.begin(), times.end());
     std::ranges::sort(scene.output.configurations);
-    const auto twice = std::ranges::unique(scene.output.configurations);
-    scene.output.configurations.erase(twice.begin(), twice.end());
+    std::vector<double>& all = scene.output.configurations;
+    all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   const auto shape = [&](const Configuration& configuration) {
     if (!in_time || std::ranges::binary_search(times, configuration.t)) {

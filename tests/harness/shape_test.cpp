@@ -14,7 +14,7 @@ namespace vlbeam {
 namespace {
 
 Scene bar() {
-  return parse_scene(R"({"beam": {"curve": {"type": "line", "start": [0, 0], "end": [1, 0]},
+  return parse_scene(R"({"beam": {"strain_law": "green", "curve": {"type": "line", "start": [0, 0], "end": [1, 0]},
     "section": {"type": "stiffness", "EA": 7, "EI": 3, "rhoA": 1}, "elements": 2}, "duration": 1})");
 }
 
@@ -60,7 +60,8 @@ TEST(PointsAlong, VelocityOfATurningBar) {
 }
 
 TEST(PointsAlong, CurvatureIsFromTheRestShape) {
-  Scene scene = parse_scene(R"({"beam": {"curve": {"type": "arc", "center": [0, 0], "radius": 2, "from_degrees": 0,
+  Scene scene = parse_scene(
+      R"({"beam": {"strain_law": "green", "curve": {"type": "arc", "center": [0, 0], "radius": 2, "from_degrees": 0,
     "to_degrees": 90}, "axis": "exact", "axial_strain": "full", "elements": 3}, "gravity": [0, 0], "duration": 1e-3,
     "output": {"interval": 1e-3, "configurations": [0]}})");
   for (const RestShape rest : {RestShape::as_built, RestShape::paper}) {
@@ -79,7 +80,8 @@ TEST(PointsAlong, CurvatureIsFromTheRestShape) {
 /// Between the points where it is summed, the strain is their parabola: at 3/4 of an element -e_A/8 + 3 e_m/4 + 3
 /// e_B/8.
 TEST(PointsAlong, HaveTheParabolaOfASampledStrain) {
-  Scene scene = parse_scene(R"({"beam": {"curve": {"type": "line", "end": [1, 0]}, "axial_strain": "lobatto",
+  Scene scene = parse_scene(
+      R"({"beam": {"strain_law": "green", "curve": {"type": "line", "end": [1, 0]}, "axial_strain": "lobatto",
     "section": {"type": "stiffness", "EA": 7, "EI": 3, "rhoA": 1}, "elements": 2}, "duration": 1})");
   Configuration shape = stretched(1.1, 0);
   shape.r_x[1] = {1.3, 0.2, 0};

@@ -74,21 +74,10 @@ CMAKE
 if "$cmake" -S other -B other/build -DCMAKE_PREFIX_PATH="$root" > /dev/null 2>&1; then says "version 99 was found"; fi
 
 # The element library alone needs neither scenes nor JSON nor threads of its own.
-mkdir alone && cp examples/element_alone.cpp alone/ && cat > alone/CMakeLists.txt <<'CMAKE'
-cmake_minimum_required(VERSION 3.25)
-project(alone LANGUAGES CXX)
-set(CMAKE_DISABLE_FIND_PACKAGE_nlohmann_json ON)
-set(CMAKE_DISABLE_FIND_PACKAGE_Threads ON)
-find_package(vlbeam REQUIRED COMPONENTS core)
-if(TARGET vlbeam::mechanics OR TARGET vlbeam::scene)
-  message(FATAL_ERROR "the component core brings more than itself")
-endif()
-add_executable(element_alone element_alone.cpp)
-target_link_libraries(element_alone PRIVATE vlbeam::core)
-CMAKE
-"$cmake" -S alone -B alone/build -DCMAKE_PREFIX_PATH="$root" -DCMAKE_CXX_COMPILER="$cxx" > alone.log 2>&1 &&
-  "$cmake" --build alone/build >> alone.log 2>&1 && alone/build/element_alone >> alone.log ||
-  { cat alone.log; says "the component core"; }
+"$cmake" -S examples -B alone -DELEMENTS_ALONE=ON -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_Threads=ON -DCMAKE_PREFIX_PATH="$root" -DCMAKE_CXX_COMPILER="$cxx" \
+  -DCMAKE_CXX_FLAGS_RELEASE=-O1 > alone.log 2>&1 && "$cmake" --build alone >> alone.log 2>&1 &&
+  alone/element_alone >> alone.log || { cat alone.log; says "the component core"; }
 
 # As a part of another project: the library is optimized although that one has chosen nothing, and there are no tests,
 # benchmarks or programs.

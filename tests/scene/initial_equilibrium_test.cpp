@@ -251,6 +251,7 @@ TEST(RodFromItsSleeve, StartsBalancedWhereTheSleeveIsReleased) {
 TEST(RodFromItsSleeve, IsDrawnInOrThrownOut) {
   for (const auto& [share, duration] : {std::pair{0.9, 2.8}, std::pair{1.1, 4.5}}) {
     Scene scene = by(IntegratorType::fehlberg78, sleeve_scene(30, 3 * balanced_at_30, share * balanced_at_30, 12));
+    scene.beam.strain_law = StrainLaw::green;  // whose energy is a polynomial: the ledger sums it without an error
     scene.integrator.rtol = scene.integrator.atol = 1e-12;
     scene.beam.section.rhoA = 0.05;
     scene.duration = duration;

@@ -171,6 +171,7 @@ TEST(Starts, TheEquilibriumIsOneOfTheRings) {
   scene.initial_shape = InitialShape::equilibrium;
   scene.duration = 0.01;
   scene.output.interval = 0.01;
+  scene.output.configurations.clear();
   const RunResult run = test::completed(scene);
   EXPECT_EQ(run.samples.front().equilibrium->holding_force, 0);
   EXPECT_NEAR(run.samples.back().end[1], run.samples.front().end[1], 1e-7);
