@@ -491,7 +491,8 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     slope<D>(chain.rate.data(), j) = joint.kink ? before : Vec<double, D>((before + behind) / 2);
     if (held) position<D>(chain.rate.data(), j).setZero();
     if constexpr (D == 3) {  // triads of the node are those of the material points that pass it
-      if (has_frames(scene)) chain.sections[static_cast<std::size_t>(j)].spin += rate * twist_rate_at(chain, j);
+      if (has_frames(scene))
+        chain.sections[static_cast<std::size_t>(j)].spin += rate * turning_along(chain, axis.straightened(), j);
     }
     if (joints[i].support != SupportType::clamp) continue;
     const auto sleeve = Support<D>::direction_clamp(axis.tangent(x));

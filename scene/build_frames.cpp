@@ -25,6 +25,17 @@ double twist_rate_at(const ChainState<3>& chain, int node) {
   return sum / sides;
 }
 
+double turning_along(const ChainState<3>& chain, const Axis<3>& rest, int node) {
+  const double twist = twist_rate_at(chain, node);
+  if (!chain.curved_at_rest()) return twist;
+  ChainState<3> at_rest = chain;
+  at_rest.q = chain.rest;
+  at_rest.sections = chain.rest_sections;
+  const double x = chain.mesh.x[static_cast<std::size_t>(node)];
+  const double turning = chain.rest_triads->turning(x, rest.derivatives(x))[0];
+  return twist + turning - twist_rate_at(at_rest, node);
+}
+
 std::shared_ptr<const RestTriads> rest_triads(const Scene& scene, const ChainState<3>& chain) {
   std::vector<TriadReference> at;
   for (int k = 0; k <= chain.mesh.last(); ++k) {

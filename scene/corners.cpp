@@ -64,7 +64,9 @@ Axis<D> draw(const CurveSpec& curve) {
 
 }  // namespace
 
-bool is_rope(const BeamSpec& beam) { return beam.section.type == Section::Type::stiffness && beam.section.EI == 0; }
+bool is_rope(const BeamSpec& beam) {
+  return beam.section.type == Section::Type::stiffness && beam.section.EI_y.value_or(beam.section.EI) == 0;
+}
 
 template <int D>
 Nurbs<D> drawn_nurbs(const CurveSpec& curve) {

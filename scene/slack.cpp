@@ -12,8 +12,8 @@ namespace vlbeam {
 namespace {
 
 // a narrower transition costs steps, wherever a taut rope swings until it is just slack
-constexpr double of_everything = 0.1, at_most = 1e-3;
-constexpr double without_loads = 1e-5;
+constexpr double of_everything = 0.03, at_most = 1e-3;
+constexpr double without_loads = 1e-9;
 
 double size(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
 

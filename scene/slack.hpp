@@ -8,8 +8,8 @@ namespace vlbeam {
 /// energy-momentum, which knows no rope that goes slack.
 Compression compression(const Scene& scene);
 
-/// Strain over which the scene's rope goes slack. By default a tenth of what all weights and loads strain it,
-/// together, but at most 1e-3; 1e-5 where there are none.
+/// Strain over which the scene's rope goes slack. By default three hundredths of what all weights and loads strain it,
+/// together, but at most 1e-3; 1e-9 where there are none.
 double slack_over(const Scene& scene);
 
 /// Whether an end of the beam is bare: nothing holds it, and it bears no lumped mass and no force. A rope has no

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <optional>
+
 #include "core/element/frame_element.hpp"
+#include "core/element/frame_rest_rates.hpp"
 
 namespace vlbeam {
 
 // Kelvin-Voigt damping of an element with frames. Its dissipation function is
 //   R = sum_g w_g c (EI_y y'^2 + EI_z z'^2 + GIp torsion'^2)/2,
-// of the rates of strains at material points where the inner angle is 0. That angle is no coordinate: it turns at the
+// of the rates of strains, less those of the rest shape, at material points where the inner angle is 0. That angle is no coordinate: it turns at the
 // rate at which R is least, as the angle itself is that of the least energy. Stiff torsion so does not lock.
 
 /// What the material resists with: w c EI_y, w c EI_z, w c GIp at the first point of a table, then at the second, times
@@ -36,8 +39,11 @@ struct FrameViscous {
   FrameForce<Real> force;
   Real power;
 
-  /// `resists` are resistances().
-  FrameViscous(const FrameElement<Real>& element, const std::array<Real, 6>& resists, const FrameRates<Real>& rates)
+  std::array<Real, 6> moments;  ///< conjugate to the rates of strains
+
+  /// `resists` are resistances(), `rest` the rates of strains at rest, null where they stay.
+  FrameViscous(const FrameElement<Real>& element, const std::array<Real, 6>& resists, const FrameRates<Real>& rates,
+               const std::array<Real, 6>* rest = nullptr)
       : power(0) {
     std::array<FrameForce<Real>, 6> by;
     std::array<Real, 6> strain_rate;
@@ -46,6 +52,7 @@ struct FrameViscous {
       by[i] = element.derivative(i, Real(0));
       strain_rate[i] = by[i].chord.dot(rates.chord) + by[i].s_a.dot(rates.s_a) + by[i].s_b.dot(rates.s_b) +
                        by[i].spin_a * rates.spin_a + by[i].spin_b * rates.spin_b;
+      if (rest != nullptr) strain_rate[i] -= (*rest)[i];
       const Real moment = resists[i] * by[i].inner;
       pull += moment * strain_rate[i];
       stiff += moment * by[i].inner;
@@ -53,7 +60,7 @@ struct FrameViscous {
     const Real inner_rate = -pull / stiff;
     for (std::size_t i = 0; i < 6; ++i) {
       strain_rate[i] += by[i].inner * inner_rate;
-      const Real moment = resists[i] * strain_rate[i];
+      const Real& moment = moments[i] = resists[i] * strain_rate[i];
       power += moment * strain_rate[i];
       force.chord += by[i].chord * moment;
       force.s_a += by[i].s_a * moment;
@@ -74,6 +81,7 @@ struct FrameDamping {
   double turned;
   /// r_xx at both ends by r_B - r_A, s_A, s_B, in an element of length 1; counts where ends may move.
   std::array<std::array<double, 3>, 2> bends;
+  std::optional<FrameRestRates> rest;  ///< where ends may move and the beam is curved at rest
 
   template <class Real, int N>
   struct Answer {
@@ -118,9 +126,19 @@ struct FrameDamping {
       pass(b, 1, rate[N - 1]);
     }
     const Real scale = !moves ? Real(1) : section.law == StrainLaw::green ? l : Real(Real(1) / l);
+    std::array<std::array<Real, 6>, 2> by_rest;  // by x_A' and x_B'
+    std::array<Real, 6> rest_rate;
+    const bool reshaped = moves && rest;
+    if constexpr (moves) {
+      for (std::size_t i = 0; reshaped && i < 6; ++i) {
+        for (std::size_t e = 0; e < 2; ++e) by_rest[e][i] = at_marks((*rest)[e][i], Real(q[N - 2]), Real(q[N - 1]));
+        rest_rate[i] = by_rest[0][i] * rate[N - 2] + by_rest[1][i] * rate[N - 1];
+      }
+    }
     const FrameViscous<Real> lost(
         element, resistances<Real>(table, section, scale),
-        {Vector(b.r_rate - a.r_rate), Vector(a.s_rate * l), Vector(b.s_rate * l), a.spin, b.spin});
+        {Vector(b.r_rate - a.r_rate), Vector(a.s_rate * l), Vector(b.s_rate * l), a.spin, b.spin},
+        reshaped ? &rest_rate : nullptr);
     Answer<Real, N> answer{{}, lost.power};
     const auto put = [&](const End& end, int i, const Vector& on_r, const Vector& on_s, const Real& on_spin) {
       answer.force.template segment<3>(i) = on_r;
@@ -130,7 +148,21 @@ struct FrameDamping {
     };
     put(a, 0, -lost.force.chord, lost.force.s_a * l, lost.force.spin_a);
     put(b, 7, lost.force.chord, lost.force.s_b * l, lost.force.spin_b);
+    for (std::size_t i = 0; reshaped && i < 6; ++i) {
+      for (int e = 0; e < 2; ++e) answer.force[N - 2 + e] -= lost.moments[i] * by_rest[static_cast<std::size_t>(e)][i];
+    }
     return answer;
+  }
+
+ private:
+  /// A number that is known with its derivatives at marks which are these.
+  template <class Real>
+  static Real at_marks(const Active<2>& known, const Real& x_a, const Real& x_b) {
+    Real result(known.value());
+    if constexpr (!std::is_same_v<Real, double>) {
+      result.derivatives() = x_a.derivatives() * known.derivatives()[0] + x_b.derivatives() * known.derivatives()[1];
+    }
+    return result;
   }
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
 #include "core/element/triad.hpp"
+#include "core/element/twice_active.hpp"
 
 namespace vlbeam {
 
@@ -28,6 +30,19 @@ class RestTriads {
     }
     const Vec<Real, 3> given = orientation_.cast<Real>(), across = given - t * Real(t.dot(given));
     return across / Real(sqrt(across.dot(across)));
+  }
+  /// How fast sections turn about the tangent along the rest curve at `x` [rad/m], and how that changes with x. `curve`
+  /// is the rest curve there, with its first three derivatives.
+  std::array<double, 2> turning(double x, const std::array<Vec<double, 3>, 4>& curve) const {
+    Vec<TwiceActive, 3> s;
+    for (int c = 0; c < 3; ++c) s[c] = TwiceActive(curve[1][c], curve[2][c], 0, curve[3][c], 0, 0);
+    const Vec<TwiceActive, 3> y = direction<TwiceActive>(x, s), t = s / sqrt(s.dot(s)), z = t.cross(y);
+    std::array<double, 2> result{};
+    for (int c = 0; c < 3; ++c) {
+      result[0] += z[c].value * y[c].a;
+      result[1] += z[c].a * y[c].a + z[c].value * y[c].aa;
+    }
+    return result;
   }
 
  private:

@@ -20,11 +20,14 @@ Eigen::Matrix<double, N, N> tangent_of(const FrameDamping& damping, const Eigen:
 
 FrameDamping Frames::damping_of(const FrameTable& table, const double* q, int k) const {
   const auto i = static_cast<std::size_t>(k);
-  FrameDamping damping{references_[i], references_[i + 1], table, model_.section, turned(q, k), {}};
+  FrameDamping damping{references_[i], references_[i + 1], table, model_.section, turned(q, k), {}, {}};
   if (!slides(k)) return damping;
   for (std::size_t e = 0; e < 2; ++e) {
     const auto f = rational_shape(weights_[i], static_cast<double>(e));
     damping.bends[e] = {f[2][2], f[1][2], f[3][2]};
+  }
+  if (rest_curve_ != nullptr) {
+    damping.rest = frame_rest_rates(table, model_.section, rest_ends(k), damping.bends, *along_);
   }
   return damping;
 }

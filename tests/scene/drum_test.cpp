@@ -30,9 +30,9 @@ Scene on_a_drum(double inertia, double torque) {
   return scene;
 }
 
-// m g + M/r moves m + I/r^2.
+// m g + M/r moves m + I/r^2, as long as that is slower than what falls freely: a rope does not push.
 TEST(Drum, AWeightUnwindsItAgainstItsInertiaAndItsMotor) {
-  for (const double torque : {0.0, -1.5, 2.0, -6.0}) {
+  for (const double torque : {0.0, -1.5, 1.5, -6.0}) {
     const RunResult run = test::completed(on_a_drum(0.04, torque));
     const double a = (2 * earth + torque / 0.2) / (2 + 1);
     for (const Sample& sample : run.samples) {
@@ -92,6 +92,7 @@ TEST(Drum, DoesNotKnowWhereTheOriginIs) {
   wind.magnitude.value = 0.3;
   wind.direction = {1, 0, 0};
   scene.loads = {wind};
+  scene.initial_shape = InitialShape::equilibrium;
   Scene moved = scene;
   moved.beam.curve.start = {3, 40, 0};
   moved.beam.curve.end = {3, 38, 0};

@@ -150,6 +150,7 @@ TEST(EndStop, StopsOnEitherSideByEveryMethod) {
   Scene scene = on_a_drum();
   scene.beam.section.EA = 5000;
   scene.beam.section.rhoA = 0.5;
+  scene.beam.compression = Compression::full;
   scene.start.drum->torque = {.value = -8};  // against 4 N m of the weight
   scene.start.end_stop = EndStopSpec{.least = -0.1, .most = 3, .stiffness = 3000, .depth = 0.01, .damping = 20};
   scene.initial_shape = InitialShape::built;
