@@ -50,7 +50,7 @@ void EventMap<D>::carry_node(const CurrentBeam<D>& beam, int node, const Eigen::
   const double x = x_now[i], step = small_way * std::min(x - x_now[i - 1], x_now[i + 1] - x);
   position<D>(to.data(), node) = at(x, transport, a);
   slope<D>(to.data(), node) = (at(x + step, transport, a) - at(x - step, transport, a)) / (2 * step);
-  if (beam.frames() == nullptr) return;
+  if (!turns) return;
   // Sections turn linearly along an element. Damped, they would be thrown far off by what stops their spin at once.
   const int k = chain.mesh.element_at(x);
   const auto behind = static_cast<std::size_t>(k);
