@@ -7,12 +7,15 @@
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
+#include "scene/time_function.hpp"
 
 namespace vlbeam {
 namespace {
 
 // a narrower transition costs steps, wherever a taut rope swings until it is just slack
 constexpr double of_everything = 0.03, at_most = 1e-3;
+// what is drawn unstrained, and loaded little by little, pulls by 3/16 of the transition as it starts: a jolt
+constexpr double of_what_grows = 1e-5;
 constexpr double without_loads = 1e-9;
 
 double size(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
@@ -49,6 +52,21 @@ double applied(const Scene& scene) {
   return force;
 }
 
+/// Whether the rope is drawn unstrained, and all that it bears grows from nothing.
+bool is_loaded_gently(const Scene& scene) {
+  const bool rests = !scene.initial_velocity &&
+                     std::ranges::all_of(sliding_joints(scene), [](const auto& joint) { return joint.velocity == 0; });
+  const bool weighs = size(scene.gravity) > 0 && scene.gravity_ramp == 0;
+  if (scene.analysis == Analysis::statics || scene.initial_shape != InitialShape::built || !rests || weighs)
+    return false;
+  const auto grows = [](const TimeSpec& f) { return time_function(f)(0).value == 0; };
+  const auto winch_grows = [&](const SupportSpec& end) {
+    return (!end.held_tension || grows(*end.held_tension)) && (!end.drum || grows(end.drum->torque));
+  };
+  return winch_grows(scene.start) && winch_grows(scene.end) &&
+         std::ranges::all_of(scene.loads, [&](const LoadSpec& load) { return grows(load.magnitude); });
+}
+
 }  // namespace
 
 Compression compression(const Scene& scene) {
@@ -63,7 +81,8 @@ double slack_over(const Scene& scene) {
   const BeamSection section = build_section(scene.beam);
   const double g = size(scene.gravity), own = section.rhoA * beam_length(scene) * g;
   const double all = own + lumped_mass(scene) * g + applied(scene);
-  return all > 0 ? std::min(of_everything * all / section.stiffness.EA, at_most) : without_loads;
+  const double share = is_loaded_gently(scene) ? of_what_grows : of_everything;
+  return all > 0 ? std::min(share * all / section.stiffness.EA, at_most) : without_loads;
 }
 
 bool has_bare_end(const Scene& scene) {

@@ -9,8 +9,9 @@ namespace vlbeam {
 
 // Kelvin-Voigt damping of an element with frames. Its dissipation function is
 //   R = sum_g w_g c (EI_y y'^2 + EI_z z'^2 + GIp torsion'^2)/2,
-// of the rates of strains, less those of the rest shape, at material points where the inner angle is 0. That angle is no coordinate: it turns at the
-// rate at which R is least, as the angle itself is that of the least energy. Stiff torsion so does not lock.
+// of the rates of strains, less those of the rest shape, at material points where the inner angle is 0. That angle is
+// no coordinate: it turns at the rate at which R is least, as the angle itself is that of the least energy. Stiff
+// torsion so does not lock.
 
 /// What the material resists with: w c EI_y, w c EI_z, w c GIp at the first point of a table, then at the second, times
 /// `scale`.

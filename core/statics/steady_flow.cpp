@@ -22,13 +22,15 @@ constexpr double oscillating = 1e-6;  // imaginary part over modulus, above whic
 }  // namespace
 
 double stretch_under(double force, double EA, StrainLaw law) {
-  if (law == StrainLaw::engineering) return 1 + force / EA;
-  if (!(force > -EA / (3 * std::numbers::sqrt3))) {
+  const bool green = law == StrainLaw::green;
+  if (!(force > (green ? -EA / (3 * std::numbers::sqrt3) : -EA))) {
     std::ostringstream text;
     text << force;
     throw ModelError("tension", text.str(),
-                     "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses");
+                     green ? "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses"
+                           : "a force above -EA [N]: below, nothing of the beam's length is left");
   }
+  if (!green) return 1 + force / EA;
   double stretch = 1;
   for (int i = 0; i < most_iterations; ++i) {
     stretch -= ((stretch * stretch - 1) * stretch / 2 - force / EA) / (1.5 * stretch * stretch - 0.5);

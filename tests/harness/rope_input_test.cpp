@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{R"({"beam": {"section": {"EI": 3}, "curve": {"points": [[0, 0], [1, 1], [2, 0], [3, 1]]}}})",
               "/beam/curve/points/2", "a rope"},
         Wrong{R"({"beam": {"compression": "some"}})", "/beam/compression", "\"none\""},
-        Wrong{R"({"beam": {"slack_over": 1e-4}})", "/beam/slack_over", "compression"},
+        Wrong{R"({"beam": {"compression": "full", "slack_over": 1e-4}})", "/beam/slack_over", "compression"},
         Wrong{R"({"beam": {"compression": "none", "slack_over": 0}})", "/beam/slack_over", "(0, 1]"},
         Wrong{R"({"beam": {"compression": "none", "slack_over": 2}})", "/beam/slack_over", "(0, 1]"},
         Wrong{R"({"beam": {"compression": "none"}, "integrator": {"type": "energy-momentum"}})", "/integrator/type",

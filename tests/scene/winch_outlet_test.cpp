@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/system/implicit_beam.hpp"
+#include "scene/automatic_integrator.hpp"
 #include "scene/build.hpp"
 #include "scene/energy_ledger.hpp"
 #include "tests/core/support/differences.hpp"
@@ -144,8 +145,7 @@ TEST(WinchOutlet, KnowsNoUnits) {
   scene.start.feed = TimeSpec{.rate = -0.5 * length / time, .ramp = 0.5 * time};
   scene.point_masses = {{10, mass}};
   scene.duration = 0.5 * time;
-  scene.integrator.type = IntegratorType::generalized_alpha;
-  scene.integrator.step = 1e-3 * time;
+  scene.integrator = automatic_integrator(scene);
   EXPECT_LT(completed(scene).samples.back().beam_length, 2 * length);
 }
 
