@@ -82,7 +82,7 @@ struct FrameDamping {
   double turned;
   /// r_xx at both ends by r_B - r_A, s_A, s_B, in an element of length 1; counts where ends may move.
   std::array<std::array<double, 3>, 2> bends;
-  std::optional<FrameRestRates> rest;  ///< where ends may move and the beam is curved at rest
+  std::optional<FrameRestRates> rest = {};  ///< where ends may move and the beam is curved at rest
 
   template <class Real, int N>
   struct Answer {
