@@ -107,8 +107,8 @@ class Program:
     def run(self, scene):
         with tempfile.TemporaryDirectory() as folder:
             report = os.path.join(folder, "report.json")
-            done = subprocess.run([self.path, "run", "-", "--report", report, "-q"], input=json.dumps(scene), text=True,
-                                  capture_output=True)
+            done = subprocess.run([self.path, "run", "--no-check", "-", "--report", report, "-q"],
+                                  input=json.dumps(scene), text=True, capture_output=True)
             if not os.path.exists(report):
                 return {"status": "refused", "message": done.stderr.strip()}
             with open(report) as file:
@@ -196,6 +196,7 @@ def check(program, name, scene, tens, twos, tolerance):
     fixed = copy.deepcopy(whole)
     if "integrator" in fixed:
         fixed["integrator"] = method
+        here = program.run(fixed)  # a method that is named knows less of what is to come than the automatic one
     for units in twos:
         there = program.run(program.in_units(fixed, units))
         head = f"{name}, {units}: "
