@@ -15,7 +15,7 @@ namespace {
 // a narrower transition costs steps, wherever a taut rope swings until it is just slack
 constexpr double of_everything = 0.03, at_most = 1e-3;
 // what is drawn unstrained, and loaded little by little, pulls by 3/16 of the transition as it starts: a jolt
-constexpr double of_what_grows = 1e-5;
+constexpr double of_what_grows = 1e-6;
 constexpr double without_loads = 1e-9;
 
 double size(const Point& p) { return std::hypot(p[0], p[1], p[2]); }

@@ -9,7 +9,7 @@ namespace vlbeam {
 Compression compression(const Scene& scene);
 
 /// Strain over which the scene's rope goes slack. By default three hundredths of what all weights and loads strain it,
-/// together, but at most 1e-3; a 1e-5th of it where a rope is drawn unstrained and all that it bears grows from
+/// together, but at most 1e-3; a 1e-6th of it where a rope is drawn unstrained and all that it bears grows from
 /// nothing; 1e-9 where it bears nothing.
 double slack_over(const Scene& scene);
 

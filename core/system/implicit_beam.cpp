@@ -72,7 +72,7 @@ bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::Vect
 }
 
 template <int D>
-void ImplicitBeam<D>::leave_out_travel(Eigen::VectorXd& moved) const {
+void ImplicitBeam<D>::leave_out_given(Eigen::VectorXd& moved) const {
   at_guides([&](std::size_t i) {
     position<D>(moved.data(), places()[i].node).setZero();
     moved[places()[i].mark] = 0;
