@@ -162,7 +162,10 @@ double longest_implicit_step(const Scene& scene) {
   for (const SlidingJointSpec& joint : sliding_joints(scene)) {
     at_most(element / std::abs(joint.velocity) / steps_an_element);
     if (joint.friction) at_most(joint.friction->velocity / (joint.friction->coefficient * g) / steps_of_fading);
-    if (joint.x) passing(*joint.x);
+    if (joint.x) {  // what it crosses vibrates on from when gravity grew: tolerances by its long way do not see that
+      passing(*joint.x);
+      at_most(scene.gravity_ramp / steps_a_ramp);
+    }
     if (joint.motion) driven(joint.motion->displacement);
   }
   for (const LoadSpec& load : scene.loads) {

@@ -457,7 +457,6 @@ class GeneralizedAlpha final : public Stepper {
     const double whole = options_.tolerances.motion;
     if (whole == 0) return 1;
     assign(other_, step_.q - from_q_);
-    system_.leave_out_given(other_);
     const FieldNorms moved = field_norms(stop_.fields(), other_);
     for (const Field field : {Field::position, Field::mark, Field::mass}) {
       motion_ = std::max(motion_, motion_until_event_ + moved[static_cast<std::size_t>(field)]);

@@ -67,9 +67,6 @@ class SecondOrderSystem {
   virtual bool driven_offset(const Eigen::VectorXd& /*q*/, double /*t*/, Eigen::VectorXd& /*offset*/) const {
     return false;
   }
-  /// Writes zeros in an array of displacements for those that are given and move nothing: a mark that is led along the
-  /// beam takes its node with it.
-  virtual void leave_out_given(Eigen::VectorXd& /*moved*/) const {}
   /// How fast what moves turns as a whole, or its path does [rad/s]; vibrations hardly count.
   virtual double turning(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const { return 0; }
   /// Which energies the state counts.

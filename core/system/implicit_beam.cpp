@@ -71,14 +71,6 @@ bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::Vect
   return true;
 }
 
-template <int D>
-void ImplicitBeam<D>::leave_out_given(Eigen::VectorXd& moved) const {
-  at_guides([&](std::size_t i) {
-    position<D>(moved.data(), places()[i].node).setZero();
-    moved[places()[i].mark] = 0;
-  });
-}
-
 /// With what links do, and without what holds.
 template <int D>
 double ImplicitBeam<D>::free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t,

@@ -54,7 +54,6 @@ class ImplicitBeam final : public SecondOrderSystem {
                         Eigen::VectorXd& rates) const override;
   bool driven() const override { return beam_.model().driven() || beam_.nut_place(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
-  void leave_out_given(Eigen::VectorXd& moved) const override;
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
     return turning_of(beam_, q.data(), v.data());
   }
