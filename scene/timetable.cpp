@@ -10,7 +10,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr double steps_a_change = 10, steps_a_period = 10;
+constexpr double steps_in_a_change = 10, steps_in_a_period = 10;
 constexpr double automatic_steps_a_change = 80;   // of generalized-alpha at an accuracy of 1e-4,
 constexpr double accuracy_of_these_steps = 1e-4;  // by its root at others: it is of second order
 
@@ -73,7 +73,7 @@ class Course {
 
 Timetable timetable(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
-  double steps = steps_a_change;
+  double steps = steps_in_a_change;
   if (integrator.automatic && integrator.type == IntegratorType::generalized_alpha) {
     steps = std::max(steps, automatic_steps_a_change * std::sqrt(accuracy_of_these_steps / integrator.accuracy));
   }
@@ -82,7 +82,7 @@ Timetable timetable(const Scene& scene) {
   for (const auto& [from, to, rests] : course.changes) {
     stretches.push_back({from, to, rests ? Timetable::never : (to - from) / steps});
   }
-  for (const auto& [until, period] : course.swings) stretches.push_back({0, until, period / steps_a_period});
+  for (const auto& [until, period] : course.swings) stretches.push_back({0, until, period / steps_in_a_period});
   return Timetable(stretches);
 }
 
