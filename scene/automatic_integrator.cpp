@@ -158,14 +158,12 @@ double longest_implicit_step(const Scene& scene) {
   };
   const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
   at_most(turn * std::sqrt(L / g) / steps_a_swing);
+  at_most(scene.gravity_ramp / steps_a_ramp);  // what has begun to move then goes on as fast
   if (scene.initial_velocity) at_most(turn / std::abs(scene.initial_velocity->rotation) / steps_a_swing);
   for (const SlidingJointSpec& joint : sliding_joints(scene)) {
     at_most(element / std::abs(joint.velocity) / steps_an_element);
     if (joint.friction) at_most(joint.friction->velocity / (joint.friction->coefficient * g) / steps_of_fading);
-    if (joint.x) {  // what it crosses vibrates on from when gravity grew: tolerances by its long way do not see that
-      passing(*joint.x);
-      at_most(scene.gravity_ramp / steps_a_ramp);
-    }
+    if (joint.x) passing(*joint.x);
     if (joint.motion) driven(joint.motion->displacement);
   }
   for (const LoadSpec& load : scene.loads) {
