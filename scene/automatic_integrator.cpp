@@ -23,9 +23,8 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 
 // The longest step at an accuracy of 1e-4; it goes with the root of the accuracy, for the method is of second order.
-constexpr double usual_accuracy = 1e-4;
 constexpr double steps_a_swing = 650;     // under gravity, over the beam's length, or of what turns from the start
-constexpr double steps_a_ramp = 80;       // of what grows, where that is all that happens
+constexpr double steps_a_ramp = 80;       // of gravity; of what else grows, where that is all that happens
 constexpr double steps_a_period = 160;    // of what is driven or loaded periodically
 constexpr double steps_an_element = 5;    // while something that is driven passes it
 constexpr double steps_of_fading = 10;    // while friction passes through where it fades
@@ -92,11 +91,11 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.error_estimate = ErrorEstimate::filtered;
   spec.step = std::min(two_digits(longest_implicit_step(scene) * std::sqrt(accuracy / usual_accuracy)), scene.duration);
   spec.rho_inf = automatic_rho_inf;
+  spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   // what errors of steps add up to falls with the power 2/3 of their tolerance
   const auto joints = sliding_joints(scene);
   const bool events = scene.length_control.enabled &&
                       std::ranges::any_of(joints, [](const SlidingJointSpec& joint) { return !joint.x; });
-  spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   const double share =
       (events ? share_with_events : implicit_share) * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;

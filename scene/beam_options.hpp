@@ -138,8 +138,7 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
         "/beam/slack_over", "-", {.low = 0, .high = 1, .low_open = true},
         "strain, by the scene's law, beyond which a rope pulls in full, and below minus that not at all; if not given "
         "three hundredths of what all weights and loads strain it, together, at most 1e-3; where these grow from "
-        "nothing a "
-        "1e-6th, and 1e-9 where there are none",
+        "nothing a 1e-6th, and 1e-9 where there are none",
         beam.slack_over);
     choice("/beam/rotary_inertia",
            "inertia of sections that turn as the beam bends, and that spin, too: for small slopes", beam.rotary_inertia,

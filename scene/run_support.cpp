@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "scene/automatic_integrator.hpp"
 #include "scene/build.hpp"
 #include "scene/timetable.hpp"
 
@@ -14,9 +15,9 @@ namespace vlbeam {
 namespace {
 
 constexpr double largest_overshoot = 0.25;  // over L_std: of a step that chooses its length by the motion
-constexpr double steps_a_turn = 800;        // the first, of generalized-alpha in an automatic run, at an accuracy of
-constexpr double accuracy_of_these_turns = 1e-4;  // this; by the root of others
-constexpr double first_step_courant = 0.01;       // of the time an axial wave takes through the shortest element
+// the first turn, of generalized-alpha in an automatic run at the usual accuracy; by its root at others
+constexpr double steps_a_turn = 800;
+constexpr double first_step_courant = 0.01;  // of the time an axial wave takes through the shortest element
 
 std::vector<double> sample_times(const Scene& scene) {
   std::vector<double> times;
@@ -92,7 +93,7 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   const auto turned = [](const SupportSpec& end) { return end.motion && end.motion->angle; };
   if (integrator.automatic && !turned(scene.start) && !turned(scene.end)) {  // a turn that is given does not err
     options.generalized_alpha.most_turn =
-        2 * std::numbers::pi / steps_a_turn * std::sqrt(integrator.accuracy / accuracy_of_these_turns);
+        2 * std::numbers::pi / steps_a_turn * std::sqrt(integrator.accuracy / usual_accuracy);
   }
   return options;
 }

@@ -309,8 +309,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
            "what becomes of a ring, a sleeve or a sliding mass, which keeps its place on the beam while the load "
            "grows: it is released and slides to where it is in equilibrium, or held, in the natural frequencies, too; "
            "if not given released in statics; where a motion starts from the equilibrium held until t = 0, but "
-           "released if "
-           "the beam is a rope and rings without friction are all that slides on it",
+           "released if the beam is a rope and rings without friction are all that slides on it",
            scene.statics.joints, {.when = equilibrium});
   }
 

@@ -5,14 +5,14 @@
 #include <numbers>
 #include <string>
 
+#include "scene/automatic_integrator.hpp"
 #include "scene/scene_options.hpp"
 
 namespace vlbeam {
 namespace {
 
 constexpr double steps_in_a_change = 10, steps_in_a_period = 10;
-constexpr double automatic_steps_a_change = 80;   // of generalized-alpha at an accuracy of 1e-4,
-constexpr double accuracy_of_these_steps = 1e-4;  // by its root at others: it is of second order
+constexpr double automatic_steps_a_change = 80;  // of generalized-alpha at the usual accuracy, by its root at others
 
 /// Something changes from one instant to another [s].
 struct Change {
@@ -75,7 +75,7 @@ Timetable timetable(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
   double steps = steps_in_a_change;
   if (integrator.automatic && integrator.type == IntegratorType::generalized_alpha) {
-    steps = std::max(steps, automatic_steps_a_change * std::sqrt(accuracy_of_these_steps / integrator.accuracy));
+    steps = std::max(steps, automatic_steps_a_change * std::sqrt(usual_accuracy / integrator.accuracy));
   }
   const Course course(scene);
   std::vector<Timetable::Stretch> stretches;

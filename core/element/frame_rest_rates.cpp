@@ -32,6 +32,8 @@ FrameRestRates frame_rest_rates(const FrameTable& unit, const FrameSection& sect
   };
   const FrameEnds<Real> at{chord, s[0] * l, s[1] * l, axis(0), axis(1), 0};
   const FrameElement<Real> element(unit, section, at);
+  std::array<FrameForce<Real>, 6> by;
+  for (std::size_t k = 0; k < 6; ++k) by[k] = element.derivative(k, Real(0));
   FrameRestRates rates{};
   for (int e = 0; e < 2; ++e) {
     const auto i = static_cast<std::size_t>(e);
@@ -43,8 +45,8 @@ FrameRestRates frame_rest_rates(const FrameTable& unit, const FrameSection& sect
     spin.derivatives()[e] = turning[1];
     spin -= element.twist() / l;
     for (std::size_t k = 0; k < 6; ++k) {
-      const FrameForce<Real> by = element.derivative(k, Real(0));
-      rates[i][k] = e == 0 ? Real(by.s_a.dot(slope) + by.spin_a * spin) : Real(by.s_b.dot(slope) + by.spin_b * spin);
+      rates[i][k] =
+          e == 0 ? Real(by[k].s_a.dot(slope) + by[k].spin_a * spin) : Real(by[k].s_b.dot(slope) + by[k].spin_b * spin);
     }
   }
   return rates;

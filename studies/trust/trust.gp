@@ -10,7 +10,7 @@ shape(i) = (i % 3 == 0) ? 9 : (i % 3 == 1) ? 7 : 5
 which(name) = sum [i=1:18] (family[i] eq name ? i : 0)
 kind(k) = shape(which(strcol("family")))
 hue(k) = tint[int(which(strcol("family")))]
-set multiplot layout 1,2 title "What default runs tell of their error" margins 0.06,0.80,0.12,0.86 spacing 0.07,0.1
+set multiplot layout 1,2 title "What default runs tell of their error" margins 0.085,0.81,0.12,0.86 spacing 0.07,0.1
 set logscale xy
 set format xy "10^{%T}"
 set xrange [1e-13:1e2]
