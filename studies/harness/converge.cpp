@@ -33,6 +33,7 @@ constexpr double tolerance_order = 1;  // the global error follows the tolerance
 constexpr double adaptive_order = 2.0 / 3;  // that of steps h of generalized-alpha, h^2, whose own error is h^3
 constexpr int most_points = 20, extra_points = 2;
 constexpr double least_tolerance = 1e-13, most_steps = 1e7;
+constexpr double least_small_rtol = 1e-14;  // where it is next to nothing beside the absolute tolerances
 constexpr int least_elements = 2;
 constexpr double perturbation = 1e-8;
 constexpr const char* absent = "the quantity is not there at this time";
@@ -304,7 +305,9 @@ class Converger {
     if (!lost && std::isfinite(time) && time >= std::max(mesh, quadrature)) {
       next.accuracy = finer(scene_, now_.accuracy);
       growth = has_step(scene_) ? 2 : 1.5;
-      const double least = has_step(scene_) ? scene_.duration / most_steps : least_tolerance;
+      const double least = has_step(scene_)             ? scene_.duration / most_steps
+                           : scene_.integrator.adaptive ? least_small_rtol
+                                                        : least_tolerance;
       if (next.accuracy < least) return give_up("steps cannot be made finer: rounding is next");
     } else if (!lost && quadrature > mesh) {
       next.points += extra_points;

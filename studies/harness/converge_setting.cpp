@@ -37,9 +37,10 @@ std::string setting_text(const Scene& scene, const Setting& s) {
 Scene to_converge(const Scene& scene) {
   if (!scene.integrator.automatic || scene.analysis != Analysis::dynamics) return scene;
   Scene start = scene;
-  start.integrator = automatic_integrator(scene, explicit_start);
-  if (start.integrator.type == IntegratorType::generalized_alpha) {
-    start.integrator = automatic_integrator(scene, implicit_start);
+  // the coarser start decides: as fine as dopri5 starts, no implicit method could compete
+  start.integrator = automatic_integrator(scene, implicit_start);
+  if (start.integrator.type != IntegratorType::generalized_alpha) {
+    start.integrator = automatic_integrator(scene, explicit_start);
   }
   start.integrator.automatic = false;
   return start;
