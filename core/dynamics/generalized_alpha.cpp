@@ -27,6 +27,7 @@ constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of 
 constexpr double turn_margin = 1.1, turn_share = 0.85;                    // of the longest step for what it turns
 constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
 constexpr double least_motion = 1e-5;  // of Tolerances::motion
+constexpr double torn_share = 0.3;     // of it: no step is off so far, in modes that it does not follow either
 
 class GeneralizedAlpha final : public Stepper {
  public:
@@ -404,6 +405,7 @@ class GeneralizedAlpha final : public Stepper {
   /// Estimated error of the positions over what the tolerances allow, the largest of all coordinates.
   double error_ratio(double t, double h) {
     const Eigen::Index count = step_.q.size() - system_.multipliers();
+    if (is_torn()) return std::numeric_limits<double>::infinity();
     if (options_.error_estimate == ErrorEstimate::filtered) filter_error(t + h, h, count);
     const double scale = share_of_motion();
     std::atomic<double> largest = 0;
@@ -436,6 +438,15 @@ class GeneralizedAlpha final : public Stepper {
       if (errors[f] > 0 && increments[f] > 0) least = std::min(least, errors[f] / increments[f]);
     }
     tolerance_ = std::clamp(newton_share * least, least_newton, most_newton);
+  }
+
+  /// Whether the unfiltered error is no error of a step any more. Newton's iteration may find another solution than the
+  /// one that goes on from the start, a rod turned round for one; it is as if stiff modes had thrown the beam there,
+  /// and filter_error() would leave nothing of that.
+  bool is_torn() const {
+    if (options_.tolerances.motion == 0) return false;
+    const FieldNorms errors = field_norms(stop_.fields(), r_);
+    return errors[static_cast<std::size_t>(Field::position)] > torn_share * options_.tolerances.motion;
   }
 
   /// By the tangent: of fast modes, which the step does not follow, it counts next to nothing. The residual is linear
