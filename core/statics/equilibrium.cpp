@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/statics/joint_release.hpp"
+#include "core/statics/joints_descent.hpp"
 #include "core/statics/static_modes.hpp"
 #include "core/statics/static_search.hpp"
 
@@ -255,11 +256,27 @@ class Path {
     return step;
   }
 
-  /// All joints that nothing guides, along the path that fading forces on them make.
+  /// Downhill; where that leads nowhere all is as before.
+  bool slide_down(Eigen::VectorXd& q) {
+    const ChainState<D> held = system_.chain_of(search_.state_of(q), 1);
+    const Eigen::VectorXd at = q;
+    if (JointsDescent<D>(search_).release(q)) return true;
+    system_.take(held);
+    q = at;
+    search_.zero = Eigen::VectorXd::Zero(q.size());
+    return false;
+  }
+
+  /// All joints that nothing guides: those of a rope downhill, others along the path that fading forces on them make.
   void release_together(Eigen::VectorXd& q, const std::function<bool(const Equilibrium&)>& on_point) {
     equations_.keep_conditions(true);  // of the slopes, as they are once joints are free
     if (!search_.newton(q, 1) && !search_.newton_with_forces(q, 1)) {
       path_ends(q, "there is no equilibrium with equal stretches at the joints", 0);
+    }
+    if (!system_.model().section.stiffness.bends() && slide_down(q)) {
+      ++counters_.steps;
+      on_point(search_.point(q, 1));
+      return;
     }
     search_.held_by = search_.holding_forces(q, 1);
     search_.releasing = true;

@@ -56,8 +56,8 @@ struct Equilibrium {
 /// joint that is alone in having no guide is released by moving its material coordinate x: the force that holds it
 /// there is a function of x, followed in steps from where the joint is, downhill, to where it vanishes, through the
 /// system's length control. Each step is a point of the path; the last one solves for x, too. Several are released
-/// together: the forces that hold them fall in proportion to 1 - s, and s goes from 0 to 1 along the path that this
-/// makes. Throws NotBalanced where the beam slides on in a ring.
+/// together: those of a rope slide downhill (JointsDescent), else the forces that hold them fall in proportion to 1 -
+/// s, and s goes from 0 to 1 along the path that this makes. Throws NotBalanced where the beam slides on in a ring.
 template <int D>
 void trace_equilibria(BeamSystem<D>& system, const EquilibriumOptions& options,
                       const std::function<bool(const Equilibrium&)>& on_point, SolverCounters& counters);

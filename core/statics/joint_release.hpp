@@ -39,7 +39,7 @@ class JointRelease {
         equations_.hold_joints(true);
         not_released(q, "length control leaves no equilibrium");
       }
-      const double room = this->room(q, way);
+      const double room = search_.room(search_.slider, q, way);
       if (room <= shortest_slide * unit) {
         not_released(q, search_.next_is_end(search_.slider, way) ? "it comes to the end of the beam"
                                                                  : "without length control it runs into a node");
@@ -102,13 +102,6 @@ class JointRelease {
     }
     equations_.hold_joints(true);
     return false;
-  }
-
-  /// How far it may slide that way: until it runs into a node or out of the beam, or until length control is due.
-  double room(const Eigen::VectorXd& q, int way) const {
-    const auto& control = system_.model().length_control;
-    if (!control.enabled || search_.next_is_end(search_.slider, way)) return search_.until_node(search_.slider, q, way);
-    return control.trigger_length() * (1 + 1e-12) - search_.reach(search_.slider, q, -way);
   }
 
   /// Nothing but the ring holds the beam, which then goes down.

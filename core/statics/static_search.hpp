@@ -338,6 +338,13 @@ class StaticSearch {
     return reach(which, q, way) - distance;
   }
 
+  /// How far it may slide that way: until it runs into a node or out of the beam, or until length control is due.
+  double room(std::size_t which, const Eigen::VectorXd& q, int way) const {
+    const auto& control = system.model().length_control;
+    if (!control.enabled || next_is_end(which, way)) return until_node(which, q, way);
+    return control.trigger_length() * (1 + 1e-12) - reach(which, q, -way);
+  }
+
   /// Length control that is due, and the equilibrium on its mesh; false where there is none.
   bool control_length(Eigen::VectorXd& q, double factor = 1) {
     for (int events = 0; events < most_events; ++events) {

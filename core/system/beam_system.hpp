@@ -77,6 +77,9 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
     if (on_state) on_state(y, t);
     return !on_step || on_step(t);
   }
+  /// The beam becomes that of a chain, and all that depends on it follows.
+  void take(const ChainState<D>& chain);
+  ChainState<D> chain_of(const Eigen::VectorXd& y, double t) const { return Beam::chain(y, t); }
   std::string fastest(const Eigen::VectorXd& y) const override;
   void exchange(Memory& memory) override;
 
@@ -109,8 +112,6 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
-  /// The beam becomes that of a chain, and all that depends on it follows.
-  void take(const ChainState<D>& chain);
   /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
   MergedWeights renew_weights(ChainState<D>& chain, std::size_t which, double t) const;
   /// The joint leaves the beam where it may; throws ComputationFailed where it may not.

@@ -182,6 +182,26 @@ TEST(RopeOverRings, ThreeWeightsHangWhereTheStringIsStiff) {
   }
 }
 
+/// Weights of different sizes, from a middle part that is straight: by the triangle of forces the angles a, b of both
+/// sides to the level obey A cos a = B cos b, A sin a + B sin b = W.
+TEST(RopeOverRings, ThreeUnequalWeightsFindTheirSide) {
+  for (const auto& [A, W, B] :
+       {std::tuple{0.0465, 0.0641, 0.0403}, std::tuple{3.0, 4.5, 2.0}, std::tuple{2.0, 2.5, 2.6}}) {
+    Scene scene = over_rings({{-1, -3, 0}, {-1, 0, 0}, {1, 0, 0}, {1, -3, 0}}, {3, 5}, 2.6e6, 1e-10);
+    scene.beam.elements = 24;
+    scene.point_masses = {{0, A}, {12, W}, {24, B}};
+    const RunResult run = completed(scene);
+    // cosines of the triangle with sides A, B, W
+    const double sin_a = (A * A + W * W - B * B) / (2 * A * W), sin_b = (B * B + W * W - A * A) / (2 * B * W);
+    const double tan_a = sin_a / std::sqrt(1 - sin_a * sin_a), tan_b = sin_b / std::sqrt(1 - sin_b * sin_b);
+    const double depth = 2 / (1 / tan_a + 1 / tan_b);
+    EXPECT_EQ(run.samples.back().equilibrium->negative_pivots, 0);
+    EXPECT_NEAR(run.configurations.back().r[12][0], -1 + depth / tan_a, 2e-4 * depth) << A;
+    EXPECT_NEAR(run.configurations.back().r[12][1], -depth, 2e-4 * depth) << A;
+    EXPECT_NEAR(*run.samples.back().joints[0].position, 4 - depth / sin_a, 2e-4 * depth) << A;
+  }
+}
+
 /// A ring that is moved down by what its supports could have been moved up.
 TEST(MovedJointStatics, IsTheSameSeenFromTheRing) {
   const SupportMotionSpec down{{0, -1, 0}, {.value = 0.2}}, up{{0, 1, 0}, {.value = 0.2}};
