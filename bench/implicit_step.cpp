@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/clamped_beam.hpp"
-#include "core/dynamics/generalized_alpha.hpp"
+#include "mechanics/time/generalized_alpha.hpp"
 #include "scene/build.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bench/clamped_beam.hpp"
-#include "core/element/circular_shaft.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 #include "scene/build.hpp"
 
 namespace {

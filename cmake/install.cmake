@@ -77,7 +77,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/reference DESTINATION ${data} FILES_MATC
 foreach(file README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff)
   install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endforeach()
-foreach(folder core scene docs examples python/examples reference reports scenes studies tests/mutants)
+foreach(folder core mechanics scene docs examples python/examples reference reports scenes studies tests/mutants)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           FILES_MATCHING PATTERN "*.md" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js" PATTERN "*.svg"
           PATTERN "*.json" PATTERN "*.csv" PATTERN "*.ipynb"

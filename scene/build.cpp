@@ -8,7 +8,7 @@
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
 #include "core/length_control/segmentation.hpp"
-#include "core/parts/ground.hpp"
+#include "mechanics/ropes/ground.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_frames.hpp"
 #include "scene/build_loads.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/geometry/axis.hpp"
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "scene/derived.hpp"
 
 namespace vlbeam {

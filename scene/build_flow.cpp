@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/dynamics/stepper.hpp"
 #include "core/error.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/time/stepper.hpp"
 #include "scene/build.hpp"
 #include "scene/time_function.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/length_control/chain_state.hpp"
-#include "core/system/beam_model.hpp"
+#include "mechanics/motion/system/beam_model.hpp"
 #include "scene/derived.hpp"
 
 namespace vlbeam {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/element/frame_element.hpp"
+#include "mechanics/frames/frame_element.hpp"
 #include "scene/build.hpp"
 
 namespace vlbeam {

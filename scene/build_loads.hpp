@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/parts/loads.hpp"
-#include "core/parts/section_moment.hpp"
-#include "core/parts/spin.hpp"
+#include "mechanics/motion/parts/loads.hpp"
+#include "mechanics/motion/parts/section_moment.hpp"
+#include "mechanics/spin/spin.hpp"
 #include "scene/scene.hpp"
 
 namespace vlbeam {

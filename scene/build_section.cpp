@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/element/circular_shaft.hpp"
 #include "core/geometry/elementary.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 #include "scene/build.hpp"
 #include "scene/slack.hpp"
 

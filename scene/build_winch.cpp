@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/parts/drum.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/ropes/drum.hpp"
 #include "scene/build.hpp"
 #include "scene/time_function.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/system/beam_model.hpp"
-#include "core/system/observation.hpp"
+#include "mechanics/motion/system/beam_model.hpp"
+#include "mechanics/motion/system/observation.hpp"
 #include "scene/result.hpp"
 #include "scene/scene.hpp"
 

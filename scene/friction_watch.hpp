@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "scene/result.hpp"
 
 namespace vlbeam {

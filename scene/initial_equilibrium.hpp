@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/statics/equilibrium.hpp"
+#include "mechanics/statics/equilibrium.hpp"
 #include "scene/result.hpp"
 #include "scene/scene.hpp"
 

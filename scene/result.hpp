@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/solver_counters.hpp"
 #include "core/length_control/event_type.hpp"
-#include "core/system/energy.hpp"
+#include "mechanics/motion/system/energy.hpp"
+#include "mechanics/time/solver_counters.hpp"
 #include "scene/run_error.hpp"
 #include "scene/scene.hpp"
 

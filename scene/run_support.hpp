@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "scene/result.hpp"
 #include "scene/run_output.hpp"
 

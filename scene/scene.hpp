@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/integrator_type.hpp"
-#include "core/element/angle_field.hpp"
 #include "core/element/beam_rule.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
-#include "core/joint/at_support.hpp"
-#include "core/joint/axial_friction.hpp"
-#include "core/joint/joint_slopes.hpp"
 #include "core/length_control/merge_policy.hpp"
-#include "core/parts/winding.hpp"
-#include "core/system/constraints.hpp"
+#include "mechanics/contact/at_support.hpp"
+#include "mechanics/motion/joint/axial_friction.hpp"
+#include "mechanics/motion/joint/joint_slopes.hpp"
+#include "mechanics/motion/parts/winding.hpp"
+#include "mechanics/motion/system/constraints.hpp"
+#include "mechanics/spin/angle_field.hpp"
+#include "mechanics/time/integrator_type.hpp"
 
 namespace vlbeam {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
 #include "scene/build.hpp"
 #include "scene/build_winch.hpp"
 #include "scene/energy_ledger.hpp"

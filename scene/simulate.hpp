@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "core/dynamics/checkpoint.hpp"
+#include "mechanics/time/checkpoint.hpp"
 #include "scene/result.hpp"
 #include "scene/run_output.hpp"
 #include "scene/scene.hpp"

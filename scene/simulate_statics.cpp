@@ -1,7 +1,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
-#include "core/statics/equilibrium.hpp"
+#include "mechanics/statics/equilibrium.hpp"
 #include "scene/build.hpp"
 #include "scene/initial_equilibrium.hpp"
 #include "scene/run_support.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/dynamics/timetable.hpp"
+#include "mechanics/time/timetable.hpp"
 #include "scene/scene.hpp"
 
 namespace vlbeam {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
 #include "core/geometry/nurbs.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/corners.hpp"

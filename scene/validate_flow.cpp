@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
-#include "core/statics/steady_flow.hpp"
-#include "core/system/moving_mesh.hpp"
+#include "mechanics/flow/moving_mesh.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/options.hpp"

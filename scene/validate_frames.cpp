@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 

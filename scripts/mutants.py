@@ -24,7 +24,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 work = root / "build-mutants"
 source = work / "source"
 build = source / "build"
-code_folders = ("cmake", "core", "include", "reference", "scene", "scripts", "studies", "tests")  # what a result depends on
+code_folders = ("cmake", "core", "include", "mechanics", "reference", "scene", "scripts", "studies", "tests")  # what a result depends on
 of_the_tree = r"^(mutants|documents|install|python|program\.claims)"  # tests of documents, not of code, and of this script
 hang = 900  # [s] for one program: a mutant may never end
 

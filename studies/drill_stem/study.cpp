@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/element/circular_shaft.hpp"
 #include "core/geometry/elementary.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 
 namespace vlbeam {
 namespace drill_stem {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/elementary.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
 #include "studies/exact_solutions/balance.hpp"
 #include "studies/exact_solutions/motion.hpp"
 #include "studies/moving_string/transverse.hpp"

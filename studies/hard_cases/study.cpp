@@ -8,7 +8,7 @@
 
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
-#include "core/system/mass_condition.hpp"
+#include "mechanics/motion/system/mass_condition.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/json.hpp"

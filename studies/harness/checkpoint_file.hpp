@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/dynamics/checkpoint.hpp"
+#include "mechanics/time/checkpoint.hpp"
 #include "scene/scene.hpp"
 
 namespace vlbeam {

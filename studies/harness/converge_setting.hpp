@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/dynamics/integrator_type.hpp"
+#include "mechanics/time/integrator_type.hpp"
 #include "scene/scene.hpp"
 #include "studies/harness/converge.hpp"
 

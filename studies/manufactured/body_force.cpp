@@ -1,7 +1,7 @@
 #include "studies/manufactured/body_force.hpp"
 
 #include "core/element/quadrature.hpp"
-#include "core/parts/material_point.hpp"
+#include "mechanics/motion/parts/material_point.hpp"
 
 namespace vlbeam::manufactured {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/parts/part.hpp"
+#include "mechanics/motion/parts/part.hpp"
 #include "studies/manufactured/solution.hpp"
 
 namespace vlbeam::manufactured {

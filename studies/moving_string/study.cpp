@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "core/element/circular_shaft.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/moving_string/transverse.hpp"
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <numbers>
 
-#include "core/element/circular_shaft.hpp"
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/rotating_load/closed_form.hpp"

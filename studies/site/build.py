@@ -48,7 +48,8 @@ DOCUMENTS = {
     "docs/faq.md": ("Questions", "What people ask of such codes."),
     "docs/glossary.md": ("Glossary", "Every term in a line."),
     theory.INDEX: ("Theory", "The equations, numbered, from kinematics to integration in time."),
-    "core/README.md": ("The core library", "What each folder holds, and where to start reading."),
+    "core/README.md": ("The element library", "What each folder holds, and an hour's path through it."),
+    "mechanics/README.md": ("A beam in motion", "The heart and its rooms, and an afternoon's path."),
     "studies/README.md": ("Writing a study", "A driver, a sweep as data, gates, claims."),
     "CONTRIBUTING.md": ("Contributing", "How to add a part, a scene, a study, an option."),
 }

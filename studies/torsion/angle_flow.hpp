@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
 
 namespace vlbeam::torsion {
 

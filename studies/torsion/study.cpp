@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/element/circular_shaft.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/torsion/angle_flow.hpp"
 

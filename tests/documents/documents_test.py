@@ -194,19 +194,25 @@ class Documents(unittest.TestCase):
 
     def test_folders_of_the_core_use_those_above_them(self):
         core = SOURCES / "core"
-        order = re.findall(r"^\| `(\w+)/` \|", (core / "README.md").read_text(encoding="utf-8"), re.M)
-        self.assertEqual(sorted(order), sorted(path.name for path in core.iterdir() if path.is_dir()))
+        order = self.folders_of(core)
         for path in sorted(core.rglob("*.[ch]pp")):
-            includes = re.findall(r'#include "(\w+)/(\w+)', path.read_text(encoding="utf-8"))
-            self.assertLessEqual({top for top, _ in includes}, {"core"}, path)
             if path.parent == core:
                 continue
-            for _, folder in includes:
-                if folder in order:
-                    self.assertLessEqual(order.index(folder), order.index(path.parent.name), path)
-        for path in sorted((SOURCES / "scene").rglob("*.[ch]pp")):
-            tops = set(re.findall(r'#include "(\w+)/', path.read_text(encoding="utf-8")))
-            self.assertLessEqual(tops, {"core", "scene"}, path)
+            for folder in re.findall(r'#include "core/(\w+)/', path.read_text(encoding="utf-8")):
+                self.assertLessEqual(order.index(folder), order.index(path.parent.name), path)
+
+    def test_libraries_use_those_below_them(self):
+        self.folders_of(SOURCES / "mechanics")
+        for library, used in (("core", {"core"}), ("mechanics", {"core", "mechanics"}), ("scene", {"core", "mechanics", "scene"})):
+            for path in sorted((SOURCES / library).rglob("*.[ch]pp")):
+                tops = set(re.findall(r'#include "(\w+)/', path.read_text(encoding="utf-8")))
+                self.assertLessEqual(tops, used, path)
+
+    def folders_of(self, library):
+        """In the order of its README, which names them all."""
+        order = re.findall(r"^\| `(\w+)/` \|", (library / "README.md").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(sorted(order), sorted(path.name for path in library.iterdir() if path.is_dir()))
+        return order
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/parts/ground.hpp"
+#include "mechanics/ropes/ground.hpp"
 #include "scene/energy_ledger.hpp"
 #include "tests/core/support/held_chain.hpp"
 #include "tests/core/support/scenes.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/parts/spin.hpp"
+#include "mechanics/spin/spin.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
 

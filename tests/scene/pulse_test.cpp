@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/sundials_stepper.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/names.hpp"
 #include "scene/timetable.hpp"

@@ -4,9 +4,9 @@
 
 #include "core/beam/block_kernels.hpp"
 #include "core/beam/span_kernels.hpp"
-#include "core/dynamics/step_kernels.hpp"
 #include "core/element/element_sums.hpp"
 #include "core/element/moving_kernels.hpp"
+#include "mechanics/time/step_kernels.hpp"
 #include "tests/core/support/element_state.hpp"
 
 namespace vlbeam::test {

@@ -1,4 +1,4 @@
-#include "core/dynamics/energy_momentum.hpp"
+#include "mechanics/conserving/energy_momentum.hpp"
 
 #include <gtest/gtest.h>
 

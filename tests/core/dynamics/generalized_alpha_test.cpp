@@ -1,4 +1,4 @@
-#include "core/dynamics/generalized_alpha.hpp"
+#include "mechanics/time/generalized_alpha.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/integrate.hpp"
+#include "mechanics/time/integrate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/newton_stop.hpp"
+#include "mechanics/time/newton_stop.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "core/dynamics/sundials_stepper.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "tests/core/support/scenes.hpp"
 
 namespace vlbeam::test {

@@ -1,5 +1,5 @@
 // A run that does not get on ends, by what it has done and not by the clock.
-#include "core/dynamics/progress.hpp"
+#include "mechanics/time/progress.hpp"
 
 #include <gtest/gtest.h>
 

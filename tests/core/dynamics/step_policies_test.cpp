@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/dynamics/kept_tangent.hpp"
-#include "core/dynamics/shorter_steps.hpp"
+#include "mechanics/time/kept_tangent.hpp"
+#include "mechanics/time/shorter_steps.hpp"
 #include "scene/simulate.hpp"
 #include "tests/core/support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/stepper.hpp"
+#include "mechanics/time/stepper.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/sundials_stepper.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 
 #include <gtest/gtest.h>
 

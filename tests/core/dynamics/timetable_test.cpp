@@ -1,5 +1,5 @@
 // What is known beforehand of how equations change with time: steps end at corners, and none is longer than a change.
-#include "core/dynamics/timetable.hpp"
+#include "mechanics/time/timetable.hpp"
 
 #include <gtest/gtest.h>
 

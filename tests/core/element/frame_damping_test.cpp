@@ -1,4 +1,4 @@
-#include "core/element/frame_damping.hpp"
+#include "mechanics/frames/frame_damping.hpp"
 
 #include <gtest/gtest.h>
 

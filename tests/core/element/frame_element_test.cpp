@@ -1,4 +1,4 @@
-#include "core/element/frame_element.hpp"
+#include "mechanics/frames/frame_element.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "core/element/moving_frame.hpp"
+#include "mechanics/frames/moving_frame.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/element/moving_frame_spin.hpp"
 #include "core/element/shape_functions.hpp"
+#include "mechanics/frames/moving_frame_spin.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/random.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/element/rotary_inertia.hpp"
+#include "mechanics/flow/rotary_inertia.hpp"
 
 #include <gtest/gtest.h>
 

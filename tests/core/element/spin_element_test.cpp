@@ -1,4 +1,4 @@
-#include "core/element/spin_element.hpp"
+#include "mechanics/spin/spin_element.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Friction along the beam: its share of the contact force around a kink, and what presses.
-#include "core/joint/friction.hpp"
+#include "mechanics/motion/joint/friction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "core/joint/rider.hpp"
+#include "mechanics/ride/rider.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/joint/rider_step.hpp"
+#include "mechanics/ride/rider_step.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/random.hpp"
 

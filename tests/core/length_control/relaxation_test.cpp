@@ -1,4 +1,4 @@
-#include "core/length_control/relaxation.hpp"
+#include "mechanics/remesh/relaxation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/parts/drag.hpp"
+#include "mechanics/ropes/drag.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "core/parts/frame_packs.hpp"
+#include "mechanics/frames/frame_packs.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/element/frame_damping.hpp"
+#include "mechanics/frames/frame_damping.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {

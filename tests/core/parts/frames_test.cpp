@@ -1,8 +1,8 @@
-#include "core/parts/frames.hpp"
+#include "mechanics/frames/frames.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/element/frame_element.hpp"
+#include "mechanics/frames/frame_element.hpp"
 #include "scene/build.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/random.hpp"

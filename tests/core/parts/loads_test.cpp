@@ -1,4 +1,4 @@
-#include "core/parts/loads.hpp"
+#include "mechanics/motion/parts/loads.hpp"
 
 #include <gtest/gtest.h>
 

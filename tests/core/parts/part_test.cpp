@@ -1,9 +1,9 @@
 // What a user adds to the equations: a spring between a material point and the ground, in one class of its own.
-#include "core/parts/part.hpp"
+#include "mechanics/motion/parts/part.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/parts/material_point.hpp"
+#include "mechanics/motion/parts/material_point.hpp"
 #include "tests/core/support/held_chain.hpp"
 
 namespace vlbeam::test {

@@ -1,4 +1,4 @@
-#include "core/parts/spin_chain.hpp"
+#include "mechanics/spin/spin_chain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/statics/equilibrium.hpp"
+#include "mechanics/statics/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/statics/static_equations.hpp"
+#include "mechanics/statics/static_equations.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/scenes.hpp"

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/statics/equilibrium.hpp"
+#include "mechanics/statics/equilibrium.hpp"
 #include "scene/build.hpp"
 #include "tests/core/support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/element/quadrature.hpp"
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "tests/core/support/chain_states.hpp"
 
 namespace vlbeam::test {

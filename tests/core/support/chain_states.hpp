@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/beam/mesh_motion.hpp"
-#include "core/joint/slope_conditions.hpp"
 #include "core/length_control/chain_state.hpp"
+#include "mechanics/motion/joint/slope_conditions.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {

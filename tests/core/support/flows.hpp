@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/element/circular_shaft.hpp"
-#include "core/statics/steady_flow.hpp"
+#include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/spin/circular_shaft.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {

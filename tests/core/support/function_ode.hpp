@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/integrate.hpp"
+#include "mechanics/time/integrate.hpp"
 
 namespace vlbeam::test {
 

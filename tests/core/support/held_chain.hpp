@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/system/implicit_beam.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
 

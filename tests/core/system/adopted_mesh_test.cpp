@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/system/current_beam.hpp"
+#include "mechanics/motion/system/current_beam.hpp"
 #include "scene/build.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/scenes.hpp"

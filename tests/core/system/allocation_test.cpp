@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"

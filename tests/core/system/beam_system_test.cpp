@@ -1,4 +1,4 @@
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 
 #include <gtest/gtest.h>
 

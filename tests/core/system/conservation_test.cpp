@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/element_family.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/system/conserving_step.hpp"
+#include "mechanics/conserving/conserving_step.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include "core/length_control/length_control.hpp"
 #include "core/pieces.hpp"
-#include "core/system/beam_observation.hpp"
-#include "core/system/event_ledger.hpp"
+#include "mechanics/motion/system/beam_observation.hpp"
+#include "mechanics/motion/system/event_ledger.hpp"
 #include "tests/core/support/chain_models.hpp"
 
 namespace vlbeam::test {

@@ -2,8 +2,8 @@
 
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/length_control.hpp"
-#include "core/system/beam_system.hpp"
-#include "core/system/event_map.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
+#include "mechanics/motion/system/event_map.hpp"
 #include "tests/core/support/chain_models.hpp"
 
 namespace vlbeam::test {

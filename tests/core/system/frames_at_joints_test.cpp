@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/system/implicit_beam.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
 #include "scene/build.hpp"
 #include "scene/energy_ledger.hpp"
 #include "scene/simulate.hpp"

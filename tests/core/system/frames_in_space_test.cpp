@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/statics/static_equations.hpp"
+#include "mechanics/statics/static_equations.hpp"
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
 #include "tests/core/support/by_greens_law.hpp"

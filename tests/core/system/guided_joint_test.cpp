@@ -3,7 +3,7 @@
 
 #include <boost/math/interpolators/quintic_hermite.hpp>
 
-#include "core/system/implicit_beam.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
 #include "scene/build.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"

@@ -1,4 +1,4 @@
-#include "core/system/implicit_beam.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/system/mass_condition.hpp"
+#include "mechanics/motion/system/mass_condition.hpp"
 
 #include <gtest/gtest.h>
 

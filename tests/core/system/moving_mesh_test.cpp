@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/system/beam_system.hpp"
+#include "mechanics/motion/system/beam_system.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/system/observation.hpp"
+#include "mechanics/motion/system/observation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/dynamics/sundials_stepper.hpp"
 #include "core/error.hpp"
-#include "core/system/implicit_beam.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/build.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"

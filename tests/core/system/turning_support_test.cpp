@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/system/implicit_beam.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
 #include "scene/build.hpp"
 #include "scene/time_function.hpp"
 #include "tests/core/support/chain_models.hpp"

@@ -1,0 +1,112 @@
+#include "mechanics/conserving/energy_momentum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/time/newton_stop.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr double settled = 1e-11;  // a correction, relative to the coordinates, that rounding may leave
+
+class EnergyMomentum final : public Stepper {
+ public:
+  EnergyMomentum(SecondOrderSystem& system, const EnergyMomentumOptions& options)
+      : system_(system), options_(options) {}
+
+  bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
+    const Eigen::Index n = system_.coordinates();
+    const double h = std::min(dt, options_.step);
+    q0_ = y.head(n);
+    v0_ = y.segment(n, n);
+    r_.resize(n);
+    if (acceleration_.size() != n) acceleration_.setZero(n);
+    v1_ = v0_ + h * acceleration_;
+    if (fields_.empty()) fields_ = system_.fields();
+
+    double previous = 0, dissipation = 0;
+    if (h != tangent_step_) tangent_step_ = 0;
+    for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
+      q1_ = q0_ + (h / 2) * (v0_ + v1_);
+      dissipation = system_.conserving_residual(q0_, v0_, q1_, v1_, t, h, r_);
+      if (!r_.allFinite()) break;
+      if (tangent_step_ == 0 && !linearize(t, h)) break;
+      system_.solve(r_);  // twice the correction of q_1
+      v1_ -= (4 / h) * r_;
+      if (!r_.allFinite()) break;
+      const double correction = 2 * relative_to_coordinates(fields_, r_, q1_);
+      const bool at_rounding =
+          correction <= newton_rounding || (iteration > 0 && correction <= settled && correction > previous / 2);
+      if (at_rounding) {
+        accept(y, t, h, n, dissipation);
+        dt = options_.step;
+        return true;
+      }
+      if (iteration > 0 && correction > slow_contraction * previous) tangent_step_ = 0;
+      previous = correction;
+    }
+    dt = h / 2;
+    reset();
+    return false;
+  }
+
+  void exchange(Memory& memory) override {
+    memory(acceleration_);
+    if (memory.reads()) fields_.clear();  // anew with the next step
+    memory(tangent_step_);
+    if (tangent_step_ == 0) return;
+    for (Eigen::VectorXd* vector : {&middle_q_, &middle_v_, &middle_a_}) memory(*vector);
+    memory(middle_t_);
+    if (memory.reads()) factor(tangent_step_);
+  }
+
+  void pass_corner() override {}
+
+  void reset() override {
+    acceleration_.resize(0);
+    tangent_step_ = 0;
+    fields_.clear();
+  }
+
+ private:
+  bool linearize(double t, double h) {
+    middle_q_ = (q0_ + q1_) / 2;
+    middle_v_ = (v0_ + v1_) / 2;
+    middle_a_ = (v1_ - v0_) / h;
+    middle_t_ = t + h / 2;
+    if (!factor(h)) return false;
+    tangent_step_ = h;
+    return true;
+  }
+
+  bool factor(double h) {
+    return system_.linearize(middle_q_, middle_v_, middle_a_, middle_t_, {1, 2 / h, 4 / (h * h)});
+  }
+
+  void accept(Eigen::VectorXd& y, double& t, double h, Eigen::Index n, double dissipation) {
+    y.head(n) = q0_ + (h / 2) * (v0_ + v1_);
+    y.segment(n, n) = v1_;
+    if (y.size() > 2 * n) y[2 * n] += h * dissipation;
+    acceleration_ = (v1_ - v0_) / h;
+    t += h;
+  }
+
+  SecondOrderSystem& system_;
+  EnergyMomentumOptions options_;
+  std::vector<FieldRun> fields_;
+  double tangent_step_ = 0;       ///< the step that the factored tangent was made for; 0 for none
+  Eigen::VectorXd acceleration_;  ///< mean of the last step, which predicts the next one
+  Eigen::VectorXd q0_, v0_, q1_, v1_, r_;
+  Eigen::VectorXd middle_q_, middle_v_, middle_a_;  ///< what the factored tangent was made at: it may be steps old
+  double middle_t_ = 0;                             ///< [s]
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const EnergyMomentumOptions& options) {
+  return std::make_unique<EnergyMomentum>(system, options);
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,93 @@
+#include "mechanics/flow/flow.hpp"
+
+#include "core/element/driven_residual.hpp"
+
+namespace vlbeam {
+
+template <int D>
+double Flow<D>::add_residual(const double* q, const double* rate, const double* a, double t, double* r) {
+  beam_.fill_elements(q, rate, t, elements_);
+  beam_.moving_mesh()->add_residual(elements_, a, r);
+  forces_.setZero(beam_.coordinates());
+  beam_.moving_mesh()->add_inflow(beam_.view(q, rate), forces_.data());
+  Eigen::Map<Eigen::VectorXd>(r, beam_.layout().mark()) -= forces_.head(beam_.layout().mark());
+  double lost = 0;
+  for (const auto& element : elements_) lost += element.dissipation;
+  return lost;
+}
+
+template <int D>
+Tally Flow<D>::power(const JointElements& elements, const double* q, const double* rate, const double* a, double t) {
+  const std::vector<Prescribed>& marks = beam_.moving_mesh()->marks();
+  const ChainView<D> beam = beam_.view(q, rate);
+  const Eigen::Index turns = beam_.angles();
+  residual_.setZero(beam_.coordinates());
+  beam_.moving_mesh()->add_residual(elements, a, residual_.data());
+  if (beam_.spin()) beam_.spin()->inner_residual(q + turns, rate + turns, a + turns, residual_.data() + turns);
+  double power = residual_.dot(Eigen::Map<const Eigen::VectorXd>(rate, beam_.coordinates()));  // all that comes in
+  double loads = 0, mesh = 0;
+  const auto drive = [&](int k, double force) {  // along the beam at node k
+    const double p = force * marks[static_cast<std::size_t>(k)].rate;
+    power += p;
+    if (k > 0 && k < beam_.mesh().last()) mesh += p;
+  };
+  const Vector line = beam_.model().loads.line_force ? beam_.model().loads.line_force(t) : Vector::Zero();
+  for (const MovingPart& part : beam_.moving_parts()) {
+    const int k = part.element;
+    const auto i = static_cast<std::size_t>(k);
+    auto [force_a, force_b] = guiding_forces(elements[i], beam_.moving_mesh()->accelerations(a, k));
+    if (beam_.spin()) {
+      const auto& spin = beam_.spin()->guiding_forces(k);
+      force_a += spin[0];
+      force_b += spin[1];
+    }
+    if (beam_.model().loads.line_force) {
+      // moving_equations took the line force for a potential, of which the moving ends carry a part; it is none
+      const MovingKinematics<double, D> kinematics = beam.kinematics(k);
+      for (const auto& [u, w, feels] : with_mass(part.table.rule)) {
+        const PointMotion<double, D> point = kinematics.at(u, rational_shape(kinematics.weights(), u));
+        const double along = line.dot(point.r_x) * kinematics.length();
+        force_a += w * ((1 - u) * along - line.dot(point.r));
+        force_b += w * (u * along + line.dot(point.r));
+        const double work = w * kinematics.length() * line.dot(point.v);
+        loads += work;
+        power += work;
+      }
+    }
+    if (beam_.model().rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
+      power += beam_.moving_mesh()->rotary_power(beam, part, a);
+    }
+    drive(k, force_a);
+    drive(k + 1, force_b);
+  }
+  // of concentrated loads and torques, on material points: what is along the beam goes into the motion of the nodes
+  on_marks_.assign(marks.size(), 0);
+  forces_.setZero(beam_.coordinates());
+  loads += beam_.model().loads.add_forces(beam, t, forces_.data(), on_marks_.data());
+  if (beam_.spin()) {
+    loads += beam_.spin()->add_torques(q + turns, rate + turns, t, forces_.data() + turns, on_marks_.data());
+  }
+  double taken = 0;
+  if (beam_.model().drag.present())
+    taken = beam_.model().drag.add_forces(beam, forces_.data(), on_marks_.data()).dissipated;
+  for (int k = 1; k < beam_.mesh().last(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    mesh -= on_marks_[i] * marks[i].rate;
+  }
+
+  Tally result;
+  result.ends = power + taken - loads - mesh;
+  result.loads = loads;
+  result.mesh = mesh;
+  result.mass = beam_.model().section.rhoA * (marks.back().rate - marks.front().rate);
+  Vector impulse = beam_.beam_gravity(t) * (beam_.model().section.rhoA * (marks.back().value - marks.front().value));
+  for (int k = 0; k <= beam_.mesh().last(); ++k) impulse += position<D>(residual_.data(), k);
+  result.impulse.template head<D>() = impulse;
+  for (int k = 0; beam_.spin() && k <= beam_.mesh().last(); ++k) result.spin_impulse += residual_[beam_.angle(k)];
+  return result;
+}
+
+template class Flow<2>;
+template class Flow<3>;
+
+}  // namespace vlbeam

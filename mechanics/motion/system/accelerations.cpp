@@ -1,0 +1,227 @@
+#include "mechanics/motion/system/accelerations.hpp"
+
+#include <limits>
+
+#include "mechanics/time/assign.hpp"
+
+namespace vlbeam {
+
+template <int D>
+void Accelerations<D>::adopt() {
+  elements_.reserve(beam_.moving_parts().size());
+  motions_.reserve(beam_.places().size());
+  link_forces_.setZero(static_cast<Eigen::Index>(links_.all().size()));
+}
+
+template <int D>
+Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t, double* force,
+                                   JointElements& elements) const {
+  const Vector g = beam_.gravity(t), on_beam = beam_.beam_gravity(t);
+  Tally power;
+  power.dissipated =
+      beam_.left().add_forces(q, rate, on_beam, force) + beam_.right().add_forces(q, rate, on_beam, force);
+  for (const SpanBetween<D>& span : beam_.between())
+    power.dissipated += span.span().add_forces(q, rate, on_beam, force);
+  const Motion<D> now = beam_.motion(q, rate, nullptr, t);
+  for (const auto& part : beam_.acting()) power = power + part->add_force(now, force);
+  if (beam_.model().loads.present() && !beam_.moving_mesh()) {  // else flow_power() counts it
+    power.loads += beam_.line_power(now.beam, t);
+    power.supports += beam_.fed_line_power(now.beam, t);
+  }
+  if (beam_.moving_parts().empty()) return power;
+  beam_.fill_elements(q, rate, t, elements);
+  double lost = 0;
+  for (std::size_t p = 0; p < beam_.moving_parts().size(); ++p) {
+    const MovingPart& part = beam_.moving_parts()[p];
+    const auto& eq = elements[p];
+    const auto at = beam_.vectors_of(force, part.element);
+    for (std::size_t i = 0; i < 4; ++i) Eigen::Map<Vector>(at[i]) += eq.force[i];
+    if (part.a >= 0) force[beam_.places()[static_cast<std::size_t>(part.a)].mark] += eq.force_a;
+    if (part.b >= 0) force[beam_.places()[static_cast<std::size_t>(part.b)].mark] += eq.force_b;
+    lost += eq.dissipation;
+  }
+  power.dissipated += lost;
+  for (std::size_t i = 0; i < beam_.places().size(); ++i) {
+    position<D>(force, beam_.places()[i].node) += beam_.joint(i).law.mass * g;
+    force[beam_.places()[i].mark] -= beam_.turning_lag(i, q, rate);
+  }
+  if (beam_.moving_mesh()) beam_.moving_mesh()->add_inflow(beam_.view(q, rate), force);
+  return power;
+}
+
+template <int D>
+void Accelerations<D>::rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
+  ++evaluations_;
+  const bool imposes = beam_.imposes();
+  if (imposes) {
+    imposed_ = y;
+    impose(t);
+  }
+  const Eigen::Index count = beam_.coordinates();
+  const double *const q = imposes ? imposed_.data() : y.data(), *const rate = q + count;
+  assign_to(dydt.head(count), Eigen::Map<const Eigen::VectorXd>(rate, count));
+  assign_to(dydt.tail(dydt.size() - count), Eigen::VectorXd::Zero(dydt.size() - count));
+  const auto power = solve(q, rate, t, dydt.data() + count);
+  if (power) {
+    beam_.layout().tallies.add(*power, dydt);
+  } else {  // outside the domain: the step is repeated, shorter
+    dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+template <int D>
+void Accelerations<D>::accelerations(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a) {
+  ++evaluations_;
+  const Eigen::Index count = beam_.coordinates();
+  const double *at = q.data(), *rate = v.data();
+  if (beam_.imposes()) {
+    imposed_.resize(2 * count);
+    assign_both_to(imposed_.head(count), q.head(count), imposed_.tail(count), v.head(count));
+    impose(t);
+    at = imposed_.data();
+    rate = at + count;
+  }
+  assign_to(a.head(count), Eigen::VectorXd::Zero(count));
+  if (!solve(at, rate, t, a.data())) a.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+template <int D>
+void Accelerations<D>::impose(double t) {
+  beam_.impose(imposed_, t);
+  beam_.orient(t);
+}
+
+template <int D>
+std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate, double t, double* a) {
+  if (!beam_.travel(t)) return std::nullopt;
+  Tally power = add_forces(q, rate, t, a, elements_);
+  Frames* const frames = beam_.frames();
+  Spin* const spin = beam_.spin();
+  const Eigen::Index angles = beam_.angles();
+  if (frames != nullptr) frames->solve_spins(q, rate, a);
+  if (spin != nullptr && !spin->accelerate(q + angles, rate + angles, t, a + angles, power.dissipated)) {
+    return std::nullopt;
+  }
+  std::optional<PrescribedMotion<D>> pull;  // of moving supports
+  const bool solved = beam_.moving_mesh() != nullptr ? solve_travelling(q, rate, t, a, pull)
+                      : beam_.has_joint()            ? solve_at_joints(q, rate, t, a, pull, power)
+                                                     : solve_without_joints(q, rate, t, a, pull, power);
+  if (!solved) return std::nullopt;
+  if (frames != nullptr) frames->complete(q, rate, a);
+  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
+    Eigen::Map<Vector>(a + beam_.departed_at(i)) = beam_.gravity(t);
+  }
+  const Eigen::VectorXd* by_nut = nullptr;
+  if (const auto which = beam_.nut_place()) {
+    Nut& nut = beam_.nut();
+    by_nut = &nut.torque(nut.turn(a[beam_.places()[*which].mark], a + angles));
+  }
+  if (beam_.moving_mesh() != nullptr) {
+    power.loads = 0;
+    if (beam_.model().books_flow) power = power + flow_.power(elements_, q, rate, a, t);
+  } else if (spin != nullptr && beam_.model().spin->supplied()) {
+    power = power + spin->power(q + angles, rate + angles, a + angles, t, by_nut);
+  }
+  if (pull && beam_.moving_mesh() == nullptr) power.supports += pull->power(a);
+  if (!links_.all().empty() && !press(q, rate, a, power)) return std::nullopt;
+  return power;
+}
+
+template <int D>
+bool Accelerations<D>::solve_travelling(const double* q, const double* rate, double t, double* a,
+                                        std::optional<PrescribedMotion<D>>& pull) {
+  pull = mass_.prescribed(elements_, q, rate, a, t);
+  if (!beam_.moving_mesh()->solve(elements_, a)) return false;
+  if (pull) pull->complete(a);
+  return true;
+}
+
+template <int D>
+bool Accelerations<D>::solve_at_joints(const double* q, const double* rate, double t, double* a,
+                                       std::optional<PrescribedMotion<D>>& pull, Tally& power) {
+  motions_.clear();
+  for (std::size_t i = 0; i < beam_.places().size(); ++i) {
+    motions_.push_back(mass_.joint_motion(i, q, rate, t));
+    if (beam_.frames() != nullptr) motions_[i].x_inertia += beam_.frames()->mark_inertia(i, i);
+  }
+  if (const auto which = beam_.nut_place()) {
+    Nut& nut = beam_.nut();
+    const Eigen::Index mark = beam_.places()[*which].mark, at = beam_.angles();
+    if (!nut.couple(*beam_.spin(), q + at, rate + at, a + at, q[mark], rate[mark])) return false;
+    motions_[*which].x_inertia += nut.load().inertia;
+    a[mark] += nut.load().force;
+  }
+  pull = mass_.prescribed(elements_, q, rate, a, t);
+  const auto at_joints = mass_.solve_joints(elements_, motions_, a);
+  if (!at_joints) return false;
+  power.dissipated += at_joints->dissipated;
+  power.supports += at_joints->guided;
+  if (pull) pull->complete(a);
+  return true;
+}
+
+template <int D>
+bool Accelerations<D>::solve_without_joints(const double* q, const double* rate, double t, double* a,
+                                            std::optional<PrescribedMotion<D>>& pull, Tally& power) {
+  pull = mass_.solve_without_joints(q, rate, t, a);
+  if (!beam_.rider()) return true;
+  const auto at = beam_.rider_motion(q, rate);
+  const auto solved = mass_.solve_rider(at, beam_.gravity(t), a);
+  if (!solved) return false;
+  a[beam_.layout().mark()] = solved->x;
+  power.dissipated += solved->dissipation;
+  if (pull) pull->add_rider(solved->force, at.s);
+  return true;
+}
+
+template <int D>
+bool Accelerations<D>::press(const double* q, const double* rate, double* a, Tally& power) {
+  const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(a, beam_.coordinates());
+  const auto forces = mass_.press(links_.all(), elements_, q, links_.bending_in(rate), a);
+  if (!forces) return false;
+  link_forces_ = *forces;
+  if (beam_.model().driven()) {
+    const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(a, beam_.coordinates()) - apart;
+    power.supports += mass_.work_of_prescribed(links_.all(), *forces, elements_, q, rate, change);
+  }
+  return true;
+}
+
+template <int D>
+double Accelerations<D>::contact_force(const Eigen::VectorXd& y, double t) const {
+  Eigen::VectorXd exact = y;
+  beam_.impose(exact, t);
+  beam_.orient(t);
+  const double *q = exact.data(), *rate = q + beam_.coordinates();
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(beam_.coordinates());
+  JointElements none;
+  add_forces(q, rate, t, a.data(), none);
+  mass_.solve_without_joints(q, rate, t, a.data());
+  const auto solved = mass_.solve_rider(beam_.rider_motion(q, rate), beam_.gravity(t), a.data());
+  return solved ? solved->contact : 0;
+}
+
+template <int D>
+Eigen::VectorXd Accelerations<D>::forces_of_links(const Eigen::VectorXd& y, double t) const {
+  Eigen::VectorXd exact = y;
+  beam_.impose(exact, t);
+  beam_.orient(t);
+  const double *q = exact.data(), *rate = q + beam_.coordinates();
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(beam_.coordinates());
+  JointElements elements;
+  add_forces(q, rate, t, a.data(), elements);
+  std::vector<JointMotion<D>> motions;
+  for (std::size_t i = 0; i < beam_.places().size(); ++i) motions.push_back(mass_.joint_motion(i, q, rate, t));
+  const auto pull = mass_.prescribed(elements, q, rate, a.data(), t);
+  std::optional<Eigen::VectorXd> forces;
+  if (mass_.solve_joints(elements, motions, a.data())) {
+    if (pull) pull->complete(a.data());
+    forces = mass_.press(links_.all(), elements, q, links_.bending_in(rate), a.data());
+  }
+  return forces.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(links_.all().size())));
+}
+
+template class Accelerations<2>;
+template class Accelerations<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/beam/mesh_motion.hpp"
+#include "core/beam/support_motion.hpp"
+#include "core/geometry/axis.hpp"
+#include "core/length_control/length_control.hpp"
+#include "mechanics/contact/at_support.hpp"
+#include "mechanics/flow/rotary_inertia.hpp"
+#include "mechanics/frames/frames.hpp"
+#include "mechanics/motion/joint/sliding_joint.hpp"
+#include "mechanics/motion/parts/loads.hpp"
+#include "mechanics/motion/parts/point_masses.hpp"
+#include "mechanics/motion/system/constraints.hpp"
+#include "mechanics/ropes/drag.hpp"
+#include "mechanics/spin/spin.hpp"
+#include "mechanics/time/tallies.hpp"
+
+namespace vlbeam {
+
+/// Something that slides along the beam.
+template <int D>
+struct ModelJoint {
+  SlidingJoint law;
+  /// What holds the place of its node in space: of a ring, a pin; of a sleeve, a clamp of the direction.
+  std::optional<Support<D>> support = std::nullopt;
+  SupportMotion<D> motion = {};    ///< of what holds it; it does not turn
+  double separation_distance = 0;  ///< [m]
+  Impact at_support = {};          ///< where it may not leave
+  TimeFunction x = {};             ///< its material coordinate, where a guide prescribes it [m]
+  double pitch = 0;                ///< of a nut on a beam that spins [m a turn], right-handed where > 0; 0 for none
+};
+
+/// What holds the axis at a node, through which the beam may flow.
+template <int D>
+struct NodeSupport {
+  int node;
+  Support<D> support;
+};
+
+/// Stands for a model's own Gauss points, which need not be as many in all elements.
+inline constexpr int own_points = 0;
+
+/// What a beam system is made of and which choices its equations follow.
+template <int D>
+struct BeamModel {
+  BeamSection section;
+  Formulation formulation = Formulation::variational;
+  WeightTransport transport = WeightTransport::frozen;
+  int quadrature_points = 5;  ///< Gauss points an element
+  int polynomial_points = 0;  ///< of one whose weights are 1; 0 for `quadrature_points`
+  AxialStrain axial_strain = AxialStrain::full;
+  Vec<double, D> gravity = Vec<double, D>::Zero();  ///< [m/s^2]
+  double gravity_ramp = 0;                          ///< T_r [s], 0 for gravity that is there from the start
+  bool time_is_load_factor = false;                 ///< gravity is t times what it says, as loads may be: statics
+  Support<D> start, end;
+  SupportMotion<D> start_motion, end_motion;
+  bool start_releases = false, end_releases = false;  ///< joints may leave the beam there
+  Loads<D> loads;
+  Drag<D> drag;
+  std::optional<SpinModel> spin;  ///< without it there is no angle at all, but of frames
+  /// In space, of a beam whose nodes rest: it bends about two axes, and twists. Without it bending knows the size of
+  /// the curvature alone.
+  std::optional<FrameModel> frames = {};
+  PointMasses<D> masses;
+  std::vector<std::shared_ptr<const Part<D>>> parts = {};  ///< what else acts on the beam
+  Impact at_meeting = {};                                  ///< of two joints
+  bool joints_rest = false;       ///< what bounces lower and lower stays, else the run ends there
+  double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
+  /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
+  std::vector<ModelJoint<D>> joints;
+  /// Of these, which keep the distances in space that they have at t = 0: each row is a block that does not turn.
+  std::vector<std::vector<int>> blocks = {};
+  LengthControl length_control;
+  Constraints constraints = Constraints::eliminated;
+  /// How all the nodes travel along the beam, where they do: there are no joints then and no length control. Every
+  /// element is a variable-length one, and matter comes in through the ends with the velocity it has there.
+  MeshMotion motion;
+  std::vector<NodeSupport<D>> held_nodes;  ///< what holds inner nodes of such a beam in space
+  RotaryInertia<D> rotary = {};            ///< of such a beam; needs the variational formulation and frozen weights
+  bool books_flow = true;                  ///< the state counts all that such a beam is given, not just what it loses
+  /// What nodes that move or that are new follow in the rest shape, by arc length, where the chain's `rest` has the
+  /// others; null for a straight, unstrained rest shape.
+  std::shared_ptr<const Axis<D>> rest;
+
+  int points_of_polynomials() const { return polynomial_points > 0 ? polynomial_points : quadrature_points; }
+  BeamRules rules() const { return {points_of_polynomials(), quadrature_points, axial_strain}; }
+  /// What elements of the axis alone resist.
+  BeamSection axis_section() const {
+    BeamSection axis = section;
+    if (frames) axis.stiffness.EI = 0;
+    return axis;
+  }
+  /// Whether energy is lost.
+  bool dissipates() const {
+    return !parts.empty() || section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
+  }
+  /// Whether there is friction at a joint.
+  bool rubs() const {
+    return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.law.friction.has_value(); });
+  }
+  /// Whether material coordinates of joints are prescribed.
+  bool guides() const {
+    return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return static_cast<bool>(joint.x); });
+  }
+  bool supports_move() const {
+    return start_motion || end_motion ||
+           std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return bool{joint.motion}; });
+  }
+  /// Whether something moves as prescribed, and so does work.
+  bool driven() const { return supports_move() || guides(); }
+  bool turns() const { return start_motion.turns() || end_motion.turns(); }
+  /// Which of the joints is a nut, of which there is one at most; -1 for none.
+  int nut() const {
+    const auto at = std::find_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.pitch != 0; });
+    return at == joints.end() ? -1 : static_cast<int>(at - joints.begin());
+  }
+  bool travels() const { return motion.last() > 0; }
+  /// The energies that the state counts.
+  Tallies tallies() const {
+    if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
+    return {dissipates(),
+            loads.present() || !parts.empty() || drag.streams() || (spin && spin->torques.present()) ||
+                (frames && frames->loaded()),
+            spin && !spin->drives.empty(), driven()};
+  }
+};
+
+}  // namespace vlbeam

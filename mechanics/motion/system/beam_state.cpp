@@ -1,0 +1,178 @@
+// A state as a chain, and a chain as a state.
+#include <span>
+
+#include "mechanics/motion/system/current_beam.hpp"
+
+namespace vlbeam {
+
+template <int D>
+void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::VectorXd& old, Eigen::VectorXd& y) const {
+  y.setZero(layout_.state());
+  y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
+  y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
+  write_joints(chain, y);
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    y.segment<D>(departed_at(i)) = chain.departed[i].r;
+    y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
+  }
+  if (rider_) {
+    y[layout_.mark()] = chain.rider->x;
+    y[coordinates() + layout_.mark()] = chain.rider->rate;
+  }
+  for (Eigen::Index k = 0; sections_.frames && k < sections_.frames->nodes(); ++k) {
+    y[angles() + k] = chain.sections[static_cast<std::size_t>(k)].angle;
+    y[coordinates() + angles() + k] = chain.sections[static_cast<std::size_t>(k)].spin;
+  }
+  if (old.size() == 0) return;
+  const Eigen::Index tallies = layout_.tallies.count();
+  y.tail(tallies) = old.tail(tallies);
+  if (sections_.spin) {
+    const Eigen::Index count = sections_.spin->coordinates(), before = (old.size() - tallies) / 2;
+    y.segment(angles(), count) = old.segment(before - count, count);
+    y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
+  }
+}
+
+template <int D>
+void CurrentBeam<D>::write_nodes(const ChainState<D>& chain, Eigen::VectorXd& y) const {
+  const Eigen::Index first = Eigen::Index{node_size<D>} * chain.part.before, nodal = std::ssize(chain.q);
+  const Eigen::Index count = coordinates(), before = (y.size() - layout_.tallies.count()) / 2;
+  if (count != before) {  // what stands behind these nodes stands elsewhere now
+    const Eigen::Index behind = count - first - nodal;
+    Eigen::VectorXd moved(layout_.state());
+    for (const Eigen::Index half : {0, 1}) {
+      moved.segment(half * count, first) = y.segment(half * before, first);
+      moved.segment((half + 1) * count - behind, behind) = y.segment((half + 1) * before - behind, behind);
+    }
+    moved.tail(layout_.tallies.count()) = y.tail(layout_.tallies.count());
+    y.swap(moved);
+  }
+  y.segment(first, nodal) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal);
+  y.segment(count + first, nodal) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), nodal);
+  write_joints(chain, y);
+}
+
+template <int D>
+void CurrentBeam<D>::write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    const auto& joint = chain.joints[i];
+    y[place.mark] = chain.mesh.x[static_cast<std::size_t>(joint.node)];
+    y[coordinates() + place.mark] = joint.rate;
+    if (place.behind < 0) continue;
+    y.segment<D>(place.behind) = joint.kink->slope;
+    y.segment<D>(coordinates() + place.behind) = joint.kink->rate;
+  }
+}
+
+template <int D>
+void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamPart& part,
+                                 ChainState<D>& result) const {
+  const int first = part.before, last = mesh_.last() - part.behind;
+  const auto take = [&](const auto& entries, std::ptrdiff_t size, int from, int to, auto& taken) {
+    taken.assign(entries.begin() + size * from, entries.begin() + size * to);
+  };
+  result.part = part;
+  take(mesh_.x, 1, first, last + 1, result.mesh.x);
+  take(mesh_.weights, 1, first, last, result.mesh.weights);
+  result.mark_rates.clear();
+  if (moving_) {
+    travel(t);
+    for (std::size_t k = 0; k < mesh_.x.size(); ++k) {
+      result.mesh.x[k] = moving_->marks()[k].value;
+      result.mark_rates.push_back(moving_->marks()[k].rate);
+    }
+  }
+  take(std::span(y.data(), y.data() + layout_.mark()), node_size<D>, first, last + 1, result.q);
+  take(std::span(y.data() + coordinates(), y.data() + coordinates() + layout_.mark()), node_size<D>, first, last + 1,
+       result.rate);
+  result.rest.clear();
+  if (!rest_.empty()) take(rest_, node_size<D>, first, last + 1, result.rest);
+  result.rest_curve = model_.rest.get();
+  if (sections_.frames) {
+    result.sections = sections_.frames->sections(y.data(), y.data() + coordinates());
+    result.rest_sections = sections_.rest;
+    result.rest_triads = sections_.rest_triads;
+  }
+  result.joints.clear();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const JointPlace& place = places_[i];
+    const int node = place.node - first;
+    result.mesh.x[static_cast<std::size_t>(node)] = y[place.mark];
+    auto& joint = result.joints.emplace_back();
+    joint = {
+        .node = node, .rate = y[coordinates() + place.mark], .index = joints_[i].index, .touches = joints_[i].touches};
+    if (place.behind >= 0) joint.kink = {y.segment<D>(place.behind), y.segment<D>(coordinates() + place.behind)};
+    if (!result.curved_at_rest()) continue;
+    const auto at_joint = model_.rest->derivatives(y[place.mark]);
+    position<D>(result.rest.data(), node) = at_joint[0];
+    slope<D>(result.rest.data(), node) = at_joint[1];
+    if constexpr (D == 3) {
+      if (!sections_.frames) continue;
+      result.rest_sections[static_cast<std::size_t>(node)].direction =
+          sections_.rest_triads->template direction<double>(y[place.mark], at_joint[1]);
+    }
+  }
+  for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
+    const auto at_node = model_.rest->derivatives(result.mesh.x[static_cast<std::size_t>(k)]);
+    position<D>(result.rest.data(), k) = at_node[0];
+    slope<D>(result.rest.data(), k) = at_node[1];
+  }
+  result.departed.clear();
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    const Eigen::Index at = departed_at(i);
+    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
+  }
+  result.rider.reset();
+  if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
+}
+
+template <int D>
+void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) const {
+  const double* const rate = y.data() + coordinates();
+  const double* const first = rate + Eigen::Index{node_size<D>} * chain.part.before;
+  chain.rate.assign(first, first + std::ssize(chain.q));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    chain.joints[i].rate = rate[places_[i].mark];
+    if (places_[i].behind >= 0) chain.joints[i].kink->rate = y.segment<D>(coordinates() + places_[i].behind);
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    chain.departed[i].v = y.segment<D>(coordinates() + departed_at(i));
+  }
+  if (rider_) chain.rider->rate = rate[layout_.mark()];
+  if (sections_.frames) chain.sections = sections_.frames->sections(y.data(), rate);
+}
+
+template <int D>
+std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(const Eigen::VectorXd& y,
+                                                                               int index) const {
+  const auto at = [&](Eigen::Index place) {
+    return MassMotion{y.segment<D>(place), y.segment<D>(coordinates() + place)};
+  };
+  if (rider_ && index == 0) {
+    const auto motion = rider_motion(y.data(), y.data() + coordinates());
+    return MassMotion{motion.r, motion.v};
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (joints_[i].index == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
+  }
+  for (std::size_t i = 0; i < departed_.size(); ++i) {
+    if (departed_[i] == index) return at(departed_at(i));
+  }
+  return std::nullopt;
+}
+
+template void CurrentBeam<2>::write_state(const ChainState<2>&, const Eigen::VectorXd&, Eigen::VectorXd&) const;
+template void CurrentBeam<2>::write_joints(const ChainState<2>&, Eigen::VectorXd&) const;
+template void CurrentBeam<2>::write_nodes(const ChainState<2>&, Eigen::VectorXd&) const;
+template void CurrentBeam<2>::write_chain(const Eigen::VectorXd&, double, const BeamPart&, ChainState<2>&) const;
+template void CurrentBeam<2>::take_rates(const Eigen::VectorXd&, ChainState<2>&) const;
+template std::optional<CurrentBeam<2>::MassMotion> CurrentBeam<2>::mass_motion(const Eigen::VectorXd&, int) const;
+template void CurrentBeam<3>::write_state(const ChainState<3>&, const Eigen::VectorXd&, Eigen::VectorXd&) const;
+template void CurrentBeam<3>::write_joints(const ChainState<3>&, Eigen::VectorXd&) const;
+template void CurrentBeam<3>::write_nodes(const ChainState<3>&, Eigen::VectorXd&) const;
+template void CurrentBeam<3>::write_chain(const Eigen::VectorXd&, double, const BeamPart&, ChainState<3>&) const;
+template void CurrentBeam<3>::take_rates(const Eigen::VectorXd&, ChainState<3>&) const;
+template std::optional<CurrentBeam<3>::MassMotion> CurrentBeam<3>::mass_motion(const Eigen::VectorXd&, int) const;
+
+}  // namespace vlbeam

@@ -1,0 +1,198 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanics/contact/impacts.hpp"
+#include "mechanics/motion/system/accelerations.hpp"
+#include "mechanics/motion/system/beam_links.hpp"
+#include "mechanics/motion/system/beam_mass.hpp"
+#include "mechanics/motion/system/current_beam.hpp"
+#include "mechanics/motion/system/event_guards.hpp"
+#include "mechanics/motion/system/event_ledger.hpp"
+#include "mechanics/motion/system/observation.hpp"
+#include "mechanics/motion/system/ramp_work.hpp"
+#include "mechanics/motion/system/velocity_transfer.hpp"
+#include "mechanics/time/integrate.hpp"
+
+namespace vlbeam {
+
+/// What happened to a beam system at an event.
+template <int D>
+struct EventRecord {
+  double t;
+  EventType type;
+  int joint;  ///< which of the model's
+  double joint_position;
+  MergedWeights merged;
+  Energy jump;           ///< by a 25-point rule
+  double discrete_jump;  ///< of the total, by the model's own rule
+  bool restored;         ///< false: energy and momenta were to be as before, and the energy is not
+  Eigen::VectorXd
+      momentum_jump;            ///< linear, then angular about the origin, by the model's own rule; not of a separation
+  ChainState<D> before, after;  ///< beyond LengthControl::most_whole elements the part around the joint
+  int relaxation = 0;           ///< iterations until nodes had given way
+  double seconds;               ///< wall time spent
+};
+
+template <int D>
+class ImplicitBeam;
+
+/// One beam with, possibly, joints that slide on it and may leave it, as equations with events: the beam as it is
+/// between two events, its accelerations, and what an event makes of both.
+template <int D>
+class BeamSystem final : public EventedOde, public CurrentBeam<D> {
+  using Beam = CurrentBeam<D>;
+
+ public:
+  using Vector = Vec<double, D>;
+  using Beam::coordinates;
+  using Beam::has_joint;
+  using Beam::joint;
+  using Beam::joint_index;
+  using Beam::layout;
+  using Beam::mesh;
+  using Beam::model;
+  using Beam::places;
+  using Beam::rider;
+
+  /// `chain` is the initial state, but for the velocity of driven supports; its joints, inner nodes, must be those of
+  /// the model. A single mass may ride inside an end element instead. Throws ModelError for moving supports with
+  /// conservative velocities at events.
+  BeamSystem(const BeamModel<D>& of, const ChainState<D>& chain);
+  ~BeamSystem() override;
+
+  Eigen::Index size() const override { return layout().state(); }
+  std::vector<FieldRun> fields() const override { return layout().fields(Beam::spin()); }
+  void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override { accelerations_.rates(y, dydt, t); }
+  Guards guards(const Eigen::VectorXd& y, double t) const override { return guards_.at(y, t); }
+  void handle_event(int index, Eigen::VectorXd& y, double t) override;
+  void sample(const Eigen::VectorXd& y, double t) override;
+  bool proceed(const Eigen::VectorXd& y, double t) override {
+    check_order(y, t);
+    if (ramp_.due(t)) ramp_.advance(t, moment(y, t));
+    if (on_state) on_state(y, t);
+    return !on_step || on_step(t);
+  }
+  /// The beam becomes that of a chain, and all that depends on it follows.
+  void take(const ChainState<D>& chain);
+  ChainState<D> chain_of(const Eigen::VectorXd& y, double t) const { return Beam::chain(y, t); }
+  std::string fastest(const Eigen::VectorXd& y) const override;
+  void exchange(Memory& memory) override;
+
+  std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
+  std::function<void(const EventRecord<D>&)> on_event;
+  std::function<void(const Eigen::VectorXd& y, double t)> on_state;  ///< after each step, before on_step
+  std::function<bool(double t)> on_step;
+
+  Eigen::VectorXd initial_state() const { return initial_; }
+  /// The same, for who asks last: it is not kept.
+  Eigen::VectorXd release_initial_state() { return std::move(initial_); }
+  /// The equations between two events.
+  Accelerations<D>& accelerations() { return accelerations_; }
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
+    second_order()->jacobian(y, t, dfdy, dfdt);
+  }
+  /// A view of the equations for whoever needs one for a moment: another call may factor another matrix in it.
+  SecondOrderSystem* second_order();
+  std::unique_ptr<SecondOrderSystem> new_second_order() override;
+  /// By the accelerations that belong to the state.
+  OuterForces<D> forces(const Eigen::VectorXd& y, double t);
+  /// Without accelerations, at a state at rest.
+  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
+  /// Evaluations of the equations, as accelerations or as a residual.
+  std::size_t rhs_evaluations() const { return accelerations_.evaluations(); }
+  /// Nodes that keep a distance: those of blocks, then what rests against each other.
+  const std::vector<NodeLink<D>>& links() const { return links_.all(); }
+  /// Energies, momenta and length, summed with `points` Gauss points an element, or own_points; strains only where they
+  /// are asked for.
+  Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
+
+ private:
+  /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
+  MergedWeights renew_weights(ChainState<D>& chain, std::size_t which, double t) const;
+  /// The joint leaves the beam where it may; throws ComputationFailed where it may not.
+  void check_leaving(const PendingEvent& due, double t) const;
+  /// Throws ComputationFailed where joints are no longer in their order along the beam: events have to prevent it.
+  void check_order(const Eigen::VectorXd& y, double t) const;
+  /// What an event makes of the chain, and of `y` where it is an impact.
+  MergedWeights change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
+  /// What events of the mesh that are due at once make of it.
+  void change_mesh(const std::vector<PendingEvent>& dues, std::vector<EventRecord<D>>& records, double t) const;
+  /// What events of the mesh may change of a beam with one joint.
+  BeamPart part_around_joint() const;
+  std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const BeamPart& part,
+                                         const Eigen::VectorXd& y, double t);
+  /// The two elements on either side, or, where slopes change too, one more.
+  EventReach reach_of(const std::vector<PendingEvent>& dues, const BeamPart& part) const;
+  /// What an event changes, and of what it has to be told.
+  struct EventScope {
+    EventType type;
+    bool observes_all;         ///< an impact, or a mass that gets a node or loses it, changes more than a mesh; frames
+                               ///< have energies of their own
+    bool transfers;            ///< velocities follow from those of the mesh before,
+    bool conserves;            ///< and keep the energy
+    bool is_local;             ///< it looks at, and changes, the part of the beam around its joint alone
+    bool changes_nodes_alone;  ///< the rest of the state stays as it is
+    bool goes_on;              ///< accelerations do
+    BeamPart part;
+    EventReach reach;
+  };
+  EventScope scope_of(const std::vector<PendingEvent>& dues) const;
+  /// Nothing holds the joint of a beam that has one, nor drives anything: around it velocities may be any.
+  bool has_free_joint() const;
+  struct BeforeEvent {
+    /// By the ledger's points and by the model's, as far as they are looked at; of a part, `own` is its kinetic energy.
+    Energy energy, own;
+    Eigen::VectorXd momenta;
+    double work = 0;  ///< of supports [J]
+  };
+  BeforeEvent look_before(const EventScope& scope, const Eigen::VectorXd& y, double t);
+  /// Makes of the chain of the first record what the events make of it.
+  void change_chain(const std::vector<PendingEvent>& dues, const EventScope& scope,
+                    std::vector<EventRecord<D>>& records, Eigen::VectorXd& y, double t);
+  /// Gives the new mesh in `y` the velocities of the beam before, of the state old_.
+  void transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
+                           const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t);
+  /// That, and what else an event does to velocities.
+  void change_velocities(const EventScope& scope, const BeforeEvent& before, const std::shared_ptr<Frames>& old_frames,
+                         EventRecord<D>& record, Eigen::VectorXd& y, double t);
+  /// Writes what energies and momenta jump by.
+  void book_jumps(const EventScope& scope, const BeforeEvent& before, EventRecord<D>& record, const Eigen::VectorXd& y,
+                  double t);
+  /// Tells of the events, of which the first record holds what happened.
+  void tell(std::vector<EventRecord<D>>& records) const;
+  /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
+  /// gone; the iterations it took.
+  int relax_after(const std::vector<PendingEvent>& dues, ChainState<D>& chain, double t, double excess) const;
+  /// Where a mass is that has just left a support [m].
+  double clear_of_end() const;
+  typename RampWork<D>::Moment moment(const Eigen::VectorXd& y, double t) const {
+    const Observation<D> seen = observe(y, t, own_points);
+    return {seen.mass_moment, moment_rate(seen, y)};
+  }
+  /// Rate of the first moment of mass: the momentum, and what is fed into the beam.
+  Vector moment_rate(const Observation<D>& seen, const Eigen::VectorXd& y) const {
+    return seen.momentum + model().section.rhoA * Beam::view(y.data(), y.data() + coordinates()).inflow();
+  }
+
+  BeamLinks<D> links_;
+  BeamMass<D> mass_;
+  Accelerations<D> accelerations_;
+  EventGuards<D> guards_;
+  Impacts<D> impacts_;
+  VelocityProjection<D> velocities_;
+  ChainState<D> spare_chain_;  ///< memory for the next event
+  Eigen::VectorXd old_;        ///< the state before the last event
+  RampWork<D> ramp_;
+  Eigen::VectorXd initial_;
+  std::unique_ptr<ImplicitBeam<D>> implicit_;
+};
+
+extern template class BeamSystem<2>;
+extern template class BeamSystem<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,464 @@
+#include "mechanics/motion/system/implicit_beam.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/geometry/dense.hpp"
+
+namespace vlbeam {
+template <int D>
+void ImplicitBeam<D>::rebuild() const {
+  revision_ = beam_.revision();
+  layout_ = beam_.layout();
+  reference_mass_ = beam_.model().section.rhoA * beam_.mesh().length() / beam_.mesh().elements();
+  supports_.clear();
+  if (with_multipliers()) supports_.adopt(holding().nodes());
+  kinks_.adopt(beam_, !with_multipliers());
+  links_.adopt(accelerations_.links().all());
+  layout_.multipliers = supports_.count() + kinks_.count() + links_.count();
+}
+
+template <int D>
+std::vector<FieldRun> ImplicitBeam<D>::fields() const {
+  std::vector<FieldRun> runs = layout().fields(beam_.spin());
+  supports_.add_fields(layout().multiplier(), runs);
+  if (kinks_.count() > 0) runs.push_back({Field::slope_multiplier, first_kink_multiplier(), kinks_.count()});
+  for (Eigen::Index i = 0; i < links_.count(); ++i) runs.push_back({Field::multiplier, first_link_multiplier() + i});
+  return runs;
+}
+
+template <int D>
+void ImplicitBeam<D>::expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const {
+  const Eigen::Index n = coordinates(), own = beam_.coordinates();
+  q.resize(n);
+  v.resize(n);
+  assign_both_to(q.head(own), y.head(own), v.head(own), y.segment(own, own));
+  q.tail(n - own).setZero();  // multipliers
+  v.tail(n - own).setZero();
+}
+
+template <int D>
+void ImplicitBeam<D>::find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a) {
+  const Eigen::Index own = beam_.coordinates();
+  a.resize(q.size());
+  accelerations_.accelerations(q, v, t, a);
+  a.tail(q.size() - own).setZero();
+  if (multipliers() == 0) return;
+  a.tail(links_.count()) = -accelerations_.link_forces() / reference_mass_;
+  // what the equations of motion lack is what the constraints give
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  supports_.balance(holding().at(t), free_.data(), reference_mass_, a.data() + layout().multiplier());
+  holding().project(free_.data());
+  choose_conditions(q);
+  a.segment(first_kink_multiplier(), kinks_.count()) = -kinks_.nearest(q.data(), free_.data(), reference_mass_);
+}
+
+/// What is held or given in time is as it is now.
+template <int D>
+bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a,
+                            Eigen::VectorXd& memory) const {
+  Eigen::VectorXd& carried = memory;
+  assign(carried, a);
+  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
+  assign(carried, carried - a);
+  holding().at(t);
+  holding().project(carried.data());
+  at_guides([&](std::size_t i) { carried[places()[i].mark] = 0; });
+  assign(a, a + carried);
+  return true;
+}
+
+/// With what links do, and without what holds.
+template <int D>
+double ImplicitBeam<D>::free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t,
+                                      Eigen::VectorXd& r, typename Equations<D>::Extent extent) const {
+  const double lost = equations_.residual(q, v, a, t, r, extent);
+  links_.add_forces(q.data(), a.data() + first_link_multiplier(), reference_mass_, r.data());
+  return lost;
+}
+
+template <int D>
+double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                                 Eigen::VectorXd& r) {
+  accelerations_.count_evaluation();
+  refresh();
+  const auto& held = holding().at(t);
+  if (!beam_.travel(t)) {
+    r.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return 0;
+  }
+  const double dissipation = free_residual(q, v, a, t, r);
+  if (kinks_.count() > 0) {
+    choose_conditions(q);
+    const Eigen::Index at = first_kink_multiplier();
+    kinks_.add_residual(q.data(), a.data() + at, reference_mass_, r.data(), r.data() + at);
+  }
+  if (!with_multipliers()) holding().project(r.data());
+  at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
+  if (const auto nut = beam_.nut_place()) {
+    const Eigen::Index mark = places()[*nut].mark, at = angles();
+    r.segment(at, beam_.spin()->coordinates()) -= nut_torque(*nut, q, v, r[mark]);
+    r[mark] = beam_.nut().off(*beam_.spin(), q.data() + at, v.data() + at, q[mark]);
+  }
+  if (const Spin* spin = beam_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
+  const Eigen::Index first = layout().multiplier();
+  supports_.add_residual(held, q.data(), a.data() + first, reference_mass_, r.data(), r.data() + first);
+  links_.write_values(q.data(), r.data() + first_link_multiplier());
+  return dissipation;
+}
+
+template <int D>
+bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
+  if (beam_.frames() != nullptr || beam_.nut_place()) return false;
+  refresh();
+  if (beam_.moving_mesh() != nullptr) {
+    r.setZero();
+    equations_.add_travelling_inertia(a, r);
+  } else {
+    beam_.fill_masses(q.data(), t, elements_);
+    accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
+    r.tail(r.size() - beam_.coordinates()).setZero();
+  }
+  if (const Spin* spin = beam_.spin()) spin->inertia(a.data() + angles(), r.data() + angles());
+  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
+    const Eigen::Index at = beam_.departed_at(i);
+    r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);
+  }
+  holding().at(t);
+  if (!with_multipliers()) holding().project(r.data());
+  at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
+  return true;
+}
+
+template <int D>
+ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                        double t) const {
+  refresh();
+  ConstraintResidual largest;
+  const auto add = [&largest](const ConstraintResidual& of) {
+    largest.position = std::max(largest.position, of.position);
+    largest.velocity = std::max(largest.velocity, of.velocity);
+  };
+  add(supports_.residual(holding().at(t), q.data(), v.data()));
+  add(kinks_.residual(q.data(), v.data()));
+  add(links_.residual(q.data(), v.data()));
+  return largest;
+}
+
+template <int D>
+void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                       Eigen::VectorXd& rates) const {
+  supports_.rates(holding().at(t), q.data(), v.data(), rates.data() + layout().multiplier());
+  kinks_.rates(q.data(), v.data(), rates.data() + first_kink_multiplier());
+}
+
+template <int D>
+bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const {
+  const bool guides = beam_.model().guides();
+  if (!beam_.model().driven() || (with_multipliers() && !guides)) return false;
+  offset.setZero(q.size());
+  at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - beam_.guided(i, t)->value; });
+  if (!with_multipliers()) holding().add_offset(t, q.data(), offset.data());
+  return true;
+}
+
+template <int D>
+Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                      double t) {
+  if (beam_.moving_mesh() != nullptr) {
+    return beam_.model().books_flow ? equations_.flow_power(q, v, a, t) : Tally{};
+  }
+  Tally power;
+  if (beam_.model().tallies().loads) {
+    free_.setZero(q.size());
+    const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
+    for (const auto& part : beam_.acting()) power.loads += part->load_power(now, free_.data());
+    power.loads += beam_.line_power(now.beam, t);
+    power.supports += beam_.fed_line_power(now.beam, t);
+  }
+  if (Spin* spin = beam_.spin(); spin != nullptr && spin->model().supplied()) {
+    const Eigen::Index at = angles();
+    Eigen::VectorXd by_nut;
+    if (const auto nut = beam_.nut_place()) {
+      free_.resize(q.size());
+      free_residual(q, v, a, t, free_);
+      by_nut = nut_torque(*nut, q, v, free_[places()[*nut].mark]);
+    }
+    power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t, by_nut.size() > 0 ? &by_nut : nullptr);
+  }
+  if (!beam_.model().driven()) return power;
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_, Equations<D>::Extent::ends);
+  at_guides([&](std::size_t i) { power.supports += free_[places()[i].mark] * v[places()[i].mark]; });
+  holding().at(t);
+  power.supports += holding().power(free_.data(), v.data());
+  return power;
+}
+
+template <int D>
+std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
+                                                          const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
+                                                          double h, double t) {
+  if (!beam_.model().section.damped() || !beam_.travel(t + h / 2)) return std::nullopt;
+  assign_both(middle_q_, 0.5 * (q0 + q1), middle_v_, (q1 - q0) / h);
+  assign(a_, 0.5 * (a0 + a1));
+  free_.resize(q0.size());
+  const double lost = equations_.residual(middle_q_, middle_v_, a_, t + h / 2, free_);
+  beam_.travel(t + h);
+  return lost;
+}
+
+template <int D>
+double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
+                                            const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
+                                            Eigen::VectorXd& r) {
+  if (beam_.model().spin) {
+    throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
+  }
+  if (beam_.frames() != nullptr) {
+    throw ModelError("integrator", "\"energy-momentum\"", "it knows no frames in space: take any other integrator");
+  }
+  if (driven() || beam_.moving_mesh() != nullptr || beam_.model().loads.present() || beam_.model().drag.present()) {
+    throw ModelError(
+        "integrator", "\"energy-momentum\"",
+        "it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
+  }
+  accelerations_.count_evaluation();
+  return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
+}
+
+template <int D>
+void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                         double t, const TangentWeights& by, Eigen::MatrixXd& axis,
+                                         Eigen::MatrixXd& angles) {
+  refresh();
+  equations_.assemble(q, v, a, t, by, tangent_);
+  axis.setZero(after_nodes(), after_nodes());
+  tangent_.expand(axis);
+  angles.resize(0, 0);
+  const Spin* spin = beam_.spin();
+  if (spin == nullptr) return;
+  spin->assemble(by, spin_tangent_);
+  const Eigen::Index size = 2 * Eigen::Index{nodes()};  // an angle and a twist a node
+  angles.setZero(size, size);
+  spin_tangent_.band.expand(angles);
+}
+
+template <int D>
+bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                                const TangentWeights& by) {
+  equations_.assemble(q, v, a, t, by, tangent_);
+  constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
+  add_constraints(q, a, t, constraint_scale_);
+  links_.add_tangent(q.data(), a.data() + first_link_multiplier(), reference_mass_, constraint_scale_, tangent_);
+  if (!with_multipliers()) holding().project(tangent_);
+  at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
+  const auto nut = beam_.nut_place();
+  if (nut) take_nut(*nut, reference_mass_ * by.a);
+  if (const Spin* spin = beam_.spin()) {
+    spin->assemble(by, spin_tangent_);
+    if (!spin->factor(by.a, spin_tangent_)) return false;
+  }
+  if (!tangent_.factor()) return false;
+  if (nut) factor_nut(*nut, q, v, a, t);
+  return true;
+}
+
+template <int D>
+Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v,
+                                            double push) const {
+  return beam_.nut().torque(*beam_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
+}
+
+template <int D>
+void ImplicitBeam<D>::take_nut(std::size_t which, double size) {
+  const auto& border = tangent_.border[which];
+  nut_.row.setZero(angles());
+  nut_.column.setZero(angles());
+  for (int i = 0; i < BorderedBlockTridiagonal<B>::reach && border.first + i < nodes(); ++i) {
+    nut_.row.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.row[static_cast<std::size_t>(i)];
+    nut_.column.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.column[static_cast<std::size_t>(i)];
+  }
+  const auto x = static_cast<Eigen::Index>(which), others = Eigen::Index{tangent_.borders()};
+  nut_.row.segment(after_nodes(), others) = tangent_.corner.row(x).head(others);
+  nut_.column.segment(after_nodes(), others) = tangent_.corner.col(x).head(others);
+  nut_.own = tangent_.corner(x, x);
+  nut_.row[after_nodes() + x] = nut_.column[after_nodes() + x] = 0;
+  tangent_.fix(static_cast<int>(which), size);
+}
+
+template <int D>
+void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                 const Eigen::VectorXd& a, double t) {
+  const Spin& spin = *beam_.spin();
+  const Eigen::Index mark = places()[which].mark;
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  const double push = free_[mark];
+  tangent_.solve(nut_.column.data());
+  nut_.thread = beam_.nut().thread(spin, q.data() + angles(), v.data() + angles(), q[mark]);
+  const auto where_free = [&](Eigen::VectorXd torque) {
+    for (const DrivenAngle& drive : spin.model().drives) torque[spin.angle(drive.node)] = 0;
+    return torque;
+  };
+  nut_.torque = where_free(nut_.thread.by_angles);
+  nut_.by_x = where_free((nut_.own - nut_.row.dot(nut_.column)) * nut_.thread.by_angles + push * nut_.thread.slope);
+  nut_.answer.resize(spin.coordinates(), 2);
+  nut_.answer.col(0) = nut_.by_x;
+  nut_.answer.col(1) = where_free(push * nut_.thread.share);
+  for (int i = 0; i < 2; ++i) spin_tangent_.solve(nut_.answer.col(i).data());
+  Eigen::Matrix2d small = Eigen::Matrix2d::Identity();
+  small.row(0) += nut_.thread.by_angles.transpose() * nut_.answer;
+  small.row(1) += nut_.thread.twist.transpose() * nut_.answer;
+  nut_.inverse = small.inverse();
+}
+
+/// Rows and columns of supports and of conditions on slopes, times `scale`, and what their forces add to the tangent.
+template <int D>
+void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale) {
+  supports_.add_rows(holding().at(t), scale, tangent_);
+  if (kinks_.count() == 0) return;
+  choose_conditions(q);
+  kinks_.add_curvature(a.data() + first_kink_multiplier(), reference_mass_, tangent_);
+  kinks_.add_rows(q.data(), scale, tangent_);
+}
+
+template <int D>
+void ImplicitBeam<D>::tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                              const TangentWeights& by, Eigen::MatrixXd& dense) {
+  equations_.assemble(q, v, a, t, by, tangent_);
+  add_constraints(q, a, t, reference_mass_);
+  dense.setZero(coordinates(), coordinates());
+  tangent_.expand(dense);
+  dense.bottomRows(multipliers()) /= reference_mass_;
+}
+
+template <int D>
+void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
+  const auto& leader = dynamic_cast<const ImplicitBeam&>(other);
+  leader.refresh();
+  refresh();
+  kinks_ = leader.kinks_;
+}
+
+template <int D>
+void ImplicitBeam<D>::exchange(Memory& memory) {
+  refresh();
+  for (auto& kink : kinks_.all()) {
+    memory(kink.omitted_axis);
+    kinks_.omit(kink, kink.omitted_axis);
+  }
+}
+
+template <int D>
+void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
+  r.tail(multipliers()) *= constraint_scale_;
+  at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
+  const auto nut = beam_.nut_place();
+  const Eigen::Index x = nut ? places()[*nut].mark : 0;
+  const double off = nut ? std::exchange(r[x], 0) : 0;
+  // what has a tangent of its own stands between the others and multipliers
+  const auto swap_multipliers = [&](Eigen::Index ahead) {
+    std::rotate(r.begin() + angles(), r.end() - ahead, r.end());
+  };
+  const Eigen::Index turning = layout().turning;
+  if (turning > 0) swap_multipliers(multipliers());
+  tangent_.solve(r.data());
+  if (turning > 0) swap_multipliers(turning);
+  if (const Spin* spin = beam_.spin()) {
+    auto turn = r.segment(angles(), spin->coordinates());
+    if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;
+    spin_tangent_.solve(turn.data());
+    if (nut) {
+      const Eigen::Vector2d seen(nut_.thread.by_angles.dot(turn), nut_.thread.twist.dot(turn));
+      turn -= nut_.answer * (nut_.inverse * seen);
+      const double moves = off + nut_.thread.by_angles.dot(turn);
+      r.head(angles()) -= moves * nut_.column;
+      r[x] = moves;
+    }
+  }
+  if (beam_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
+    holding().project(r.data());
+  }
+}
+
+template <int D>
+OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double t) {
+  Eigen::VectorXd q, v;
+  expand(y, q, v);
+  free_.resize(q.size());
+  free_residual(q, v, Eigen::VectorXd::Zero(q.size()), t, free_);
+  OuterForces<D> forces;
+  forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
+  forces.on_masses.assign(beam_.model().joints.size(), Vec<double, D>::Zero());
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
+    on_mass = -position<D>(free_.data(), places()[i].node) - beam_.joint(i).law.mass * beam_.gravity(t);
+  }
+  return forces;
+}
+
+template <int D>
+OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
+  Eigen::VectorXd own_q, own_v, a;
+  const bool of_state = multipliers() == 0;  // else there are more coordinates than those of the state
+  if (!of_state) expand(y, own_q, own_v);
+  const Eigen::Index n = coordinates();
+  const ConstVector q = of_state ? ConstVector(y.head(n)) : ConstVector(own_q),
+                    v = of_state ? ConstVector(y.segment(n, n)) : ConstVector(own_v);
+  find_acceleration(q, v, t, a);
+  free_.resize(q.size());
+  free_residual(q, v, a, t, free_);
+  OuterForces<D> forces;
+  forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
+  if (const Spin* spin = beam_.spin()) {
+    Eigen::VectorXd torques = free_.segment(angles(), spin->coordinates());
+    if (const auto nut = beam_.nut_place()) {
+      torques -= nut_torque(*nut, q, v, free_[places()[*nut].mark]);
+    }
+    forces.drives = spin->drive_torques(torques.data());
+  }
+  for (const auto& [node, support] : beam_.model().held_nodes) {
+    forces.guides.push_back(free_.segment<B>(Eigen::Index{B} * node));
+  }
+  const auto& joints = beam_.model().joints;
+  forces.on_masses.assign(joints.size(), Vec<double, D>::Zero());
+  forces.guiding.assign(joints.size(), 0);
+  for (const JointPlace& place : places()) forces.mark_accelerations.push_back(a[place.mark]);
+  at_guides(
+      [&](std::size_t i) { forces.guiding[static_cast<std::size_t>(beam_.joint_index(i))] = free_[places()[i].mark]; });
+  if (const auto nut = beam_.nut_place()) {
+    forces.guiding[static_cast<std::size_t>(beam_.joint_index(*nut))] = free_[places()[*nut].mark];
+  }
+  if (const auto& rider = beam_.rider()) {
+    const auto at = beam_.rider_motion(q.data(), v.data());
+    const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
+                                        at.r_x * a[after_nodes()] + at.remainder;
+    forces.on_masses.front() = joints.front().law.mass * (acceleration - beam_.gravity(t));
+  }
+  for (std::size_t i = 0; i < places().size(); ++i) {
+    const Vec<double, D> acceleration = position<D>(a.data(), places()[i].node);  // it moves with the mass
+    auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
+    on_mass = beam_.joint(i).law.mass * (acceleration - beam_.gravity(t));
+    if (beam_.held(i) != nullptr)
+      on_mass -= position<D>(free_.data(), places()[i].node);  // what holds it does the rest
+  }
+  for (std::size_t c = 0; c < links_.all().size(); ++c) {  // and so does what it is linked to
+    const auto& link = links_.all()[c];
+    const Vec<double, D> push = accelerations_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
+    for (std::size_t i = 0; i < places().size(); ++i) {
+      auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
+      if (places()[i].node == link.ahead) on_mass -= push;
+      if (places()[i].node == link.behind) on_mass += push;
+    }
+  }
+  return forces;
+}
+
+template class ImplicitBeam<2>;
+template class ImplicitBeam<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <vector>
+
+#include "core/beam/beam_matrix.hpp"
+#include "core/tangent_weights.hpp"
+#include "mechanics/conserving/conserving_step.hpp"
+#include "mechanics/motion/joint/kinks.hpp"
+#include "mechanics/motion/system/accelerations.hpp"
+#include "mechanics/motion/system/equations.hpp"
+#include "mechanics/motion/system/node_link.hpp"
+#include "mechanics/motion/system/observation.hpp"
+#include "mechanics/motion/system/support_constraints.hpp"
+#include "mechanics/motion/system/turning.hpp"
+#include "mechanics/time/assign.hpp"
+#include "mechanics/time/second_order.hpp"
+
+namespace vlbeam {
+
+/// A beam as an implicit method sees it: residual M a - Q and its exact tangent. The tangent is block
+/// tridiagonal in the nodes with a border; fixed elements contribute the second derivative of their strain energy, the
+/// elements at joints the derivative of their whole residual (inertia, velocity terms and configurational force
+/// included).
+///
+/// Its coordinates are those of CurrentBeam's state, and behind them multipliers: with Constraints::multipliers those
+/// of supports, whose reactions they are; always those of conditions on the slopes of kinked joints, and of links:
+/// blocks, and what rests against each other. The border of the tangent holds the joints' material coordinates, the
+/// slopes behind kinks, the positions of masses that have left, and the multipliers.
+template <int D>
+class ImplicitBeam final : public SecondOrderSystem {
+ public:
+  /// `of` must outlive this object; events may change the beam at any time.
+  explicit ImplicitBeam(Accelerations<D>& of)
+      : accelerations_(of), beam_(of.beam()), equations_(of.beam()), conserving_step_(of.beam()) {}
+
+  Eigen::Index coordinates() const override { return layout().coordinates(); }
+  Eigen::Index multipliers() const override { return layout().multipliers; }
+  std::vector<FieldRun> fields() const override;
+  void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
+  void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override {
+    const Eigen::Index own = beam_.coordinates();
+    assign_both_to(y.head(own), q.head(own), y.segment(own, own), v.head(own));
+  }
+  void acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a) override {
+    find_acceleration(q, v, t, a);
+  }
+  bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a, Eigen::VectorXd& memory) const override;
+  double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                  Eigen::VectorXd& r) override;
+  /// Of a beam without frames and nuts, at the time of the last residual.
+  bool inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) override;
+  ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
+  void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                        Eigen::VectorXd& rates) const override;
+  bool driven() const override { return beam_.model().driven() || beam_.nut_place(); }
+  bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
+  double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
+    return turning_of(beam_, q.data(), v.data());
+  }
+  Tallies tallies() const override { return beam_.model().tallies(); }
+  Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
+  std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
+                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1, double h,
+                                           double t) override;
+  bool linearize(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                 const TangentWeights& by) override;
+  void solve(Eigen::VectorXd& r) const override;
+  void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+               const TangentWeights& by, Eigen::MatrixXd& dense) override;
+  Eigen::Index curved_constraints() const override { return kinks_.count(); }
+  void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override {
+    kinks_.add_second_derivative(i, factor, dense);
+  }
+  double multiplier_unit() const override { return reference_mass_; }
+  void follow(const SecondOrderSystem& other) override;
+  void exchange(Memory& memory) override;
+  double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
+                             const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override;
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
+
+  /// The tangent of a beam whose nodes travel, with weights `by`, dense and before supports: of position and slope of
+  /// the nodes, and of angle and twist of the nodes, empty without spin. They do not couple.
+  void travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                          const TangentWeights& by, Eigen::MatrixXd& axis, Eigen::MatrixXd& angles);
+
+  /// By the accelerations that belong to a state y at time t.
+  OuterForces<D> forces(const Eigen::VectorXd& y, double t);
+  /// Without accelerations.
+  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
+
+ private:
+  static constexpr int B = node_size<D>;
+  using Block = Eigen::Matrix<double, B, B>;
+  /// What depends on the mesh.
+  void refresh() const {
+    if (revision_ != beam_.revision()) rebuild();
+  }
+  void rebuild() const;
+  /// Where the multipliers of the conditions on slopes and of links stand, behind those of supports.
+  Eigen::Index first_kink_multiplier() const { return layout().multiplier() + supports_.count(); }
+  Eigen::Index first_link_multiplier() const { return first_kink_multiplier() + kinks_.count(); }
+  bool with_multipliers() const { return beam_.model().constraints == Constraints::multipliers; }
+  const std::vector<JointPlace>& places() const { return beam_.places(); }
+  const Held<D>& holding() const { return beam_.holding(); }
+  /// Lets the conditions on slopes be those that serve at q.
+  void choose_conditions(const ConstVector& q) const {
+    kinks_.choose(q.data(), [](Eigen::Index /*first*/, int /*count*/) {});
+  }
+  /// Calls function(which) for the joints on the beam whose material coordinate is prescribed: it has no equation.
+  template <class Function>
+  void at_guides(const Function& function) const {
+    for (std::size_t i = 0; i < places().size(); ++i) {
+      if (beam_.guides(i)) function(i);
+    }
+  }
+  /// That of the state, with multipliers.
+  const Layout<D>& layout() const {
+    refresh();
+    return layout_;
+  }
+  int nodes() const { return layout().nodes; }
+  /// Where what follows the nodes stands: the joints' material coordinates, the masses that have left.
+  Eigen::Index after_nodes() const { return layout().mark(); }
+  /// Where the angles of a beam that spins stand.
+  Eigen::Index angles() const { return layout().angle(); }
+  /// acceleration(), of parts of a state, too.
+  void find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
+  /// Residual without constraints.
+  double free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,
+                       typename Equations<D>::Extent extent = Equations<D>::Extent::whole) const;
+  void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale);
+  /// What the thread does to the angles as it pushes the nut of these coordinates [N].
+  Eigen::VectorXd nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v, double push) const;
+  /// Takes the nut's x out of the tangent, with `size` in its place.
+  void take_nut(std::size_t which, double size);
+  /// Completes it, once all else is factored.
+  void factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                  double t);
+  void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
+  void rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size, Eigen::VectorXd& result);
+  /// What moving supports change of the Jacobian.
+  void add_drive(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
+  double element_length() const;  ///< mean of the mesh [m]
+  double wave_time() const;       ///< of an axial wave through such an element [s]
+  Accelerations<D>& accelerations_;
+  CurrentBeam<D>& beam_;
+  Equations<D> equations_;
+  ConservingStep<D> conserving_step_;
+  mutable std::size_t revision_ = static_cast<std::size_t>(-1);
+  mutable Layout<D> layout_;
+  mutable SupportConstraints<D> supports_;  ///< none where they are eliminated
+  mutable Kinks<D> kinks_;
+  mutable NodeLinks<D> links_;
+  mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
+  double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
+  BeamMatrix<D> tangent_;
+  SpinTangent spin_tangent_;
+  /// A nut moves by what the angles do, dx = g . dq + off, and what acts on it turns them by g: with all else solved
+  /// for, they have a tangent of their own and two dyads.
+  struct NutTangent {
+    double own = 0;               ///< of the force on x, by x
+    Eigen::VectorXd row, column;  ///< of it by all else but the angles; what of that moves against x
+    Nut::Thread thread;
+    Eigen::VectorXd torque, by_x;  ///< on the angles that are free: g, and what dx makes of it
+    Eigen::Matrix<double, Eigen::Dynamic, 2> answer;
+    Eigen::Matrix2d inverse;
+  };
+  NutTangent nut_;
+  Eigen::VectorXd middle_q_, middle_v_;  ///< of power_lost_between()
+  Eigen::VectorXd free_;
+  typename CurrentBeam<D>::JointElements elements_;  ///< of inertia()
+  Eigen::VectorXd a_, column_, weightless_;          // of the Jacobian; the first of power_lost_between(), too
+  Eigen::MatrixXd stiffness_, damping_;
+};
+
+extern template class ImplicitBeam<2>;
+extern template class ImplicitBeam<3>;
+
+}  // namespace vlbeam

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/beam/node_map.hpp"
+#include "mechanics/spin/spin.hpp"
+#include "mechanics/time/fields.hpp"
+#include "mechanics/time/tallies.hpp"
+
+namespace vlbeam {
+
+/// Where everything stands in a state y = (q, q', tallies). The coordinates q are, in this order: the nodes, position
+/// and slope each; the material coordinates of joints, or of a mass that rides; the slopes behind joints that are
+/// kinked; the positions of masses that have left; the angles of a beam that spins; multipliers, where there are any.
+template <int D>
+struct Layout {
+  int nodes = 0, marks = 0, kinks = 0, departed = 0;
+  Eigen::Index turning = 0, multipliers = 0;  ///< how many there are of angles (and twists), and of multipliers
+  Tallies tallies = {};
+
+  Eigen::Index mark(int i = 0) const { return Eigen::Index{node_size<D>} * nodes + i; }
+  Eigen::Index kink(int i = 0) const { return mark(marks) + Eigen::Index{D} * i; }
+  Eigen::Index departed_mass(int i = 0) const { return kink(kinks) + Eigen::Index{D} * i; }
+  Eigen::Index angle() const { return departed_mass(departed); }
+  Eigen::Index multiplier() const { return angle() + turning; }
+  Eigen::Index coordinates() const { return multiplier() + multipliers; }
+  Eigen::Index state() const { return 2 * coordinates() + tallies.count(); }
+
+  /// What they are, but for multipliers; `spin` is null without, or where angles are those of frames.
+  std::vector<FieldRun> fields(const Spin* spin) const {
+    std::vector<FieldRun> runs = nodal_fields(D, nodes);
+    if (marks > 0) runs.push_back({Field::mark, mark(), 1, 1, marks});
+    if (kinks > 0) runs.push_back({Field::slope, kink(), D, D, kinks});
+    if (departed > 0) runs.push_back({Field::mass, departed_mass(), D, D, departed});
+    if (spin == nullptr) {
+      if (turning > 0) runs.push_back({Field::angle, angle(), 1, 1, turning});
+      return runs;
+    }
+    for (const FieldRun& run : spin->fields(angle())) runs.push_back(run);
+    return runs;
+  }
+};
+
+}  // namespace vlbeam

@@ -1,0 +1,93 @@
+#include "mechanics/statics/static_equations.hpp"
+
+#include "core/geometry/dense.hpp"
+
+namespace vlbeam {
+
+template <int D>
+Kinks<D>& StaticEquations<D>::kinks() const {
+  if (revision_ != system_.revision()) {
+    revision_ = system_.revision();
+    kinks_.adopt(system_, true);
+  }
+  for (auto& kink : kinks_.all()) kink.suspended = suspended(kink.joint);
+  return kinks_;
+}
+
+template <int D>
+void StaticEquations<D>::choose_conditions(Eigen::VectorXd& u) {
+  const Eigen::Index first = system_.coordinates();
+  kinks().choose(u.data(), [&](Eigen::Index at, int count) { u.segment(first + at, count).setZero(); });
+}
+
+template <int D>
+void StaticEquations<D>::reactions(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const {
+  prepare();
+  r.resize(size());
+  equations_.residual(u, zero_, zero_, factor, r);
+  const Eigen::Index at = system_.coordinates();
+  kinks().add_residual(u.data(), u.data() + at, 1, r.data(), r.data() + at);
+}
+
+template <int D>
+void StaticEquations<D>::residual(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const {
+  reactions(u, factor, r);
+  system_.holding().project(r.data());
+  for (std::size_t which = 0; which < system_.places().size(); ++which) {
+    if (holds(which)) r[mark(which)] = 0;
+  }
+}
+
+template <int D>
+void StaticEquations<D>::assemble(const Eigen::VectorXd& u, double factor, double by_a) {
+  prepare();
+  equations_.assemble(u, zero_, zero_, factor, {1, 0, by_a}, tangent_);
+}
+
+template <int D>
+bool StaticEquations<D>::linearize(const Eigen::VectorXd& u, double factor, double by_a, const FreeTension<D>* forces) {
+  assemble(u, factor, by_a);
+  if (forces != nullptr) forces->add_to(u, tangent_);
+  kinks().add_curvature(u.data() + system_.coordinates(), 1, tangent_);
+  kinks().add_rows(u.data(), 1, tangent_);
+  system_.holding().project(tangent_);
+  for (std::size_t which = 0; which < system_.places().size(); ++which) {
+    if (!holds(which)) continue;
+    tangent_.fix(static_cast<int>(which), system_.model().section.stiffness.EA / system_.mesh().length());
+  }
+  return tangent_.factor();
+}
+
+template <int D>
+Eigen::MatrixXd StaticEquations<D>::dense(const Eigen::VectorXd& u, double factor, double by_a) {
+  assemble(u, factor, by_a);
+  kinks().add_curvature(u.data() + system_.coordinates(), 1, tangent_);
+  const Eigen::Index n = system_.coordinates();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  tangent_.expand(matrix);
+  return matrix;
+}
+
+template <int D>
+Eigen::MatrixXd StaticEquations<D>::directions(const Eigen::VectorXd& u) const {
+  const Eigen::MatrixXd free = system_.holding().directions(system_.coordinates());
+  if (!system_.has_joint()) return free;
+  const Eigen::MatrixXd ties = kinks().normals(u.data(), system_.coordinates());
+  std::vector<Eigen::Index> held;
+  for (std::size_t which = 0; which < system_.places().size(); ++which) {
+    if (holds(which)) held.push_back(mark(which));
+  }
+  const auto marks = static_cast<Eigen::Index>(held.size()), rows = marks + ties.cols();
+  if (rows == 0) return free;
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(system_.coordinates(), rows);
+  for (Eigen::Index i = 0; i < marks; ++i) gradients(held[static_cast<std::size_t>(i)], i) = 1;
+  gradients.rightCols(ties.cols()) = ties;
+  // what is orthogonal to the gradients within the free directions
+  const Eigen::MatrixXd all = orthogonal_factor(free.transpose() * gradients);
+  return free * all.rightCols(free.cols() - rows);
+}
+
+template class StaticEquations<2>;
+template class StaticEquations<3>;
+
+}  // namespace vlbeam

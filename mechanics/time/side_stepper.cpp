@@ -1,0 +1,69 @@
+#include "mechanics/time/side_stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/sundials/sundials_stepper.hpp"
+#include "mechanics/time/assign.hpp"
+#include "mechanics/time/in_tolerances.hpp"
+
+namespace vlbeam {
+namespace {
+
+constexpr int most_side_steps = 60;  // tries to get inside a step: else the step itself is too long
+
+}  // namespace
+
+Method::Method(EventedOde& ode, const IntegrationOptions& options, NewtonCounters& counters) {
+  if (options.type == IntegratorType::generalized_alpha) {
+    system = ode.new_second_order();
+    stepper = make_generalized_alpha(*system, options.generalized_alpha, &counters);
+  } else if (options.type == IntegratorType::energy_momentum) {
+    system = ode.new_second_order();
+    stepper = make_energy_momentum(*system, options.energy_momentum);
+  } else if (options.type == IntegratorType::ida) {
+    system = ode.new_second_order();
+    stepper = make_sundials_stepper(options.type, options.tolerances, system.get(), &counters);
+  } else {
+    const auto& by_field = options.tolerances.by_field;
+    const bool in_units = by_field && !has_fixed_step(options.type);
+    const Tolerances tolerances = in_units ? Tolerances{options.tolerances.rtol, 1} : options.tolerances;
+    stepper = of_sundials(options.type) ? make_sundials_stepper(options.type, tolerances, nullptr, nullptr)
+                                        : make_odeint_stepper(options.type, tolerances, options.step);
+    if (in_units) stepper = in_tolerances(std::move(stepper), *by_field);
+  }
+}
+
+void shorten(double& dt, double tried, Stepper& stepper) {
+  if (dt > 0 && dt < tried) return;
+  dt = tried / 10;
+  stepper.reset();
+}
+
+const Eigen::VectorXd& SideStepper::step_to(const Eigen::VectorXd& start, double from, double to) {
+  assign(y_, start);
+  double t = from, dt = to - from;
+  for (int tries = 0; t < to; ++tries) {
+    if (tries == most_side_steps) throw SideStepUnderflow{t, dt};
+    const bool last = dt >= to - t;
+    if (last) dt = to - t;
+    const double tried = dt, t_before = t;
+    assign(before_, y_);
+    if (!stepper_->try_step(ode_, y_, t, dt)) {
+      shorten(dt, tried, *stepper_);
+    } else if (!all_finite(y_)) {
+      y_ = before_;
+      t = t_before;
+      dt = tried / 10;
+      stepper_->reset();
+    } else {
+      if (last) break;
+      continue;
+    }
+    const double smallest = std::max(1e-12 * (to - from), 1e-15 * std::abs(to));
+    if (dt < smallest) throw SideStepUnderflow{t, smallest};  // below, t itself would stand still
+  }
+  return y_;
+}
+
+}  // namespace vlbeam

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mechanics/time/memory.hpp"
+
+namespace vlbeam {
+
+/// What has been supplied since the start, or its rate; the motion does not depend on it. Energies [J], unless said.
+struct Tally {
+  double dissipated = 0;  ///< by damping and friction
+  double loads = 0;       ///< done by loads
+  double ends = 0;        ///< by what drives angles; where beam flows, all that its supports do and matter brings along
+  double supports = 0;    ///< done by supports that move, and by guides
+  double mesh = 0;        ///< work of moving inner nodes along the beam: discretisation error only
+  double mass = 0;        ///< in through the ends [kg]
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< of supports, loads, gravity, and in with the matter [N s]
+  double spin_impulse = 0;                            ///< about the axis [N m s]
+
+  void exchange(Memory& memory) {
+    for (double* entry : {&dissipated, &loads, &ends, &supports, &mesh, &mass}) memory(*entry);
+    for (double& component : impulse) memory(component);
+    memory(spin_impulse);
+  }
+
+  friend Tally operator+(const Tally& a, const Tally& b) {
+    return {a.dissipated + b.dissipated,
+            a.loads + b.loads,
+            a.ends + b.ends,
+            a.supports + b.supports,
+            a.mesh + b.mesh,
+            a.mass + b.mass,
+            a.impulse + b.impulse,
+            a.spin_impulse + b.spin_impulse};
+  }
+  friend Tally operator*(double h, const Tally& a) {
+    return {h * a.dissipated, h * a.loads, h * a.ends,    h * a.supports,
+            h * a.mesh,       h * a.mass,  h * a.impulse, h * a.spin_impulse};
+  }
+};
+
+/// Which of them a state counts: at its end, behind coordinates and rates, in the order of Tally.
+struct Tallies {
+  bool dissipated = false, loads = false, ends = false, supports = false;
+  int flow = 0;  ///< dimension of a beam whose nodes are prescribed, and 0 of others, which count none of the rest
+
+  Eigen::Index count() const {
+    Tally none;
+    Eigen::Index entries = 0;
+    for_each(0, none, [&](Eigen::Index, double&) { ++entries; });
+    return entries;
+  }
+
+  /// What the end of `y` holds; zero of what is not counted.
+  Tally of(const Eigen::VectorXd& y) const {
+    Tally result;
+    for_each(y.size() - count(), result, [&](Eigen::Index at, double& entry) { entry = y[at]; });
+    return result;
+  }
+  /// Adds to the end of `y`, a state or its rates.
+  template <class Vector>
+  void add(Tally more, Vector&& y) const {
+    for_each(y.size() - count(), more, [&](Eigen::Index at, const double& entry) { y[at] += entry; });
+  }
+
+ private:
+  /// Visits the entries of a state that stand from `at` on.
+  template <class Visit>
+  void for_each(Eigen::Index at, Tally& tally, const Visit& visit) const {
+    if (dissipated) visit(at++, tally.dissipated);
+    if (loads) visit(at++, tally.loads);
+    if (ends) visit(at++, tally.ends);
+    if (supports) visit(at++, tally.supports);
+    if (flow == 0) return;
+    visit(at++, tally.mesh);
+    visit(at++, tally.mass);
+    for (int c = 0; c < flow; ++c) visit(at++, tally.impulse[c]);
+    visit(at, tally.spin_impulse);
+  }
+};
+
+}  // namespace vlbeam
