@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mechanics/frames/section_moment.hpp"
 #include "mechanics/motion/parts/loads.hpp"
-#include "mechanics/motion/parts/section_moment.hpp"
 #include "mechanics/spin/spin.hpp"
 #include "scene/scene.hpp"
 

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "mechanics/conserving/energy_momentum.hpp"
+#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/build.hpp"
 #include "scene/timetable.hpp"
@@ -81,7 +83,9 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   options.timetable = timetable(scene);
   options.locate_events = integrator.locate_events;
   if (options.tolerances.motion > 0) options.largest_overshoot = largest_overshoot;
-  options.step = options.energy_momentum.step = integrator.step;
+  options.step = integrator.step;
+  if (integrator.type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = integrator.step});
+  if (of_sundials(integrator.type)) options.other = method_of_sundials(integrator.type);
   options.generalized_alpha = {.step = integrator.step,
                                .rho_inf = integrator.rho_inf,
                                .newton = integrator.newton,

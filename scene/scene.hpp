@@ -12,8 +12,8 @@
 #include "mechanics/contact/at_support.hpp"
 #include "mechanics/motion/joint/axial_friction.hpp"
 #include "mechanics/motion/joint/joint_slopes.hpp"
-#include "mechanics/motion/parts/winding.hpp"
 #include "mechanics/motion/system/constraints.hpp"
+#include "mechanics/ropes/winding.hpp"
 #include "mechanics/spin/angle_field.hpp"
 #include "mechanics/time/integrator_type.hpp"
 

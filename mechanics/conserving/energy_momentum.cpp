@@ -109,4 +109,10 @@ std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const E
   return std::make_unique<EnergyMomentum>(system, options);
 }
 
+OtherMethod energy_momentum(const EnergyMomentumOptions& options) {
+  return {.make = [options](SecondOrderSystem* system, const Tolerances&, NewtonCounters&) {
+    return make_energy_momentum(*system, options);
+  }};
+}
+
 }  // namespace vlbeam

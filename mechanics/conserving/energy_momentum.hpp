@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "mechanics/time/integrate.hpp"
 #include "mechanics/time/second_order.hpp"
 #include "mechanics/time/stepper.hpp"
 
@@ -23,5 +24,8 @@ struct EnergyMomentumOptions {
 /// step's change of shape; it is kept from step to step while the iteration contracts.
 /// `system` is the stepper's own: it keeps a factored matrix in it.
 std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const EnergyMomentumOptions& options);
+
+/// The same as a method of IntegrationOptions, of type energy_momentum.
+OtherMethod energy_momentum(const EnergyMomentumOptions& options);
 
 }  // namespace vlbeam

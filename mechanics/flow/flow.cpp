@@ -1,6 +1,6 @@
 #include "mechanics/flow/flow.hpp"
 
-#include "core/element/driven_residual.hpp"
+#include "mechanics/flow/driven_residual.hpp"
 
 namespace vlbeam {
 

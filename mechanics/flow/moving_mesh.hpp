@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/beam/chain_mass.hpp"
 #include "core/beam/chain_view.hpp"
 #include "core/tangent_weights.hpp"
+#include "mechanics/flow/chain_mass.hpp"
 #include "mechanics/motion/joint/joint_chain.hpp"
 #include "mechanics/motion/system/beam_model.hpp"
 

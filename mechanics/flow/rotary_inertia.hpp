@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "core/element/driven_residual.hpp"
 #include "core/geometry/prescribed.hpp"
 #include "core/tangent_weights.hpp"
+#include "mechanics/flow/driven_residual.hpp"
 
 namespace vlbeam {
 

@@ -11,8 +11,8 @@
 #include "mechanics/frames/frame_packs.hpp"
 #include "mechanics/frames/frame_table.hpp"
 #include "mechanics/frames/moving_frame_spin.hpp"
+#include "mechanics/frames/section_moment.hpp"
 #include "mechanics/motion/parts/part.hpp"
-#include "mechanics/motion/parts/section_moment.hpp"
 #include "mechanics/spin/spin.hpp"
 #include "mechanics/time/memory.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "mechanics/motion/parts/line_force.hpp"
 #include "mechanics/motion/parts/part.hpp"
+#include "mechanics/ropes/line_force.hpp"
 
 namespace vlbeam {
 

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "mechanics/contact/one_sided.hpp"
 #include "mechanics/motion/parts/part.hpp"
-#include "mechanics/motion/parts/winding.hpp"
+#include "mechanics/ropes/winding.hpp"
 #include "mechanics/time/fields.hpp"
 
 namespace vlbeam {

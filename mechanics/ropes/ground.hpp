@@ -5,9 +5,9 @@
 #include "core/geometry/elementary.hpp"
 #include "mechanics/contact/one_sided.hpp"
 #include "mechanics/motion/joint/axial_friction.hpp"
-#include "mechanics/motion/parts/line_force.hpp"
 #include "mechanics/motion/parts/part.hpp"
 #include "mechanics/motion/parts/point_masses.hpp"
+#include "mechanics/ropes/line_force.hpp"
 
 namespace vlbeam {
 

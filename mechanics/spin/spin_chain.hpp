@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "core/beam/block_tridiagonal.hpp"
-#include "core/beam/chain_mass.hpp"
 #include "core/beam/mesh_motion.hpp"
-#include "core/element/driven_residual.hpp"
 #include "core/element/moving_element.hpp"
 #include "core/tangent_weights.hpp"
+#include "mechanics/flow/chain_mass.hpp"
+#include "mechanics/flow/driven_residual.hpp"
 #include "mechanics/spin/angle_field.hpp"
 #include "mechanics/spin/spin_element.hpp"
 

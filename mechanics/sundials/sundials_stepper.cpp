@@ -379,4 +379,12 @@ std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType, const Tolerances&
 
 #endif
 
+OtherMethod method_of_sundials(IntegratorType type) {
+  return {.second_order = type == IntegratorType::ida,
+          .can_be_restarted = false,
+          .make = [type](SecondOrderSystem* system, const Tolerances& tolerances, NewtonCounters& counters) {
+            return make_sundials_stepper(type, tolerances, system, &counters);
+          }};
+}
+
 }  // namespace vlbeam

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "mechanics/time/generalized_alpha.hpp"
+#include "mechanics/time/integrate.hpp"
 #include "mechanics/time/stepper.hpp"
 
 namespace vlbeam {
@@ -19,5 +20,8 @@ bool have_sundials();
 /// are in `counters`, which may be null. Its Jacobian is dense and exact. Only where have_sundials().
 std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType type, const Tolerances& tolerances,
                                                SecondOrderSystem* system, NewtonCounters* counters);
+
+/// The same as a method of IntegrationOptions, of that type.
+OtherMethod method_of_sundials(IntegratorType type);
 
 }  // namespace vlbeam

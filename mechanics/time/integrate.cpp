@@ -120,8 +120,8 @@ class EventLog {
 
 bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, const std::vector<double>& sample_times,
                const IntegrationOptions& options, SolverCounters& counters, const Checkpoints* checkpoints) {
-  if (checkpoints != nullptr && of_sundials(options.type)) {
-    throw ModelError("integrator", "a method of SUNDIALS, with checkpoints",
+  if (checkpoints != nullptr && options.other && !options.other->can_be_restarted) {
+    throw ModelError("integrator", "a method that cannot be restarted, with checkpoints",
                      "it keeps its history to itself: take another method");
   }
   IntegrationOptions of_method = options;

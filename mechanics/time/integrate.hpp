@@ -3,10 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "mechanics/conserving/energy_momentum.hpp"
 #include "mechanics/time/checkpoint.hpp"
 #include "mechanics/time/generalized_alpha.hpp"
 #include "mechanics/time/ode.hpp"
@@ -32,13 +33,21 @@ class EventedOde : public Ode {
   virtual void exchange(Memory& /*memory*/) {}
 };
 
+/// A method of integration that comes from elsewhere.
+struct OtherMethod {
+  bool second_order = true;      ///< it takes the equations as a SecondOrderSystem, else as y' = f(t, y)
+  bool can_be_restarted = true;  ///< its memory can be kept in a checkpoint
+  /// Its stepper; of equations of first order the system is null.
+  std::function<std::unique_ptr<Stepper>(SecondOrderSystem*, const Tolerances&, NewtonCounters&)> make;
+};
+
 struct IntegrationOptions {
   IntegratorType type = IntegratorType::dopri5;
+  std::optional<OtherMethod> other = {};  ///< that of `type`, where that is none of those in this folder
   Tolerances tolerances;
   double first_step = 1e-6;  ///< [s], of the methods that choose their step
-  double step = 1e-3;        ///< [s], of Adams-Bashforth-Moulton
+  double step = 1e-3;        ///< [s], of methods with a fixed step but generalized-alpha
   GeneralizedAlphaOptions generalized_alpha;
-  EnergyMomentumOptions energy_momentum;
   Timetable timetable;        ///< corners of the equations, at which steps of all methods end
   bool locate_events = true;  ///< false: an event happens at the end of the step in which it is due
   /// Of a guard at the end of a step: one that is farther beyond zero makes the step too long, and it is halved.

@@ -23,6 +23,7 @@ double log10(double) noexcept __asm__("vlbeam_log10");
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -266,12 +267,9 @@ std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Toleranc
     case IntegratorType::rosenbrock4:
       return std::make_unique<Rosenbrock4>(tolerances);
     case IntegratorType::dopri5:
-    case IntegratorType::generalized_alpha:  // not one of Odeint's
-    case IntegratorType::energy_momentum:
-    case IntegratorType::ida:
-    case IntegratorType::cvode:
-    case IntegratorType::arkode:
       break;
+    default:
+      throw std::invalid_argument("a method that Odeint does not have");
   }
   return wrap(odeint::make_controlled<odeint::runge_kutta_dopri5<State>>(atol, rtol));
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/sundials/sundials_stepper.hpp"
 #include "mechanics/time/assign.hpp"
 #include "mechanics/time/in_tolerances.hpp"
 
@@ -18,20 +17,19 @@ Method::Method(EventedOde& ode, const IntegrationOptions& options, NewtonCounter
   if (options.type == IntegratorType::generalized_alpha) {
     system = ode.new_second_order();
     stepper = make_generalized_alpha(*system, options.generalized_alpha, &counters);
-  } else if (options.type == IntegratorType::energy_momentum) {
-    system = ode.new_second_order();
-    stepper = make_energy_momentum(*system, options.energy_momentum);
-  } else if (options.type == IntegratorType::ida) {
-    system = ode.new_second_order();
-    stepper = make_sundials_stepper(options.type, options.tolerances, system.get(), &counters);
-  } else {
-    const auto& by_field = options.tolerances.by_field;
-    const bool in_units = by_field && !has_fixed_step(options.type);
-    const Tolerances tolerances = in_units ? Tolerances{options.tolerances.rtol, 1} : options.tolerances;
-    stepper = of_sundials(options.type) ? make_sundials_stepper(options.type, tolerances, nullptr, nullptr)
-                                        : make_odeint_stepper(options.type, tolerances, options.step);
-    if (in_units) stepper = in_tolerances(std::move(stepper), *by_field);
+    return;
   }
+  if (options.other && options.other->second_order) {
+    system = ode.new_second_order();
+    stepper = options.other->make(system.get(), options.tolerances, counters);
+    return;
+  }
+  const auto& by_field = options.tolerances.by_field;
+  const bool in_units = by_field && !has_fixed_step(options.type);
+  const Tolerances tolerances = in_units ? Tolerances{options.tolerances.rtol, 1} : options.tolerances;
+  stepper = options.other ? options.other->make(nullptr, tolerances, counters)
+                          : make_odeint_stepper(options.type, tolerances, options.step);
+  if (in_units) stepper = in_tolerances(std::move(stepper), *by_field);
 }
 
 void shorten(double& dt, double tried, Stepper& stepper) {

@@ -9,8 +9,7 @@ namespace vlbeam {
 /// [s], given, of a method with a fixed step; the longest one of generalized-alpha that adapts.
 inline double longest_step(const IntegrationOptions& options) {
   if (!has_fixed_step(options.type)) return std::numeric_limits<double>::infinity();
-  if (options.type == IntegratorType::generalized_alpha) return options.generalized_alpha.step;
-  return options.type == IntegratorType::energy_momentum ? options.energy_momentum.step : options.step;
+  return options.type == IntegratorType::generalized_alpha ? options.generalized_alpha.step : options.step;
 }
 
 /// Counts what keeps the steps of a run from being longer.

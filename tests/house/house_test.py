@@ -30,7 +30,7 @@ STILL_IN_CORE = {
 WORDS = {
     "frames": r"[Ff]rame|[Tt]riad",
     "spin": r"[Ss]pin|\bnut\b|\bNut|[Aa]ngle_?[Ff]ield|[Tt]hread",
-    "flow": r"[Ff]low|MovingMesh|moving_mesh|MeshMotion|[Tt]ravel",
+    "flow": r"(?<![Uu]nder)[Ff]low|MovingMesh|moving_mesh|MeshMotion|[Tt]ravel",
     "ride": r"[Rr]ider|[Dd]eparted",
     "contact": r"[Ii]mpact|[Rr]ebound|NodeContact|AtSupport|at_support",
     "ropes": r"[Dd]rum|[Gg]round|[Dd]rag\b|[Ff]luid|[Ww]inch|[Oo]utlet|[Ss]lack",

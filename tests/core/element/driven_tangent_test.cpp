@@ -1,5 +1,5 @@
-#include "core/element/driven_residual.hpp"
 #include "core/element/moving_tangent.hpp"
+#include "mechanics/flow/driven_residual.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/driven_residual.hpp"
+#include "mechanics/flow/driven_residual.hpp"
 #include "tests/core/support/dual.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/random.hpp"

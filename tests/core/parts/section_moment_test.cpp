@@ -1,5 +1,5 @@
 // Moments on the sections of beams in space: they do the virtual work that a moment does on a triad.
-#include "mechanics/motion/parts/section_moment.hpp"
+#include "mechanics/frames/section_moment.hpp"
 
 #include <gtest/gtest.h>
 

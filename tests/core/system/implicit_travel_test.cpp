@@ -1,3 +1,4 @@
+#include "mechanics/conserving/energy_momentum.hpp"
 #include "mechanics/motion/system/implicit_beam.hpp"
 
 #include <gtest/gtest.h>
@@ -156,6 +157,7 @@ TEST(ImplicitTravel, RefusesMethodsThatDoNotApply) {
     Eigen::VectorXd y = straight_state<2>(beam, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0, 0);
     IntegrationOptions options;
     options.type = type;
+    if (type == IntegratorType::energy_momentum) options.other = energy_momentum({});
     SolverCounters counters;
     double t = 0;
     EXPECT_THROW(integrate(beam, y, t, 0.1, {}, options, counters), InvalidInput);

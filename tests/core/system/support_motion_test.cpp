@@ -1,5 +1,6 @@
 // Supports whose point moves as a given function of time.
 #include "core/beam/support_motion.hpp"
+#include "mechanics/conserving/energy_momentum.hpp"
 
 #include <gtest/gtest.h>
 
@@ -157,7 +158,9 @@ struct DrivenRun {
     IntegrationOptions options;
     options.type = type;
     options.tolerances = {tolerance, tolerance};
-    options.step = options.energy_momentum.step = step;
+    options.step = step;
+    if (type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = step});
+    if (of_sundials(type)) options.other = method_of_sundials(type);
     options.generalized_alpha.step = step;
     options.generalized_alpha.newton_tolerance = 1e-12;
     std::vector<double> times;
