@@ -777,7 +777,8 @@ def bar_wave(n):
     duration = digits(L / speed * d.decades(0.1, 1))
     section = {"type": "stiffness", "EA": EA, "EI": 0, "rhoA": rhoA}
     scene = {"gravity": [0, 0], "duration": duration,
-             "beam": {"curve": line([0, 0], [L, 0]), "section": section, "strain_law": "engineering", "elements": d.elements()},
+             "beam": {"curve": line([0, 0], [L, 0]), "section": section, "strain_law": "engineering", "compression": "full",
+                      "elements": d.elements()},
              "supports": [{"at": "start", "type": "pin", "motion": {"direction": [-1, 0], "value": way, "ramp": ramp}}]}
     given = lambda t: -way * step(t / ramp)
     place = lambda t: L + 2 * sum((-1) ** k * given(t - (2 * k + 1) * L / speed) for k in range(60))
