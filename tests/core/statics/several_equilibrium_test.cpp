@@ -191,7 +191,7 @@ TEST(RopeOverRings, ThreeUnequalWeightsFindTheirSide) {
     scene.beam.elements = 24;
     scene.point_masses = {{0, A}, {12, W}, {24, B}};
     const RunResult run = completed(scene);
-    // cosines of the triangle with sides A, B, W
+    // angles of the triangle with sides A, B, W, seen from the level; the rope is stretched by 2e-5 at most
     const double sin_a = (A * A + W * W - B * B) / (2 * A * W), sin_b = (B * B + W * W - A * A) / (2 * B * W);
     const double tan_a = sin_a / std::sqrt(1 - sin_a * sin_a), tan_b = sin_b / std::sqrt(1 - sin_b * sin_b);
     const double depth = 2 / (1 / tan_a + 1 / tan_b);
