@@ -27,6 +27,7 @@ constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of 
 constexpr double turn_margin = 1.1, turn_share = 0.85;                    // of the longest step for what it turns
 constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
 constexpr double least_motion = 1e-5;  // of Tolerances::motion
+constexpr double foreseen_share = 0.1;  // of the longest step: motion that is foreseen
 constexpr double torn_share = 0.3;     // of it: no step is off so far, in modes that it does not follow either
 
 class GeneralizedAlpha final : public Stepper {
@@ -462,17 +463,21 @@ class GeneralizedAlpha final : public Stepper {
     system_.solve(r_);
   }
 
-  /// Of the tolerances, by the largest displacement so far. At an event nodes become others: what they move from then
-  /// on is added to the largest before.
+  /// Of the tolerances, by the largest displacement so far, or that of a part of the longest step at the largest speed:
+  /// what starts with a jolt will move farther than it has, and vibrations that turn back before do not count in full.
+  /// At an event nodes become others: what they move from then on is added to the largest before.
   double share_of_motion() {
     const double whole = options_.tolerances.motion;
     if (whole == 0) return 1;
     assign(other_, step_.q - from_q_);
-    const FieldNorms moved = field_norms(stop_.fields(), other_);
+    const FieldNorms moved = field_norms(stop_.fields(), other_), speeds = field_norms(stop_.fields(), step_.v);
+    double motion = 0;
     for (const Field field : {Field::position, Field::mark, Field::mass}) {
-      motion_ = std::max(motion_, motion_until_event_ + moved[static_cast<std::size_t>(field)]);
+      const auto f = static_cast<std::size_t>(field);
+      motion_ = std::max(motion_, motion_until_event_ + moved[f]);
+      motion = std::max(motion, foreseen_share * options_.step * speeds[f]);
     }
-    return std::clamp(motion_ / whole, least_motion, 1.0);
+    return std::clamp(std::max(motion_, motion) / whole, least_motion, 1.0);
   }
 
   /// A step of next to no length, up to an event or a sample: the last accelerations go on.

@@ -20,6 +20,8 @@ namespace {
 constexpr double pairs_apart = 0.5, pairs_apart_share = 0.1;  // of orders that are still one order
 constexpr double least_order = 0.1, largest_order = 20;       // a limit is looked for between these
 constexpr double near_safety = 1.25, far_safety = 3, near_share = 0.1;
+// Of the expected order: a higher one must be seen twice, for a difference that is small by chance looks like one.
+constexpr double seen_once = 1.5;
 
 void check_levels(const std::vector<double>& levels, const std::vector<double>& values) {
   if (levels.size() != values.size()) throw std::invalid_argument("an observed order needs one error a level");
@@ -227,13 +229,16 @@ GridConvergence grid_convergence(std::string quantity, std::vector<double> level
   }
   const double expected = options.expected_order;
   const auto near_expected = [&](double p) { return expected > 0 && std::abs(p - expected) <= near_share * expected; };
-  bool near = near_expected(*order);
-  if (n >= 4) {
-    const auto coarser = triple(n - 4);
-    near = near && coarser && near_expected(*coarser);
-  }
+  const double coarser = n >= 4 ? triple(n - 4).value_or(0) : 0;  // 0: not known
+  const bool near = near_expected(*order) && (n < 4 || near_expected(coarser));
   if (expected > 0 && (*order < expected / 2 || *order > 2 * expected)) {
     found.refusal = "the order " + six_digits(*order) + " is far from the expected " + number_text(expected);
+    return found;
+  }
+  const double believed = seen_once * expected;
+  if (expected > 0 && *order > believed && coarser <= believed) {
+    found.refusal = "the order " + six_digits(*order) + ", far better than the expected " + number_text(expected) +
+                    ", is seen in three values alone";
     return found;
   }
   found.order = *order;

@@ -87,8 +87,9 @@ struct GridConvergence {
   /// taken no better than expected; the result is never less than the floor. Without a limit it is three times the
   /// largest difference among the three finest values. NaN with fewer than two levels.
   double uncertainty = 0;
-  /// Why there is no limit: too few levels, an oscillation, differences that grow, orders far apart, or differences
-  /// within the floor. Empty where there is one.
+  /// Why there is no limit: too few levels, an oscillation, differences that grow, an order far from the expected one
+  /// (or 1.5 times it, and not seen in the three values before), or differences within the floor. Empty where there is
+  /// one.
   std::string refusal = {};
 };
 

@@ -181,9 +181,9 @@ TEST(GridConvergence, WithoutAnExpectedOrderOrFarFromItTheSafetyFactorIsThree) {
   EXPECT_EQ(grid_convergence("x", n, values_of_order(2, 1, 1, n)).safety_factor, 3);
   EXPECT_NEAR(grid_convergence("x", n, values_of_order(2, 1, 1, n)).uncertainty, 3 * error, 1e-9);
   // Too high an order: Richardson's error is too small, so the expected order is taken.
-  const auto high = grid_convergence("x", n, values_of_order(3, 1, 1, n), {.expected_order = 2});
+  const auto high = grid_convergence("x", n, values_of_order(2.9, 1, 1, n), {.expected_order = 2});
   EXPECT_EQ(high.safety_factor, 3);
-  EXPECT_NEAR(high.uncertainty, 3 * (std::pow(20, -3) - std::pow(40, -3)) / 3, 1e-12);
+  EXPECT_NEAR(high.uncertainty, 3 * (std::pow(20, -2.9) - std::pow(40, -2.9)) / 3, 1e-12);
   EXPECT_GT(high.uncertainty, 3 * std::abs(high.values.back() - *high.limit));
   // Too low: the observed one, which gives more.
   const auto low = grid_convergence("x", n, values_of_order(1.5, 1, 1, n), {.expected_order = 2});
@@ -197,6 +197,19 @@ TEST(GridConvergence, AFourthLevelMustShowTheOrderToo) {
   EXPECT_EQ(grid_convergence("x", n, values, {.expected_order = 2}).safety_factor, 1.25);
   values[0] += 0.01;
   EXPECT_EQ(grid_convergence("x", n, values, {.expected_order = 2}).safety_factor, 3);
+}
+
+TEST(GridConvergence, AnOrderFarBetterThanExpectedMustBeSeenTwice) {
+  const auto found = [](std::vector<double> levels, std::vector<double> values) {
+    return grid_convergence("x", std::move(levels), std::move(values), {.expected_order = 4});
+  };
+  const auto once = found({2, 4, 8}, values_of_order(6.5, 1, 1, {2, 4, 8}));
+  EXPECT_NE(once.refusal.find("three values alone"), std::string::npos);
+  EXPECT_NEAR(once.uncertainty, 3 * (std::pow(2, -6.5) - std::pow(8, -6.5)), 1e-12);
+  auto values = values_of_order(6.5, 1, 1, {2, 4, 8, 16});
+  EXPECT_NEAR(found({2, 4, 8, 16}, values).order.value_or(0), 6.5, 1e-3);
+  values[0] = 1.004;
+  EXPECT_FALSE(found({2, 4, 8, 16}, values).order.has_value()) << "by chance";
 }
 
 TEST(GridConvergence, RefusesOutsideTheAsymptoticRangeAndSaysTheUncertaintyAllTheSame) {
