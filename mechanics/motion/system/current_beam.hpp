@@ -17,6 +17,7 @@
 #include "mechanics/motion/system/layout.hpp"
 #include "mechanics/ride/rider.hpp"
 #include "mechanics/spin/nut.hpp"
+#include "mechanics/time/solver_counters.hpp"
 
 namespace vlbeam {
 
@@ -118,10 +119,6 @@ class CurrentBeam {
   Eigen::VectorXd start(const ChainState<D>& chain);
   /// Becomes the beam of a chain that an event has made.
   void adopt(const ChainState<D>& chain);
-  /// Gives the nodes of `after`, which an event has made of `before` at the state `y`, their sections: new nodes those
-  /// that were there in the beam.
-  void turn_sections(const ChainState<D>& before, const Eigen::VectorXd& y, ChainState<D>& after) const;
-
   /// The state is read from what prescribes parts of it.
   bool imposes() const { return model_.driven() || sections_.nut; }
   /// Puts what supports and guides drive where it is at time t.

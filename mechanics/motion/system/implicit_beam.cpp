@@ -8,24 +8,31 @@
 #include "core/geometry/dense.hpp"
 
 namespace vlbeam {
+
+template <int D>
+ImplicitBeam<D>::ImplicitBeam(Accelerations<D>& of)
+    : accelerations_(of),
+      beam_(of.beam()),
+      equations_(of.beam()),
+      supports_(beam_, !with_multipliers()),
+      kinks_(beam_, !with_multipliers()),
+      links_(of.links()) {}
+
 template <int D>
 void ImplicitBeam<D>::rebuild() const {
   revision_ = beam_.revision();
   layout_ = beam_.layout();
   reference_mass_ = beam_.model().section.rhoA * beam_.mesh().length() / beam_.mesh().elements();
-  supports_.clear();
-  if (with_multipliers()) supports_.adopt(holding().nodes());
-  kinks_.adopt(beam_, !with_multipliers());
-  links_.adopt(accelerations_.links().all());
-  layout_.multipliers = supports_.count() + kinks_.count() + links_.count();
+  for (ConstraintSet<D>* set : constraints()) {
+    set->adopt();
+    layout_.multipliers += set->count();
+  }
 }
 
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
   std::vector<FieldRun> runs = layout().fields(beam_.spin());
-  supports_.add_fields(layout().multiplier(), runs);
-  if (kinks_.count() > 0) runs.push_back({Field::slope_multiplier, first_kink_multiplier(), kinks_.count()});
-  for (Eigen::Index i = 0; i < links_.count(); ++i) runs.push_back({Field::multiplier, first_link_multiplier() + i});
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) { set.add_fields(first, runs); });
   return runs;
 }
 
@@ -47,13 +54,15 @@ void ImplicitBeam<D>::find_acceleration(const ConstVector& q, const ConstVector&
   a.tail(q.size() - own).setZero();
   if (multipliers() == 0) return;
   a.tail(links_.count()) = -accelerations_.link_forces() / reference_mass_;
-  // what the equations of motion lack is what the constraints give
+  // what the equations of motion lack is what the other constraints give
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  supports_.balance(holding().at(t), free_.data(), reference_mass_, a.data() + layout().multiplier());
+  holding().at(t);
+  double* const multipliers = a.data() + layout().multiplier();
+  supports_.balance(free_.data(), reference_mass_, multipliers);
   holding().project(free_.data());
-  choose_conditions(q);
-  a.segment(first_kink_multiplier(), kinks_.count()) = -kinks_.nearest(q.data(), free_.data(), reference_mass_);
+  kinks_.choose(q.data());
+  kinks_.balance(q.data(), free_.data(), reference_mass_, multipliers + supports_.count());
 }
 
 /// What is held or given in time is as it is now.
@@ -85,17 +94,17 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
                                  Eigen::VectorXd& r) {
   accelerations_.count_evaluation();
   refresh();
-  const auto& held = holding().at(t);
+  holding().at(t);
   if (!beam_.travel(t)) {
     r.setConstant(std::numeric_limits<double>::quiet_NaN());
     return 0;
   }
   const double dissipation = free_residual(q, v, a, t, r);
-  if (kinks_.count() > 0) {
-    choose_conditions(q);
-    const Eigen::Index at = first_kink_multiplier();
-    kinks_.add_residual(q.data(), a.data() + at, reference_mass_, r.data(), r.data() + at);
-  }
+  at_constraints([&](ConstraintSet<D>& set, Eigen::Index first) {
+    set.choose(q.data());
+    if (&set != &links_) set.add_forces(q.data(), a.data() + first, reference_mass_, r.data());
+    set.write_values(q.data(), r.data() + first);
+  });
   if (!with_multipliers()) holding().project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
   if (const auto nut = beam_.nut_place()) {
@@ -104,9 +113,6 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
     r[mark] = beam_.nut().off(*beam_.spin(), q.data() + at, v.data() + at, q[mark]);
   }
   if (const Spin* spin = beam_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
-  const Eigen::Index first = layout().multiplier();
-  supports_.add_residual(held, q.data(), a.data() + first, reference_mass_, r.data(), r.data() + first);
-  links_.write_values(q.data(), r.data() + first_link_multiplier());
   return dissipation;
 }
 
@@ -136,23 +142,33 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
 template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
-  refresh();
   ConstraintResidual largest;
-  const auto add = [&largest](const ConstraintResidual& of) {
-    largest.position = std::max(largest.position, of.position);
-    largest.velocity = std::max(largest.velocity, of.velocity);
-  };
-  add(supports_.residual(holding().at(t), q.data(), v.data()));
-  add(kinks_.residual(q.data(), v.data()));
-  add(links_.residual(q.data(), v.data()));
+  holding().at(t);
+  Eigen::VectorXd of(multipliers());
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index /*first*/) {
+    set.write_values(q.data(), of.data());
+    largest.position = std::max(largest.position, of.head(set.count()).cwiseAbs().maxCoeff());
+    set.write_rates(q.data(), v.data(), of.data());
+    largest.velocity = std::max(largest.velocity, of.head(set.count()).cwiseAbs().maxCoeff());
+  });
   return largest;
 }
 
 template <int D>
 void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
-  supports_.rates(holding().at(t), q.data(), v.data(), rates.data() + layout().multiplier());
-  kinks_.rates(q.data(), v.data(), rates.data() + first_kink_multiplier());
+  holding().at(t);
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) {
+    set.write_rates(q.data(), v.data(), rates.data() + first);
+  });
+}
+
+template <int D>
+void ImplicitBeam<D>::add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const {
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) {
+    const Eigen::Index own = layout().multiplier() + i - first;
+    if (own >= 0 && own < set.count()) set.add_second_derivative(own, factor, dense);
+  });
 }
 
 template <int D>
@@ -212,25 +228,6 @@ std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd&
 }
 
 template <int D>
-double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
-                                            const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
-                                            Eigen::VectorXd& r) {
-  if (beam_.model().spin) {
-    throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
-  }
-  if (beam_.frames() != nullptr) {
-    throw ModelError("integrator", "\"energy-momentum\"", "it knows no frames in space: take any other integrator");
-  }
-  if (driven() || beam_.moving_mesh() != nullptr || beam_.model().loads.present() || beam_.model().drag.present()) {
-    throw ModelError(
-        "integrator", "\"energy-momentum\"",
-        "it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
-  }
-  accelerations_.count_evaluation();
-  return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
-}
-
-template <int D>
 void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                          double t, const TangentWeights& by, Eigen::MatrixXd& axis,
                                          Eigen::MatrixXd& angles) {
@@ -253,7 +250,6 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   equations_.assemble(q, v, a, t, by, tangent_);
   constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
   add_constraints(q, a, t, constraint_scale_);
-  links_.add_tangent(q.data(), a.data() + first_link_multiplier(), reference_mass_, constraint_scale_, tangent_);
   if (!with_multipliers()) holding().project(tangent_);
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
   const auto nut = beam_.nut_place();
@@ -316,14 +312,14 @@ void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, co
   nut_.inverse = small.inverse();
 }
 
-/// Rows and columns of supports and of conditions on slopes, times `scale`, and what their forces add to the tangent.
+/// Rows and columns of constraints, times `scale`, and what their forces add to the tangent.
 template <int D>
 void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale) {
-  supports_.add_rows(holding().at(t), scale, tangent_);
-  if (kinks_.count() == 0) return;
-  choose_conditions(q);
-  kinks_.add_curvature(a.data() + first_kink_multiplier(), reference_mass_, tangent_);
-  kinks_.add_rows(q.data(), scale, tangent_);
+  holding().at(t);
+  at_constraints([&](ConstraintSet<D>& set, Eigen::Index first) {
+    set.choose(q.data());
+    set.add_tangent(q.data(), a.data() + first, reference_mass_, scale, tangent_);
+  });
 }
 
 template <int D>
@@ -341,16 +337,13 @@ void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
   const auto& leader = dynamic_cast<const ImplicitBeam&>(other);
   leader.refresh();
   refresh();
-  kinks_ = leader.kinks_;
+  for (std::size_t i = 0; i < constraints().size(); ++i) constraints()[i]->follow(*leader.constraints()[i]);
 }
 
 template <int D>
 void ImplicitBeam<D>::exchange(Memory& memory) {
   refresh();
-  for (auto& kink : kinks_.all()) {
-    memory(kink.omitted_axis);
-    kinks_.omit(kink, kink.omitted_axis);
-  }
+  for (ConstraintSet<D>* set : constraints()) set->exchange(memory);
 }
 
 template <int D>
@@ -446,8 +439,9 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     if (beam_.held(i) != nullptr)
       on_mass -= position<D>(free_.data(), places()[i].node);  // what holds it does the rest
   }
-  for (std::size_t c = 0; c < links_.all().size(); ++c) {  // and so does what it is linked to
-    const auto& link = links_.all()[c];
+  const auto& links = accelerations_.links().all();
+  for (std::size_t c = 0; c < links.size(); ++c) {  // and so does what it is linked to
+    const auto& link = links[c];
     const Vec<double, D> push = accelerations_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
     for (std::size_t i = 0; i < places().size(); ++i) {
       auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
