@@ -7,6 +7,7 @@
 #include "mechanics/motion/system/passages.hpp"
 #include "mechanics/remesh/giving_way.hpp"
 #include "mechanics/ride/ride_events.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 
 namespace vlbeam {
 
@@ -35,6 +36,13 @@ EventSources<D> sources_of_rooms(const BeamInside<D>& inside) {
   return sources;
 }
 
+template <int D>
+std::unique_ptr<Unknowns<D>> unknowns_of_rooms(const CurrentBeam<D>& beam, const std::vector<double>& x) {
+  return beam.model().spin ? std::make_unique<SpinUnknowns<D>>(beam, x) : nullptr;
+}
+
+template std::unique_ptr<Unknowns<2>> unknowns_of_rooms(const CurrentBeam<2>&, const std::vector<double>&);
+template std::unique_ptr<Unknowns<3>> unknowns_of_rooms(const CurrentBeam<3>&, const std::vector<double>&);
 template EventSources<2> sources_of_rooms(const BeamInside<2>&);
 template EventSources<3> sources_of_rooms(const BeamInside<3>&);
 

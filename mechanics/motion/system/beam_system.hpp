@@ -64,7 +64,7 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   ~BeamSystem() override;
 
   Eigen::Index size() const override { return layout().state(); }
-  std::vector<FieldRun> fields() const override { return layout().fields(Beam::spin()); }
+  std::vector<FieldRun> fields() const override { return layout().fields(Beam::unknowns()); }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override { accelerations_.rates(y, dydt, t); }
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;

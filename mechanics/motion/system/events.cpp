@@ -83,7 +83,7 @@ EventReach BeamSystem<D>::reach_of(const std::vector<PendingEvent>& dues, const 
 
 template <int D>
 bool BeamSystem<D>::has_free_joint() const {
-  return Beam::held(0) == nullptr && !Beam::guides(0) && Beam::joint(0).pitch == 0 && !model().driven();
+  return Beam::held(0) == nullptr && !Beam::guides(0) && !Beam::ties(0) && !model().driven();
 }
 
 template <int D>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
@@ -16,7 +15,8 @@ ImplicitBeam<D>::ImplicitBeam(Accelerations<D>& of)
       equations_(of.beam()),
       supports_(beam_, !with_multipliers()),
       kinks_(beam_, !with_multipliers()),
-      links_(of.links()) {}
+      links_(of.links()),
+      of_unknowns_(beam_.unknowns() != nullptr ? beam_.unknowns()->new_tangent() : nullptr) {}
 
 template <int D>
 void ImplicitBeam<D>::rebuild() const {
@@ -31,7 +31,7 @@ void ImplicitBeam<D>::rebuild() const {
 
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
-  std::vector<FieldRun> runs = layout().fields(beam_.spin());
+  std::vector<FieldRun> runs = layout().fields(beam_.unknowns());
   at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) { set.add_fields(first, runs); });
   return runs;
 }
@@ -71,7 +71,7 @@ bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::Vect
                             Eigen::VectorXd& memory) const {
   Eigen::VectorXd& carried = memory;
   assign(carried, a);
-  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
+  if (tied() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
   assign(carried, carried - a);
   holding().at(t);
   holding().project(carried.data());
@@ -107,18 +107,13 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   });
   if (!with_multipliers()) holding().project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  if (const auto nut = beam_.nut_place()) {
-    const Eigen::Index mark = places()[*nut].mark, at = angles();
-    r.segment(at, beam_.spin()->coordinates()) -= nut_torque(*nut, q, v, r[mark]);
-    r[mark] = beam_.nut().off(*beam_.spin(), q.data() + at, v.data() + at, q[mark]);
-  }
-  if (const Spin* spin = beam_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
+  if (of_unknowns_) of_unknowns_->constrain(q.data(), v.data(), a.data(), t, r.data());
   return dissipation;
 }
 
 template <int D>
 bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
-  if (beam_.frames() != nullptr || beam_.nut_place()) return false;
+  if (beam_.frames() != nullptr || tied()) return false;
   refresh();
   if (beam_.moving_mesh() != nullptr) {
     r.setZero();
@@ -128,7 +123,7 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
     accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
     r.tail(r.size() - beam_.coordinates()).setZero();
   }
-  if (const Spin* spin = beam_.spin()) spin->inertia(a.data() + angles(), r.data() + angles());
+  if (beam_.unknowns() != nullptr) beam_.unknowns()->inertia(a.data(), r.data());
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     const Eigen::Index at = beam_.departed_at(i);
     r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);
@@ -195,15 +190,12 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     power.loads += beam_.line_power(now.beam, t);
     power.supports += beam_.fed_line_power(now.beam, t);
   }
-  if (Spin* spin = beam_.spin(); spin != nullptr && spin->model().supplied()) {
-    const Eigen::Index at = angles();
-    Eigen::VectorXd by_nut;
-    if (const auto nut = beam_.nut_place()) {
+  if (auto* unknowns = beam_.unknowns(); unknowns != nullptr && unknowns->supplied()) {
+    if (tied()) {
       free_.resize(q.size());
       free_residual(q, v, a, t, free_);
-      by_nut = nut_torque(*nut, q, v, free_[places()[*nut].mark]);
     }
-    power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t, by_nut.size() > 0 ? &by_nut : nullptr);
+    power = power + unknowns->power(q.data(), v.data(), a.data(), t, tied() ? free_.data() : nullptr);
   }
   if (!beam_.model().driven()) return power;
   free_.resize(q.size());
@@ -236,12 +228,7 @@ void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::
   axis.setZero(after_nodes(), after_nodes());
   tangent_.expand(axis);
   angles.resize(0, 0);
-  const Spin* spin = beam_.spin();
-  if (spin == nullptr) return;
-  spin->assemble(by, spin_tangent_);
-  const Eigen::Index size = 2 * Eigen::Index{nodes()};  // an angle and a twist a node
-  angles.setZero(size, size);
-  spin_tangent_.band.expand(angles);
+  if (of_unknowns_) of_unknowns_->expand(by, angles);
 }
 
 template <int D>
@@ -252,64 +239,14 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   add_constraints(q, a, t, constraint_scale_);
   if (!with_multipliers()) holding().project(tangent_);
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
-  const auto nut = beam_.nut_place();
-  if (nut) take_nut(*nut, reference_mass_ * by.a);
-  if (const Spin* spin = beam_.spin()) {
-    spin->assemble(by, spin_tangent_);
-    if (!spin->factor(by.a, spin_tangent_)) return false;
-  }
+  if (of_unknowns_ && !of_unknowns_->prepare(by, reference_mass_ * by.a, tangent_)) return false;
   if (!tangent_.factor()) return false;
-  if (nut) factor_nut(*nut, q, v, a, t);
-  return true;
-}
-
-template <int D>
-Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v,
-                                            double push) const {
-  return beam_.nut().torque(*beam_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
-}
-
-template <int D>
-void ImplicitBeam<D>::take_nut(std::size_t which, double size) {
-  const auto& border = tangent_.border[which];
-  nut_.row.setZero(angles());
-  nut_.column.setZero(angles());
-  for (int i = 0; i < BorderedBlockTridiagonal<B>::reach && border.first + i < nodes(); ++i) {
-    nut_.row.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.row[static_cast<std::size_t>(i)];
-    nut_.column.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.column[static_cast<std::size_t>(i)];
+  if (tied()) {
+    free_.resize(q.size());
+    free_residual(q, v, a, t, free_);
+    of_unknowns_->complete(q.data(), v.data(), free_.data(), tangent_);
   }
-  const auto x = static_cast<Eigen::Index>(which), others = Eigen::Index{tangent_.borders()};
-  nut_.row.segment(after_nodes(), others) = tangent_.corner.row(x).head(others);
-  nut_.column.segment(after_nodes(), others) = tangent_.corner.col(x).head(others);
-  nut_.own = tangent_.corner(x, x);
-  nut_.row[after_nodes() + x] = nut_.column[after_nodes() + x] = 0;
-  tangent_.fix(static_cast<int>(which), size);
-}
-
-template <int D>
-void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                 const Eigen::VectorXd& a, double t) {
-  const Spin& spin = *beam_.spin();
-  const Eigen::Index mark = places()[which].mark;
-  free_.resize(q.size());
-  free_residual(q, v, a, t, free_);
-  const double push = free_[mark];
-  tangent_.solve(nut_.column.data());
-  nut_.thread = beam_.nut().thread(spin, q.data() + angles(), v.data() + angles(), q[mark]);
-  const auto where_free = [&](Eigen::VectorXd torque) {
-    for (const DrivenAngle& drive : spin.model().drives) torque[spin.angle(drive.node)] = 0;
-    return torque;
-  };
-  nut_.torque = where_free(nut_.thread.by_angles);
-  nut_.by_x = where_free((nut_.own - nut_.row.dot(nut_.column)) * nut_.thread.by_angles + push * nut_.thread.slope);
-  nut_.answer.resize(spin.coordinates(), 2);
-  nut_.answer.col(0) = nut_.by_x;
-  nut_.answer.col(1) = where_free(push * nut_.thread.share);
-  for (int i = 0; i < 2; ++i) spin_tangent_.solve(nut_.answer.col(i).data());
-  Eigen::Matrix2d small = Eigen::Matrix2d::Identity();
-  small.row(0) += nut_.thread.by_angles.transpose() * nut_.answer;
-  small.row(1) += nut_.thread.twist.transpose() * nut_.answer;
-  nut_.inverse = small.inverse();
+  return true;
 }
 
 /// Rows and columns of constraints, times `scale`, and what their forces add to the tangent.
@@ -350,9 +287,7 @@ template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  const auto nut = beam_.nut_place();
-  const Eigen::Index x = nut ? places()[*nut].mark : 0;
-  const double off = nut ? std::exchange(r[x], 0) : 0;
+  if (of_unknowns_) of_unknowns_->solve_before(r.data());
   // what has a tangent of its own stands between the others and multipliers
   const auto swap_multipliers = [&](Eigen::Index ahead) {
     std::rotate(r.begin() + angles(), r.end() - ahead, r.end());
@@ -361,18 +296,7 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   if (turning > 0) swap_multipliers(multipliers());
   tangent_.solve(r.data());
   if (turning > 0) swap_multipliers(turning);
-  if (const Spin* spin = beam_.spin()) {
-    auto turn = r.segment(angles(), spin->coordinates());
-    if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;
-    spin_tangent_.solve(turn.data());
-    if (nut) {
-      const Eigen::Vector2d seen(nut_.thread.by_angles.dot(turn), nut_.thread.twist.dot(turn));
-      turn -= nut_.answer * (nut_.inverse * seen);
-      const double moves = off + nut_.thread.by_angles.dot(turn);
-      r.head(angles()) -= moves * nut_.column;
-      r[x] = moves;
-    }
-  }
+  if (of_unknowns_) of_unknowns_->solve_after(r.data());
   if (beam_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
     holding().project(r.data());
   }
@@ -407,13 +331,6 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   free_residual(q, v, a, t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
-  if (const Spin* spin = beam_.spin()) {
-    Eigen::VectorXd torques = free_.segment(angles(), spin->coordinates());
-    if (const auto nut = beam_.nut_place()) {
-      torques -= nut_torque(*nut, q, v, free_[places()[*nut].mark]);
-    }
-    forces.drives = spin->drive_torques(torques.data());
-  }
   for (const auto& [node, support] : beam_.model().held_nodes) {
     forces.guides.push_back(free_.segment<B>(Eigen::Index{B} * node));
   }
@@ -423,9 +340,7 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   for (const JointPlace& place : places()) forces.mark_accelerations.push_back(a[place.mark]);
   at_guides(
       [&](std::size_t i) { forces.guiding[static_cast<std::size_t>(beam_.joint_index(i))] = free_[places()[i].mark]; });
-  if (const auto nut = beam_.nut_place()) {
-    forces.guiding[static_cast<std::size_t>(beam_.joint_index(*nut))] = free_[places()[*nut].mark];
-  }
+  if (beam_.unknowns() != nullptr) beam_.unknowns()->observe_forces(q.data(), v.data(), free_.data(), forces);
   if (const auto& rider = beam_.rider()) {
     const auto at = beam_.rider_motion(q.data(), v.data());
     const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +

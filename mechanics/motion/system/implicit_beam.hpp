@@ -47,12 +47,12 @@ class ImplicitBeam final : public ConstrainedSystem {
   bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a, Eigen::VectorXd& memory) const override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
-  /// Of a beam without frames and nuts, at the time of the last residual.
+  /// Of a beam without frames, and whose joints are tied to nothing, at the time of the last residual.
   bool inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) override;
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
   void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                         Eigen::VectorXd& rates) const override;
-  bool driven() const override { return beam_.model().driven() || beam_.nut_place(); }
+  bool driven() const override { return beam_.model().driven() || tied(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
     return turning_of(beam_, q.data(), v.data());
@@ -104,6 +104,8 @@ class ImplicitBeam final : public ConstrainedSystem {
     }
   }
   Eigen::Index first_link_multiplier() const { return coordinates() - links_.count(); }
+  /// A joint's material coordinate follows from other unknowns.
+  bool tied() const { return of_unknowns_ && of_unknowns_->ties(); }
   bool with_multipliers() const { return beam_.model().constraints == Constraints::multipliers; }
   const std::vector<JointPlace>& places() const { return beam_.places(); }
   const Held<D>& holding() const { return beam_.holding(); }
@@ -122,7 +124,7 @@ class ImplicitBeam final : public ConstrainedSystem {
   int nodes() const { return layout().nodes; }
   /// Where what follows the nodes stands: the joints' material coordinates, the masses that have left.
   Eigen::Index after_nodes() const { return layout().mark(); }
-  /// Where the angles of a beam that spins stand.
+  /// Where Unknowns, or the angles of frames, stand.
   Eigen::Index angles() const { return layout().angle(); }
   /// acceleration(), of parts of a state, too.
   void find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
@@ -130,13 +132,6 @@ class ImplicitBeam final : public ConstrainedSystem {
   double free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,
                        typename Equations<D>::Extent extent = Equations<D>::Extent::whole) const;
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale);
-  /// What the thread does to the angles as it pushes the nut of these coordinates [N].
-  Eigen::VectorXd nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v, double push) const;
-  /// Takes the nut's x out of the tangent, with `size` in its place.
-  void take_nut(std::size_t which, double size);
-  /// Completes it, once all else is factored.
-  void factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                  double t);
   void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   void rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size, Eigen::VectorXd& result);
   /// What moving supports change of the Jacobian.
@@ -151,21 +146,10 @@ class ImplicitBeam final : public ConstrainedSystem {
   mutable SupportConstraints<D> supports_;
   mutable KinkConstraints<D> kinks_;
   mutable LinkConstraints<D> links_;
+  std::unique_ptr<UnknownsTangent<D>> of_unknowns_;
   mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
   double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
   BeamMatrix<D> tangent_;
-  SpinTangent spin_tangent_;
-  /// A nut moves by what the angles do, dx = g . dq + off, and what acts on it turns them by g: with all else solved
-  /// for, they have a tangent of their own and two dyads.
-  struct NutTangent {
-    double own = 0;               ///< of the force on x, by x
-    Eigen::VectorXd row, column;  ///< of it by all else but the angles; what of that moves against x
-    Nut::Thread thread;
-    Eigen::VectorXd torque, by_x;  ///< on the angles that are free: g, and what dx makes of it
-    Eigen::Matrix<double, Eigen::Dynamic, 2> answer;
-    Eigen::Matrix2d inverse;
-  };
-  NutTangent nut_;
   Eigen::VectorXd middle_q_, middle_v_;  ///< of power_lost_between()
   Eigen::VectorXd free_;
   typename CurrentBeam<D>::JointElements elements_;  ///< of inertia()

@@ -1,4 +1,5 @@
 #include "mechanics/motion/system/implicit_beam.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +48,7 @@ struct Case {
   /// The nut a bit on, off the node of the angles where it starts and the twist's gradient jumps, and some angles that
   /// have it there.
   void put_on_thread(int nodes, double way) {
-    const Spin& spin = *system->spin();
+    const Spin& spin = *spin_of(*system);
     const Eigen::Index at = q.size() - spin.coordinates(), mark = node_size<D> * nodes;
     q[mark] += way;
     for (Eigen::Index i = at; i < q.size(); ++i) {
@@ -57,7 +58,10 @@ struct Case {
     const double angle = spin.section(q.data() + at, v.data() + at, q[mark]).at.angle +
                          2 * std::numbers::pi / pitch * way;  // the sum was 0
     for (int node = 0; node < nodes; ++node) q[at + spin.angle(node)] -= angle;
-    v[mark] = system->nut().place(spin, q.data() + at, v.data() + at, q[mark]).rate;
+    v[mark] = dynamic_cast<const SpinUnknowns<D>&>(*system->unknowns())
+                  .nut()
+                  .place(spin, q.data() + at, v.data() + at, q[mark])
+                  .rate;
   }
 
   static constexpr double pitch = 0.7;
