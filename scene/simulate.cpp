@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 #include "scene/build.hpp"
 #include "scene/build_winch.hpp"
 #include "scene/energy_ledger.hpp"
@@ -109,14 +110,15 @@ class Run {
   void keep_shape(const Eigen::VectorXd& y, double t) {
     const ChainState<D> chain = system_.chain(y, t);
     Configuration shape = configuration_of(chain, t, weight_transport(scene_));
-    for (int k = 0; system_.spin() != nullptr && k <= chain.mesh.last(); ++k) {
+    const Spin* const spin = spin_of(system_);
+    for (int k = 0; spin != nullptr && k <= chain.mesh.last(); ++k) {
       const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
       if (system_.marks() != nullptr) {
-        shape.angles.push_back(angles[system_.spin()->angle(k)]);
-        shape.rates.spins.push_back(rates[system_.spin()->angle(k)]);
+        shape.angles.push_back(angles[spin->angle(k)]);
+        shape.rates.spins.push_back(rates[spin->angle(k)]);
         continue;
       }
-      const auto section = system_.spin()->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
+      const auto section = spin->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
       shape.angles.push_back(section.angle);
       shape.rates.spins.push_back(section.spin);
     }
@@ -194,8 +196,8 @@ class Run {
                                                 const OuterForces<D>& forces) const {
     FlowSample flow;
     flow.mass = seen.mass;
-    if (system_.spin() != nullptr) {
-      flow.end_angles = {y[system_.angle(0)], y[system_.angle(scene_.beam.elements)]};
+    if (system_.unknowns() != nullptr) {
+      flow.end_angles = {y[angle_of(system_, 0)], y[angle_of(system_, scene_.beam.elements)]};
       flow.spin_momentum = seen.spin_momentum;
       flow.torques = forces.drives;
     }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
+#include "mechanics/conserving/conserving_step.hpp"
+#include "mechanics/motion/system/implicit_beam.hpp"
 #include "mechanics/time/newton_stop.hpp"
 
 namespace vlbeam {
@@ -11,10 +14,52 @@ namespace {
 
 constexpr double settled = 1e-11;  // a correction, relative to the coordinates, that rounding may leave
 
+/// ConservingStep of a beam in the plane or in space.
+class ConservingResidual {
+ public:
+  virtual ~ConservingResidual() = default;
+  /// That of ConservingStep; throws ModelError where energy comes from elsewhere, or angles have some.
+  virtual double residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
+                          const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) = 0;
+};
+
+template <int D>
+class ConservingBeam final : public ConservingResidual {
+ public:
+  explicit ConservingBeam(const ImplicitBeam<D>& of)
+      : accelerations_(of.accelerations()), step_(accelerations_.beam()) {}
+
+  double residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
+                  const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override {
+    check();
+    accelerations_.count_evaluation();
+    return step_.residual(q0, v0, q1, v1, t, h, r);
+  }
+
+ private:
+  void check() const {
+    const auto refuse = [](const char* why) { throw ModelError("integrator", "\"energy-momentum\"", why); };
+    const BeamModel<D>& model = accelerations_.beam().model();
+    if (model.spin) refuse("it knows no spin: take any other integrator");
+    if (model.frames) refuse("it knows no frames in space: take any other integrator");
+    if (model.driven() || model.travels() || model.loads.present() || model.drag.present()) {
+      refuse("it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
+    }
+  }
+
+  Accelerations<D>& accelerations_;
+  ConservingStep<D> step_;
+};
+
+std::unique_ptr<ConservingResidual> conserving_residual_of(SecondOrderSystem& system) {
+  if (const auto* plane = dynamic_cast<ImplicitBeam<2>*>(&system)) return std::make_unique<ConservingBeam<2>>(*plane);
+  return std::make_unique<ConservingBeam<3>>(dynamic_cast<ImplicitBeam<3>&>(system));
+}
+
 class EnergyMomentum final : public Stepper {
  public:
   EnergyMomentum(SecondOrderSystem& system, const EnergyMomentumOptions& options)
-      : system_(system), options_(options) {}
+      : system_(system), conserving_(conserving_residual_of(system)), options_(options) {}
 
   bool try_step(Ode& /*ode*/, Eigen::VectorXd& y, double& t, double& dt) override {
     const Eigen::Index n = system_.coordinates();
@@ -30,7 +75,7 @@ class EnergyMomentum final : public Stepper {
     if (h != tangent_step_) tangent_step_ = 0;
     for (int iteration = 0; iteration < options_.newton_iterations; ++iteration) {
       q1_ = q0_ + (h / 2) * (v0_ + v1_);
-      dissipation = system_.conserving_residual(q0_, v0_, q1_, v1_, t, h, r_);
+      dissipation = conserving_->residual(q0_, v0_, q1_, v1_, t, h, r_);
       if (!r_.allFinite()) break;
       if (tangent_step_ == 0 && !linearize(t, h)) break;
       system_.solve(r_);  // twice the correction of q_1
@@ -94,6 +139,7 @@ class EnergyMomentum final : public Stepper {
   }
 
   SecondOrderSystem& system_;
+  std::unique_ptr<ConservingResidual> conserving_;
   EnergyMomentumOptions options_;
   std::vector<FieldRun> fields_;
   double tangent_step_ = 0;       ///< the step that the factored tangent was made for; 0 for none

@@ -1,7 +1,8 @@
 #include "mechanics/contact/impacts.hpp"
 
-#include <algorithm>
+#include <string>
 
+#include "core/error.hpp"
 #include "mechanics/motion/system/event_limits.hpp"
 
 namespace vlbeam {
@@ -12,12 +13,6 @@ using namespace event_limits;
 constexpr double rounding = 1e-9;  // of the largest momentum of an impact
 
 }  // namespace
-
-ComputationFailed ran_into_support(bool held, Direction direction, double t) {
-  return {std::string(held ? "the joint" : "the sliding mass") + " ran into the support at the beam's " +
-              (direction == Direction::forward ? "end" : "start"),
-          t};
-}
 
 template <int D>
 void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t) {
@@ -32,7 +27,7 @@ void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& 
     Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(links.size())), after = rate;
     for (std::size_t i = 0; i < bearing.size(); ++i) {
       const double restitution = bearing[i].rests ? 0 : bearing[i].impact.restitution;
-      wanted[tied + static_cast<Eigen::Index>(i)] = -restitution * links_.gap(bearing[i], y).rate;
+      wanted[tied + static_cast<Eigen::Index>(i)] = -restitution * contacts_.gap(bearing[i], y).rate;
     }
     const auto momenta = mass_.press(links, elements, y.data(), wanted, after.data());
     if (!momenta) throw ComputationFailed("joints strike each other that have no inertia", t);
@@ -43,7 +38,7 @@ void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& 
     std::size_t pulled = 0;
     while (pulled < bearing.size() && !pulls(pulled)) ++pulled;
     if (pulled < bearing.size()) {
-      links_.open(bearing[pulled], y);
+      contacts_.open(bearing[pulled], y);
       bearing.erase(bearing.begin() + static_cast<std::ptrdiff_t>(pulled));
       continue;
     }
@@ -58,8 +53,8 @@ template <int D>
 void Impacts<D>::strike(Eigen::VectorXd& y, double t) {
   const double unit = beam_.model().length_control.standard_length;
   std::vector<Contact> bearing;  // what rests bears what strikes
-  for (Contact contact : links_.contacts()) {
-    const Gap gap = links_.gap(contact, y);
+  for (Contact contact : contacts_.all()) {
+    const Gap gap = contacts_.gap(contact, y);
     const bool strikes = gap.distance <= contact.distance + same_instant * unit && gap.rate < 0;
     if (!strikes && !contact.rests) continue;
     if (!contact.rests) contact.distance = gap.distance;
@@ -71,7 +66,7 @@ void Impacts<D>::strike(Eigen::VectorXd& y, double t) {
   const auto collides = [&] {
     collide(bearing, y, t);
     for (const Contact& contact : bearing) {
-      if (stays(contact)) links_.close(contact, y);
+      if (stays(contact)) contacts_.close(contact, y);
     }
   };
   collides();
@@ -81,7 +76,7 @@ void Impacts<D>::strike(Eigen::VectorXd& y, double t) {
   bool lower = false;
   for (Contact& contact : bearing) {
     if (contact.rests || stays(contact)) continue;
-    const Gap gap = links_.gap(contact, y);
+    const Gap gap = contacts_.gap(contact, y);
     const double across = contact.difference(y.data() + beam_.coordinates()).squaredNorm() - gap.rate * gap.rate;
     const double falls =
         -gap.direction.dot(contact.difference(rates.data() + beam_.coordinates())) - across / gap.distance;
@@ -104,36 +99,6 @@ void Impacts<D>::comes_to_rest(const Contact& contact, double t) const {
                    ? "the joint " + std::to_string(beam_.joint_index(contact.which + 1))
                    : std::string("the support at the beam's ") + (contact.support < 0 ? "start" : "end")),
       t);
-}
-
-template <int D>
-bool Impacts<D>::hit(Eigen::VectorXd& y, double t) {
-  const Impact& impact = beam_.model().joints.front().at_support;
-  const int outwards = beam_.rider()->at_end() ? 1 : -1;
-  if (impact.law == AtSupport::stop) {
-    throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);
-  }
-  // a momentum J on x changes velocities by J M^-1 e_x
-  const Eigen::Index count = beam_.coordinates(), mark = beam_.layout().mark(), x = count + mark;
-  Eigen::VectorXd answer = Eigen::VectorXd::Unit(count, mark), momentum(count);
-  if (!mass_.solve({}, y.data(), answer.data())) throw ran_into_support(false, Direction::forward, t);
-  mass_.multiply({}, y.data(), answer.data(), momentum.data());
-  auto strike = [&](double restitution) {
-    auto rate = y.segment(count, count);
-    const double change = -(1 + restitution) * rate[mark] / answer[mark];
-    beam_.layout().tallies.add({.supports = change * (momentum.dot(rate) - momentum[mark] * rate[mark])}, y);
-    rate += change * answer;
-  };
-  bool rests = impact.law == AtSupport::rest || impact.restitution == 0;
-  if (!rests) {
-    strike(impact.restitution);
-    Eigen::VectorXd rates(y.size());
-    accelerations_.rates(y, rates, t);
-    const double falls = outwards * rates[x];
-    rests = falls > 0 && y[x] * y[x] < 2 * falls * least_bounce * beam_.model().length_control.standard_length;
-  }
-  if (rests) strike(0);
-  return rests;
 }
 
 template class Impacts<2>;

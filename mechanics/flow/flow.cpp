@@ -1,6 +1,7 @@
 #include "mechanics/flow/flow.hpp"
 
 #include "mechanics/flow/driven_residual.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 
 namespace vlbeam {
 
@@ -21,9 +22,10 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
   const std::vector<Prescribed>& marks = beam_.moving_mesh()->marks();
   const ChainView<D> beam = beam_.view(q, rate);
   const Eigen::Index turns = beam_.angles();
+  Spin* const spin = spin_of(beam_);
   residual_.setZero(beam_.coordinates());
   beam_.moving_mesh()->add_residual(elements, a, residual_.data());
-  if (beam_.spin()) beam_.spin()->inner_residual(q + turns, rate + turns, a + turns, residual_.data() + turns);
+  if (spin != nullptr) spin->inner_residual(q + turns, rate + turns, a + turns, residual_.data() + turns);
   double power = residual_.dot(Eigen::Map<const Eigen::VectorXd>(rate, beam_.coordinates()));  // all that comes in
   double loads = 0, mesh = 0;
   const auto drive = [&](int k, double force) {  // along the beam at node k
@@ -36,10 +38,10 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
     const int k = part.element;
     const auto i = static_cast<std::size_t>(k);
     auto [force_a, force_b] = guiding_forces(elements[i], beam_.moving_mesh()->accelerations(a, k));
-    if (beam_.spin()) {
-      const auto& spin = beam_.spin()->guiding_forces(k);
-      force_a += spin[0];
-      force_b += spin[1];
+    if (spin != nullptr) {
+      const auto& by_spin = spin->guiding_forces(k);
+      force_a += by_spin[0];
+      force_b += by_spin[1];
     }
     if (beam_.model().loads.line_force) {
       // moving_equations took the line force for a potential, of which the moving ends carry a part; it is none
@@ -64,8 +66,8 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
   on_marks_.assign(marks.size(), 0);
   forces_.setZero(beam_.coordinates());
   loads += beam_.model().loads.add_forces(beam, t, forces_.data(), on_marks_.data());
-  if (beam_.spin()) {
-    loads += beam_.spin()->add_torques(q + turns, rate + turns, t, forces_.data() + turns, on_marks_.data());
+  if (spin != nullptr) {
+    loads += spin->add_torques(q + turns, rate + turns, t, forces_.data() + turns, on_marks_.data());
   }
   double taken = 0;
   if (beam_.model().drag.present())
@@ -83,7 +85,8 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
   Vector impulse = beam_.beam_gravity(t) * (beam_.model().section.rhoA * (marks.back().value - marks.front().value));
   for (int k = 0; k <= beam_.mesh().last(); ++k) impulse += position<D>(residual_.data(), k);
   result.impulse.template head<D>() = impulse;
-  for (int k = 0; beam_.spin() && k <= beam_.mesh().last(); ++k) result.spin_impulse += residual_[beam_.angle(k)];
+  for (int k = 0; spin != nullptr && k <= beam_.mesh().last(); ++k)
+    result.spin_impulse += residual_[angle_of(beam_, k)];
   return result;
 }
 

@@ -1,4 +1,5 @@
 #include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -66,7 +67,9 @@ Eigen::VectorXd straight_state(const BeamSystem<D>& beam, const Vec<double, D>& 
   Eigen::VectorXd y = Eigen::VectorXd::Zero(beam.size());
   std::ranges::copy(chain.q, y.data());
   std::ranges::copy(chain.rate, y.data() + beam.coordinates());
-  for (int k = 0; beam.spin() != nullptr && k <= chain.mesh.last(); ++k) y[beam.coordinates() + beam.angle(k)] = spin;
+  for (int k = 0; beam.unknowns() != nullptr && k <= chain.mesh.last(); ++k) {
+    y[beam.coordinates() + angle_of(beam, k)] = spin;
+  }
   return y;
 }
 
@@ -79,7 +82,7 @@ void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::Vect
   ImplicitBeam<D> view(beam.accelerations());
   Eigen::MatrixXd axis, angles;
   view.travelling_tangent(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
-  const Spin* spin = beam.spin();
+  const Spin* spin = spin_of(beam);
   const Eigen::MatrixXd free = beam.holding().directions(beam.coordinates());
   const Eigen::Index turning = spin == nullptr ? 0 : spin->coordinates();
   const Eigen::MatrixXd basis = free.topLeftCorner(axis.rows(), free.cols() - turning);

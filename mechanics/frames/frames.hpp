@@ -90,8 +90,8 @@ class Frames final : public Part<3> {
   /// How a new node at the material point x is to stand: as the element's own frame does there, turned by what that
   /// of the element at rest is off the field that nodes follow at rest.
   TriadReference section_at(const double* q, double x) const;
-  /// The twist from the first node to there [rad].
-  double twist_to(const double* q, double x) const;
+  /// The twist from the first node to each of these material points [rad].
+  std::vector<double> twists_to(const double* q, const std::vector<double>& x) const;
   /// The spin of a section there, or of the triads that pass as a mark there moves at `x_rate`.
   double spin_at(const double* q, const double* rate, double x, double x_rate) const;
   struct Seen {

@@ -276,15 +276,18 @@ std::array<double, 2> Frames::angles_in(const double* q, int k) const {
 
 double Frames::twist(const double* q, int k) const { return angles_in(q, k)[0]; }
 
-double Frames::twist_to(const double* q, double x) const {
+std::vector<double> Frames::twists_to(const double* q, const std::vector<double>& x) const {
   look(q);
-  const int k = element_of(x);
-  double sum = 0;
-  for (int i = 0; i < k; ++i) sum += twist(q, i);
-  const auto i = static_cast<std::size_t>(k);
-  const double u = (x - x_[i]) / (x_[i + 1] - x_[i]);
-  const auto angles = angles_in(q, k);
-  return sum + u * angles[0] + 4 * u * (1 - u) * angles[1];
+  std::vector<double> sums{0}, twists;  // to the nodes, to the points
+  for (int k = 0; k < elements(); ++k) sums.push_back(sums.back() + twist(q, k));
+  for (const double at : x) {
+    const int k = element_of(at);
+    const auto i = static_cast<std::size_t>(k);
+    const double u = (at - x_[i]) / (x_[i + 1] - x_[i]);
+    const auto angles = angles_in(q, k);
+    twists.push_back(sums[i] + u * angles[0] + 4 * u * (1 - u) * angles[1]);
+  }
+  return twists;
 }
 
 TriadReference Frames::section_at(const double* q, double x) const {

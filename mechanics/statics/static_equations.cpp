@@ -26,7 +26,9 @@ void StaticEquations<D>::reactions(const Eigen::VectorXd& u, double factor, Eige
   r.resize(size());
   equations_.residual(u, zero_, zero_, factor, r);
   const Eigen::Index at = system_.coordinates();
-  kinks().add_residual(u.data(), u.data() + at, 1, r.data(), r.data() + at);
+  const Kinks<D>& conditions = kinks();
+  conditions.add_forces(u.data(), u.data() + at, 1, r.data());
+  conditions.write_values(u.data(), u.data() + at, r.data() + at);
 }
 
 template <int D>

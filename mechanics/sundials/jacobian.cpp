@@ -12,7 +12,7 @@
 namespace vlbeam {
 template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
-  if (beam_.spin() != nullptr) {
+  if (beam_.unknowns() != nullptr) {
     throw ModelError("integrator", "\"rosenbrock4\"", "its Jacobian knows no spin: take any other integrator");
   }
   refresh();
@@ -78,7 +78,7 @@ void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::Mat
     rhs_difference(y, t, k, size, more);
     dfdy.col(k).tail(tallies) = more.tail(tallies);
   };
-  for_each_coordinate(beam_.layout().fields(beam_.spin()), [&](Field field, Eigen::Index k) {
+  for_each_coordinate(beam_.layout().fields(beam_.unknowns()), [&](Field field, Eigen::Index k) {
     const double size = field == Field::slope ? 1 : element_length();
     difference(k, size);
     difference(n + k, field == Field::mark && std::isfinite(sliding) ? sliding : size / wave_time());

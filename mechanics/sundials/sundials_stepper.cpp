@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "mechanics/time/constrained_system.hpp"
 #endif
 
 namespace vlbeam {
@@ -197,7 +199,7 @@ class Arkode final : public FirstOrder {
 /// that the state counts.
 class Ida final : public SundialsStepper {
  public:
-  Ida(const Tolerances& tolerances, SecondOrderSystem& system, NewtonCounters* counters)
+  Ida(const Tolerances& tolerances, ConstrainedSystem& system, NewtonCounters* counters)
       : SundialsStepper(tolerances), system_(system), counters_(counters) {}
 
  private:
@@ -313,14 +315,12 @@ class Ida final : public SundialsStepper {
     j.block(own, 2 * own, own, m) = columns;
     j.block(2 * own, own, m, own) = rows;
     j.block(mu, 0, m, own) = rows;
-    const Eigen::Index curved = me.system_.curved_constraints();
-    for (Eigen::Index i = 0; i < curved; ++i) {  // the last multipliers
-      const Eigen::Index at = m - curved + i;
+    for (Eigen::Index i = 0; i < m; ++i) {
       me.by_v_.setZero();
       me.system_.add_curvature(i, 1, me.by_v_);
       const auto second = me.by_v_.topLeftCorner(own, own);
-      j.block(0, 0, own, own) += me.system_.multiplier_unit() * values(state)[mu + at] * second;
-      j.block(2 * own + at, 0, 1, own) = (second * me.v_.head(own)).transpose();
+      j.block(0, 0, own, own) += me.system_.multiplier_unit() * values(state)[mu + i] * second;
+      j.block(2 * own + i, 0, 1, own) = (second * me.v_.head(own)).transpose();
     }
     j.diagonal().tail(me.tallies_).setConstant(c_j);
     return j.allFinite() ? 0 : 1;
@@ -350,7 +350,7 @@ class Ida final : public SundialsStepper {
     return step;
   }
 
-  SecondOrderSystem& system_;
+  ConstrainedSystem& system_;
   NewtonCounters* counters_;
   Eigen::Index n_ = 0, own_ = 0, multipliers_ = 0, tallies_ = 0;
   double reached_ = 0;
@@ -364,7 +364,9 @@ bool have_sundials() { return true; }
 
 std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType type, const Tolerances& tolerances,
                                                SecondOrderSystem* system, NewtonCounters* counters) {
-  if (type == IntegratorType::ida) return std::make_unique<Ida>(tolerances, *system, counters);
+  if (type == IntegratorType::ida) {
+    return std::make_unique<Ida>(tolerances, dynamic_cast<ConstrainedSystem&>(*system), counters);
+  }
   if (type == IntegratorType::cvode) return std::make_unique<Cvode>(tolerances);
   return std::make_unique<Arkode>(tolerances);
 }

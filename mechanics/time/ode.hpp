@@ -35,6 +35,7 @@ struct Guard {
   double rate = std::numeric_limits<double>::quiet_NaN();
   /// How far beyond zero a step may end, by the rate at its start.
   double room = std::numeric_limits<double>::infinity();
+  int source = 0;  ///< which of those that the system has
 };
 /// As many and in the same order until the next event.
 using Guards = std::vector<Guard>;

@@ -58,9 +58,6 @@ class SecondOrderSystem {
                                                  double /*t*/) const {
     return {};
   }
-  /// Writes dC/dt = C_q v + C_t where the multipliers stand, at the end of `rates`.
-  virtual void constraint_rates(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, double /*t*/,
-                                Eigen::VectorXd& /*rates*/) const {}
   /// Whether some coordinates have no equation of motion: they follow from time or from others.
   virtual bool driven() const { return false; }
   /// Writes how far eliminated coordinates that are driven are from where they are at time t; false where none are.
@@ -91,28 +88,10 @@ class SecondOrderSystem {
                          const TangentWeights& by) = 0;
   /// Solves with the last factored matrix, in place.
   virtual void solve(Eigen::VectorXd& r) const = 0;
-  /// The same matrix, dense and not factored, for a method with a linear solver of its own. Rows of constraints are
-  /// C_q; columns of multipliers are by the multipliers, C_q^T multiplier_unit(), whatever `by`. Only with
-  /// multipliers.
-  virtual void tangent(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
-                       double /*t*/, const TangentWeights& /*by*/, Eigen::MatrixXd& /*dense*/) {}
-  /// How many of the constraints, the last ones, are not linear in q: quadratic forms.
-  virtual Eigen::Index curved_constraints() const { return 0; }
-  /// Adds `factor` times the second derivative of the `i`-th of these.
-  virtual void add_curvature(Eigen::Index /*i*/, double /*factor*/, Eigen::MatrixXd& /*dense*/) const {}
-  /// What makes an acceleration of a multiplier.
-  virtual double multiplier_unit() const { return 1; }
   /// Takes over what another view of the same equations has chosen on its way, so that both go on with equal digits.
   virtual void follow(const SecondOrderSystem& /*other*/) {}
   /// Writes or reads what it has chosen on its way.
   virtual void exchange(Memory& /*memory*/) {}
-  /// Jacobian of the same equations in first order, y = (q, q', ...): Ode::jacobian().
-  virtual void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) = 0;
-  /// Residual of a step of length h from (q0, v0) at time t to (q1, v1), q1 = q0 + h (v0 + v1)/2, that keeps energy:
-  /// the change of momentum over h minus a mean force, near M a - Q in the middle of the step. Returns the mean power
-  /// lost to damping [W]. Constraints must be eliminated.
-  virtual double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
-                                     const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) = 0;
 };
 
 }  // namespace vlbeam

@@ -9,6 +9,7 @@
 #include "core/geometry/elementary.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 
 namespace vlbeam {
 namespace drill_stem {
@@ -92,7 +93,7 @@ std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples)
   for (int i = 0; i <= samples; ++i) times.push_back(stem.duration * i / samples);
   beam.on_sample = [&](const Eigen::VectorXd& y, double t) {
     const Vector bit = position<D>(y.data(), elements);
-    const double angle = y[beam.angle(elements)] - y[beam.angle(0)];
+    const double angle = y[angle_of(beam, elements)] - y[angle_of(beam, 0)];
     BeamSystem<D> frozen(model, straight_chain(model));
     const auto modes = frequencies(eigenvalues(linear_flows(frozen, at_rest(frozen, stem, t), t).axis));
     history.push_back({stem.overhang + stem.feed * t, portable::hypot(bit[0], bit[1]), -angle, modes.front()});

@@ -28,8 +28,8 @@ STILL_IN_CORE = {
 }
 # What a line of the heart says when it names a room: words of the code, not of comments.
 WORDS = {
-    "frames": r"[Ff]rame|[Tt]riad",
-    "spin": r"[Ss]pin|\bnut\b|\bNut|[Aa]ngle_?[Ff]ield|[Tt]hread",
+    "frames": r"frames|Frames|Frame[A-Z]|moving_frame|[Tt]riad",  # a support has a frame, too
+    "spin": r"[Ss]pin|\bnut\b|\bNut|nut_|_nut|[Aa]ngle_?[Ff]ield",
     "flow": r"(?<![Uu]nder)[Ff]low|MovingMesh|moving_mesh|MeshMotion|[Tt]ravel",
     "ride": r"[Rr]ider|[Dd]eparted",
     "contact": r"[Ii]mpact|[Rr]ebound|NodeContact|AtSupport|at_support",
@@ -42,6 +42,8 @@ WORDS = {
 
 
 def library_of(path):
+    if path == "mechanics/rooms.cpp":
+        return "rooms"
     if path.startswith("core/"):
         return next((room for room, pattern in STILL_IN_CORE.items() if re.search(pattern, path)), "elements")
     folder = path.split("/")[1]

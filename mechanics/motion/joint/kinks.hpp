@@ -7,7 +7,6 @@
 #include "core/beam/beam_matrix.hpp"
 #include "core/geometry/dense.hpp"
 #include "mechanics/motion/joint/slope_conditions.hpp"
-#include "mechanics/time/solver_counters.hpp"
 
 namespace vlbeam {
 
@@ -88,18 +87,24 @@ class Kinks {
     }
   }
 
-  /// Adds the forces of the multipliers to r, an array like q, and writes the conditions into `rows`.
-  void add_residual(const double* q, const double* multipliers, double unit, double* r, double* rows) const {
+  /// Adds the forces of the multipliers to r, an array like q.
+  void add_forces(const double* q, const double* multipliers, double unit, double* r) const {
     at_each([&](const Kink& kink, int i, Eigen::Index at) {
-      if (kink.suspended) {
-        rows[at] = multipliers[at];
-        return;
-      }
-      const Slopes slopes = slopes_at<D>(kink.place, q);
-      const Slopes force = unit * multipliers[at] * kink.of.gradient(i, slopes);
+      if (kink.suspended) return;
+      const Slopes force = unit * multipliers[at] * kink.of.gradient(i, slopes_at<D>(kink.place, q));
       slope<D>(r, kink.place.node) += force.template head<D>();
       Eigen::Map<Vec<double, D>>(r + kink.place.behind) += force.template tail<D>();
-      rows[at] = kink.of.value(i, slopes);
+    });
+  }
+  /// Writes how far the slopes are from the conditions [-]; of suspended ones, the multipliers.
+  void write_values(const double* q, const double* multipliers, double* values) const {
+    at_each([&](const Kink& kink, int i, Eigen::Index at) {
+      values[at] = kink.suspended ? multipliers[at] : kink.of.value(i, slopes_at<D>(kink.place, q));
+    });
+  }
+  void write_rates(const double* q, const double* v, double* rates) const {
+    at_each([&](const Kink& kink, int i, Eigen::Index at) {
+      rates[at] = kink.of.rate(i, slopes_at<D>(kink.place, q), slopes_at<D>(kink.place, v));
     });
   }
   /// Adds what the multipliers change of the coordinates' own tangent.
@@ -121,21 +126,6 @@ class Kinks {
       for (int c = 0; c < 2 * D; ++c) {
         tangent.entry(own, place(kink, c)) = tangent.entry(place(kink, c), own) = gradient[c];
       }
-    });
-  }
-  /// How far the slopes are from the conditions [-], [1/s].
-  ConstraintResidual residual(const double* q, const double* rate) const {
-    ConstraintResidual largest;
-    at_each([&](const Kink& kink, int i, Eigen::Index /*at*/) {
-      const Slopes slopes = slopes_at<D>(kink.place, q);
-      largest.position = std::max(largest.position, std::abs(kink.of.value(i, slopes)));
-      largest.velocity = std::max(largest.velocity, std::abs(kink.of.rate(i, slopes, slopes_at<D>(kink.place, rate))));
-    });
-    return largest;
-  }
-  void rates(const double* q, const double* rate, double* rows) const {
-    at_each([&](const Kink& kink, int i, Eigen::Index at) {
-      rows[at] = kink.of.rate(i, slopes_at<D>(kink.place, q), slopes_at<D>(kink.place, rate));
     });
   }
   /// The multipliers whose forces are next to `force`, of an array like q.

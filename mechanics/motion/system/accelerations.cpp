@@ -96,12 +96,9 @@ std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate
   if (!beam_.travel(t)) return std::nullopt;
   Tally power = add_forces(q, rate, t, a, elements_);
   Frames* const frames = beam_.frames();
-  Spin* const spin = beam_.spin();
-  const Eigen::Index angles = beam_.angles();
+  Unknowns<D>* const unknowns = beam_.unknowns();
   if (frames != nullptr) frames->solve_spins(q, rate, a);
-  if (spin != nullptr && !spin->accelerate(q + angles, rate + angles, t, a + angles, power.dissipated)) {
-    return std::nullopt;
-  }
+  if (unknowns != nullptr && !unknowns->accelerate(q, rate, t, a, power.dissipated)) return std::nullopt;
   std::optional<PrescribedMotion<D>> pull;  // of moving supports
   const bool solved = beam_.moving_mesh() != nullptr ? solve_travelling(q, rate, t, a, pull)
                       : beam_.has_joint()            ? solve_at_joints(q, rate, t, a, pull, power)
@@ -111,16 +108,12 @@ std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     Eigen::Map<Vector>(a + beam_.departed_at(i)) = beam_.gravity(t);
   }
-  const Eigen::VectorXd* by_nut = nullptr;
-  if (const auto which = beam_.nut_place()) {
-    Nut& nut = beam_.nut();
-    by_nut = &nut.torque(nut.turn(a[beam_.places()[*which].mark], a + angles));
-  }
+  if (unknowns != nullptr) unknowns->follow(a);
   if (beam_.moving_mesh() != nullptr) {
     power.loads = 0;
     if (beam_.model().books_flow) power = power + flow_.power(elements_, q, rate, a, t);
-  } else if (spin != nullptr && beam_.model().spin->supplied()) {
-    power = power + spin->power(q + angles, rate + angles, a + angles, t, by_nut);
+  } else if (unknowns != nullptr && unknowns->supplied()) {
+    power = power + unknowns->power(q, rate, a, t, nullptr);
   }
   if (pull && beam_.moving_mesh() == nullptr) power.supports += pull->power(a);
   if (!links_.all().empty() && !press(q, rate, a, power)) return std::nullopt;
@@ -144,13 +137,7 @@ bool Accelerations<D>::solve_at_joints(const double* q, const double* rate, doub
     motions_.push_back(mass_.joint_motion(i, q, rate, t));
     if (beam_.frames() != nullptr) motions_[i].x_inertia += beam_.frames()->mark_inertia(i, i);
   }
-  if (const auto which = beam_.nut_place()) {
-    Nut& nut = beam_.nut();
-    const Eigen::Index mark = beam_.places()[*which].mark, at = beam_.angles();
-    if (!nut.couple(*beam_.spin(), q + at, rate + at, a + at, q[mark], rate[mark])) return false;
-    motions_[*which].x_inertia += nut.load().inertia;
-    a[mark] += nut.load().force;
-  }
+  if (beam_.unknowns() != nullptr && !beam_.unknowns()->load(q, rate, a, motions_)) return false;
   pull = mass_.prescribed(elements_, q, rate, a, t);
   const auto at_joints = mass_.solve_joints(elements_, motions_, a);
   if (!at_joints) return false;

@@ -61,7 +61,7 @@ class Accelerations {
                             std::optional<PrescribedMotion<D>>& pull, Tally& power);
   /// What links do to the accelerations.
   bool press(const double* q, const double* rate, double* a, Tally& power);
-  /// What acts on the coordinates but for spin, and its power but for what accelerations tell.
+  /// What acts on the coordinates but for Unknowns, and its power but for what accelerations tell.
   Tally add_forces(const double* q, const double* rate, double t, double* force, JointElements& elements) const;
 
   CurrentBeam<D>& beam_;

@@ -29,8 +29,7 @@ void BeamMass<D>::adopt() {
 template <int D>
 bool BeamMass<D>::chained() const {
   if (beam_.places().size() > 1) return true;
-  return beam_.has_joint() &&
-         (beam_.guides(0) || beam_.feeds(0) || beam_.joint(0).pitch != 0 || beam_.frames() != nullptr);
+  return beam_.has_joint() && (beam_.guides(0) || beam_.feeds(0) || beam_.ties(0) || beam_.frames() != nullptr);
 }
 
 template <int D>
@@ -125,7 +124,7 @@ bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, do
   }
   std::vector<JointMotion<D>> at_rest;
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
-    const auto kept = beam_.guides(i) || beam_.joint(i).pitch != 0 ? std::optional(0.0) : std::nullopt;
+    const auto kept = beam_.guides(i) || beam_.ties(i) ? std::optional(0.0) : std::nullopt;
     at_rest.push_back({beam_.joint_slopes(i, q), Eigen::Matrix<double, 2 * D, 1>::Zero(), 0, Vector::Zero(), kept,
                        beam_.turning_inertia(i, q)});
   }

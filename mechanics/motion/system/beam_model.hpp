@@ -111,6 +111,8 @@ struct BeamModel {
     return start_motion || end_motion ||
            std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return bool{joint.motion}; });
   }
+  /// Whether a run ends where two joints meet.
+  bool joints_stop_each_other() const { return at_meeting.law == AtSupport::stop; }
   /// Whether something moves as prescribed, and so does work.
   bool driven() const { return supports_move() || guides(); }
   bool turns() const { return start_motion.turns() || end_motion.turns(); }

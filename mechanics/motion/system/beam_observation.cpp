@@ -101,13 +101,9 @@ Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y
     const double x_rate = y[beam.coordinates() + beam.places()[i].mark];
     seen.energy.kinetic += 0.5 * beam.turning_inertia(i, y.data()) * x_rate * x_rate;
   }
-  if (beam.spin()) {
-    const Spin::Seen turning =
-        beam.spin()->observe(y.data() + beam.angles(), y.data() + beam.coordinates() + beam.angles(),
-                             points == own_points ? beam.model().points_of_polynomials() : points);
-    seen.energy.kinetic += turning.kinetic;
-    seen.energy.torsion += turning.torsion;
-    seen.spin_momentum += turning.momentum;
+  if (beam.unknowns() != nullptr) {
+    beam.unknowns()->observe(y.data(), y.data() + beam.coordinates(),
+                             points == own_points ? beam.model().points_of_polynomials() : points, seen);
   }
   if (beam.frames()) {
     const Frames::Seen bent = beam.frames()->observe(y.data(), y.data() + beam.coordinates());

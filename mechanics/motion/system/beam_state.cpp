@@ -26,8 +26,8 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
   if (old.size() == 0) return;
   const Eigen::Index tallies = layout_.tallies.count();
   y.tail(tallies) = old.tail(tallies);
-  if (sections_.spin) {
-    const Eigen::Index count = sections_.spin->coordinates(), before = (old.size() - tallies) / 2;
+  if (unknowns_) {
+    const Eigen::Index count = unknowns_->count(), before = (old.size() - tallies) / 2;
     y.segment(angles(), count) = old.segment(before - count, count);
     y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
   }

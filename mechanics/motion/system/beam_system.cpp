@@ -12,18 +12,15 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& of, const ChainState<D>& chain)
       links_(*this),
       mass_(*this, links_),
       accelerations_(*this, links_, mass_),
-      guards_(*this, links_, accelerations_),
-      impacts_(*this, links_, mass_, accelerations_),
-      velocities_(*this, mass_) {
+      velocities_(*this, mass_),
+      sources_(sources_of_rooms<D>({*this, links_, mass_, accelerations_})) {
   if (of.driven() && !of.joints.empty() && of.length_control.velocities == VelocityTransfer::conservative) {
     throw ModelError("velocities at events", "\"conservative\"",
                      "moving supports need \"nodal\" or \"projected\": they give energy and momentum away");
   }
   initial_ = Beam::start(chain);
   links_.tie_blocks(initial_.data());
-  mass_.adopt();
-  accelerations_.adopt();
-  guards_.adopt();
+  adopt_parts();
   Beam::impose(initial_, 0);
   ramp_ = RampWork<D>(of.gravity, of.gravity_ramp);
 }
@@ -57,9 +54,15 @@ template <int D>
 void BeamSystem<D>::take(const ChainState<D>& chain) {
   Beam::adopt(chain);
   links_.adopt();
+  adopt_parts();
+}
+
+/// Sources first: they may tell the links what rests.
+template <int D>
+void BeamSystem<D>::adopt_parts() {
+  for (const auto& source : sources_) source->adopt();
   mass_.adopt();
   accelerations_.adopt();
-  guards_.adopt();
 }
 
 template <int D>
@@ -79,9 +82,15 @@ Observation<D> BeamSystem<D>::observe(const Eigen::VectorXd& y, double t, int po
 }
 
 template <int D>
-SecondOrderSystem* BeamSystem<D>::second_order() {
+ConstrainedSystem* BeamSystem<D>::second_order() {
   if (!implicit_) implicit_ = std::make_unique<ImplicitBeam<D>>(accelerations_);
   return implicit_.get();
+}
+
+template <int D>
+void BeamSystem<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
+  second_order();
+  implicit_->jacobian(y, t, dfdy, dfdt);
 }
 
 template <int D>

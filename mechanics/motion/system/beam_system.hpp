@@ -6,16 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "mechanics/contact/impacts.hpp"
 #include "mechanics/motion/system/accelerations.hpp"
 #include "mechanics/motion/system/beam_links.hpp"
 #include "mechanics/motion/system/beam_mass.hpp"
 #include "mechanics/motion/system/current_beam.hpp"
-#include "mechanics/motion/system/event_guards.hpp"
-#include "mechanics/motion/system/event_ledger.hpp"
+#include "mechanics/motion/system/event_source.hpp"
 #include "mechanics/motion/system/observation.hpp"
 #include "mechanics/motion/system/ramp_work.hpp"
 #include "mechanics/motion/system/velocity_transfer.hpp"
+#include "mechanics/time/constrained_system.hpp"
 #include "mechanics/time/integrate.hpp"
 
 namespace vlbeam {
@@ -57,7 +56,6 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   using Beam::mesh;
   using Beam::model;
   using Beam::places;
-  using Beam::rider;
 
   /// `chain` is the initial state, but for the velocity of driven supports; its joints, inner nodes, must be those of
   /// the model. A single mass may ride inside an end element instead. Throws ModelError for moving supports with
@@ -66,9 +64,9 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   ~BeamSystem() override;
 
   Eigen::Index size() const override { return layout().state(); }
-  std::vector<FieldRun> fields() const override { return layout().fields(Beam::spin()); }
+  std::vector<FieldRun> fields() const override { return layout().fields(Beam::unknowns()); }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override { accelerations_.rates(y, dydt, t); }
-  Guards guards(const Eigen::VectorXd& y, double t) const override { return guards_.at(y, t); }
+  Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
   void sample(const Eigen::VectorXd& y, double t) override;
   bool proceed(const Eigen::VectorXd& y, double t) override {
@@ -93,11 +91,9 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   Eigen::VectorXd release_initial_state() { return std::move(initial_); }
   /// The equations between two events.
   Accelerations<D>& accelerations() { return accelerations_; }
-  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override {
-    second_order()->jacobian(y, t, dfdy, dfdt);
-  }
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
   /// A view of the equations for whoever needs one for a moment: another call may factor another matrix in it.
-  SecondOrderSystem* second_order();
+  ConstrainedSystem* second_order();
   std::unique_ptr<SecondOrderSystem> new_second_order() override;
   /// By the accelerations that belong to the state.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
@@ -112,32 +108,21 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
-  /// Gives elements at a joint whose transported weights are about to be lost new ones, by the least change.
-  MergedWeights renew_weights(ChainState<D>& chain, std::size_t which, double t) const;
-  /// The joint leaves the beam where it may; throws ComputationFailed where it may not.
-  void check_leaving(const PendingEvent& due, double t) const;
+  void adopt_parts();
   /// Throws ComputationFailed where joints are no longer in their order along the beam: events have to prevent it.
   void check_order(const Eigen::VectorXd& y, double t) const;
-  /// What an event makes of the chain, and of `y` where it is an impact.
-  MergedWeights change(const PendingEvent& due, ChainState<D>& chain, Eigen::VectorXd& y, double t);
-  /// What events of the mesh that are due at once make of it.
-  void change_mesh(const std::vector<PendingEvent>& dues, std::vector<EventRecord<D>>& records, double t) const;
   /// What events of the mesh may change of a beam with one joint.
   BeamPart part_around_joint() const;
   std::vector<EventRecord<D>> records_of(const std::vector<PendingEvent>& dues, const BeamPart& part,
                                          const Eigen::VectorXd& y, double t);
-  /// The two elements on either side, or, where slopes change too, one more.
   EventReach reach_of(const std::vector<PendingEvent>& dues, const BeamPart& part) const;
-  /// What an event changes, and of what it has to be told.
+  /// What an event changes, and of what it has to be told: that of PendingEvent, and
   struct EventScope {
-    EventType type;
-    bool observes_all;         ///< an impact, or a mass that gets a node or loses it, changes more than a mesh; frames
-                               ///< have energies of their own
+    bool observes_all, always_transfers, keeps_momenta, goes_on;
     bool transfers;            ///< velocities follow from those of the mesh before,
     bool conserves;            ///< and keep the energy
     bool is_local;             ///< it looks at, and changes, the part of the beam around its joint alone
     bool changes_nodes_alone;  ///< the rest of the state stays as it is
-    bool goes_on;              ///< accelerations do
     BeamPart part;
     EventReach reach;
   };
@@ -152,24 +137,17 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   };
   BeforeEvent look_before(const EventScope& scope, const Eigen::VectorXd& y, double t);
   /// Makes of the chain of the first record what the events make of it.
-  void change_chain(const std::vector<PendingEvent>& dues, const EventScope& scope,
+  void change_chain(EventSource<D>& source, const std::vector<PendingEvent>& dues, const EventScope& scope,
                     std::vector<EventRecord<D>>& records, Eigen::VectorXd& y, double t);
-  /// Gives the new mesh in `y` the velocities of the beam before, of the state old_.
-  void transfer_velocities(const EventRecord<D>& record, const EventReach& reach,
-                           const std::shared_ptr<Frames>& old_frames, Eigen::VectorXd& y, double t);
-  /// That, and what else an event does to velocities.
-  void change_velocities(const EventScope& scope, const BeforeEvent& before, const std::shared_ptr<Frames>& old_frames,
-                         EventRecord<D>& record, Eigen::VectorXd& y, double t);
+  /// Gives the new mesh in `y` the velocities of the beam before, of the state old_, and does what else an event does
+  /// to them.
+  void change_velocities(const EventScope& scope, const BeforeEvent& before, EventRecord<D>& record, Eigen::VectorXd& y,
+                         double t);
   /// Writes what energies and momenta jump by.
   void book_jumps(const EventScope& scope, const BeforeEvent& before, EventRecord<D>& record, const Eigen::VectorXd& y,
                   double t);
   /// Tells of the events, of which the first record holds what happened.
   void tell(std::vector<EventRecord<D>>& records) const;
-  /// Lets the nodes beside what an event has cut and merged give way, as length control says, until `excess` [J] is
-  /// gone; the iterations it took.
-  int relax_after(const std::vector<PendingEvent>& dues, ChainState<D>& chain, double t, double excess) const;
-  /// Where a mass is that has just left a support [m].
-  double clear_of_end() const;
   typename RampWork<D>::Moment moment(const Eigen::VectorXd& y, double t) const {
     const Observation<D> seen = observe(y, t, own_points);
     return {seen.mass_moment, moment_rate(seen, y)};
@@ -182,9 +160,8 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   BeamLinks<D> links_;
   BeamMass<D> mass_;
   Accelerations<D> accelerations_;
-  EventGuards<D> guards_;
-  Impacts<D> impacts_;
   VelocityProjection<D> velocities_;
+  EventSources<D> sources_;
   ChainState<D> spare_chain_;  ///< memory for the next event
   Eigen::VectorXd old_;        ///< the state before the last event
   RampWork<D> ramp_;

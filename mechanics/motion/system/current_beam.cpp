@@ -49,13 +49,7 @@ template <int D>
 CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chain)
     : model_(model), rules_(model.rules()) {
   if (model.travels()) moving_.emplace(model_, chain.mesh.weights);
-  if (model.spin) {
-    check_drives(model.spin->drives, chain.mesh.last());
-    std::vector<Prescribed> marks;
-    if (moving_) marks = moving_->marks();
-    for (std::size_t k = marks.size(); k < chain.mesh.x.size(); ++k) marks.push_back({chain.mesh.x[k], 0, 0});
-    sections_.spin.emplace(model.spin.value(), std::move(marks), model.formulation, model.points_of_polynomials());
-  }
+  unknowns_ = unknowns_of_rooms<D>(*this, chain.mesh.x);
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   if (model_.loads.present()) acting_.push_back(std::make_shared<ActingLoads<D>>(model_.loads));
   if (model_.drag.present()) acting_.push_back(std::make_shared<ActingDrag<D>>(model_.drag));
@@ -68,13 +62,7 @@ template <int D>
 Eigen::VectorXd CurrentBeam<D>::start(const ChainState<D>& chain) {
   Eigen::VectorXd y;
   write_state(chain, {}, y);
-  double *const angle = y.data() + angles(), *const spin = angle + coordinates();
-  if (sections_.spin) sections_.spin->start(angle, spin);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (joint(i).pitch == 0) continue;
-    const double x = y[places_[i].mark];
-    sections_.nut.emplace(joint(i).pitch, x, sections_.spin->section(angle, spin, x).at.angle);
-  }
+  if (unknowns_) unknowns_->start(y.data(), y.data() + coordinates());
   held_.anchor(y.data());
   return y;
 }
@@ -111,7 +99,7 @@ void CurrentBeam<D>::adopt_joints(const ChainState<D>& chain) {
   layout_ = {.nodes = static_cast<int>(mesh_.x.size()),
              .marks = chain.rider ? 1 : static_cast<int>(chain.joints.size()),
              .departed = static_cast<int>(departed_.size()),
-             .turning = sections_.spin     ? sections_.spin->coordinates()
+             .turning = unknowns_          ? unknowns_->count()
                         : sections_.frames ? sections_.frames->coordinates()
                                            : 0,
              .tallies = model_.tallies()};
@@ -194,10 +182,9 @@ typename CurrentBeam<D>::MarkMotion CurrentBeam<D>::mark_motion(std::size_t whic
   const auto guide = guided(which, t);
   if (guide) return {guide->value, guide->rate};
   const Eigen::Index mark = places_[which].mark;
-  if (!sections_.nut || joint(which).pitch == 0) return {y[mark], y[coordinates() + mark]};
-  const double* const angle = y.data() + angles();
-  const auto place = sections_.nut->place(*sections_.spin, angle, angle + coordinates(), y[mark]);
-  return {place.x, place.rate};
+  if (!ties(which)) return {y[mark], y[coordinates() + mark]};
+  const auto tied = unknowns_->tied(which, y.data(), y.data() + coordinates());
+  return {tied.x, tied.rate};
 }
 
 template <int D>
@@ -281,12 +268,11 @@ void CurrentBeam<D>::fill_masses(const double* q, double t, JointElements& eleme
 
 template <int D>
 void CurrentBeam<D>::impose(Eigen::VectorXd& y, double t) const {
-  if (const auto which = nut_place()) {
-    const Eigen::Index mark = places_[*which].mark;
-    const Nut::Place place =
-        sections_.nut->place(*sections_.spin, y.data() + angles(), y.data() + coordinates() + angles(), y[mark]);
-    y[mark] = place.x;
-    y[coordinates() + mark] = place.rate;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!ties(i)) continue;
+    const auto tied = unknowns_->tied(i, y.data(), y.data() + coordinates());
+    y[places_[i].mark] = tied.x;
+    y[coordinates() + places_[i].mark] = tied.rate;
   }
   if (!model_.driven()) return;
   for (std::size_t i = 0; i < places_.size(); ++i) {

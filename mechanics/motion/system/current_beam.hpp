@@ -15,8 +15,9 @@
 #include "mechanics/motion/system/beam_model.hpp"
 #include "mechanics/motion/system/held.hpp"
 #include "mechanics/motion/system/layout.hpp"
+#include "mechanics/motion/system/unknowns.hpp"
 #include "mechanics/ride/rider.hpp"
-#include "mechanics/spin/nut.hpp"
+#include "mechanics/time/solver_counters.hpp"
 
 namespace vlbeam {
 
@@ -118,12 +119,12 @@ class CurrentBeam {
   Eigen::VectorXd start(const ChainState<D>& chain);
   /// Becomes the beam of a chain that an event has made.
   void adopt(const ChainState<D>& chain);
-  /// Gives the nodes of `after`, which an event has made of `before` at the state `y`, their sections: new nodes those
-  /// that were there in the beam.
-  void turn_sections(const ChainState<D>& before, const Eigen::VectorXd& y, ChainState<D>& after) const;
-
   /// The state is read from what prescribes parts of it.
-  bool imposes() const { return model_.driven() || sections_.nut; }
+  bool imposes() const {
+    bool tied = false;
+    for (std::size_t i = 0; unknowns_ && i < places_.size(); ++i) tied = tied || unknowns_->ties(i);
+    return tied || model_.driven();
+  }
   /// Puts what supports and guides drive where it is at time t.
   void impose(Eigen::VectorXd& y, double t) const;
   /// Lets the supports of the spans stand as they do at time t.
@@ -132,7 +133,7 @@ class CurrentBeam {
   bool travel(double t) const {
     if (!moving_) return true;
     const bool sound = moving_->move(t);
-    if (sections_.spin) sections_.spin->move(moving_->marks());
+    if (unknowns_) unknowns_->move();
     return sound;
   }
   /// The mesh of a beam whose nodes travel, or null.
@@ -235,9 +236,10 @@ class CurrentBeam {
                                            held ? rider_->end : q[layout_.mark()], held ? 0 : rate[layout_.mark()]);
   }
 
-  /// How the section turns; null if it does not. Its angles stand behind all else.
-  Spin* spin() { return sections_.spin ? &*sections_.spin : nullptr; }
-  const Spin* spin() const { return sections_.spin ? &*sections_.spin : nullptr; }
+  /// What stands behind all else; null where nothing does, or the angles of frames.
+  Unknowns<D>* unknowns() const { return unknowns_.get(); }
+  /// Whether a joint on the beam is tied to them.
+  bool ties(std::size_t which) const { return unknowns_ && unknowns_->ties(which); }
   /// Of a beam whose sections have frames, or null. Their angles stand behind the nodes.
   Frames* frames() const { return sections_.frames.get(); }
   /// Those that there are until the next event, and on while someone holds them.
@@ -248,17 +250,6 @@ class CurrentBeam {
   }
   /// Where the angles stand among the coordinates.
   Eigen::Index angles() const { return layout_.angle(); }
-  /// Where the angle of a node of the mesh at t = 0 stands.
-  Eigen::Index angle(int node) const { return angles() + sections_.spin->angle(node); }
-  /// Which of the joints on the beam is a nut; nothing where none is.
-  std::optional<std::size_t> nut_place() const {
-    for (std::size_t i = 0; sections_.nut && i < places_.size(); ++i) {
-      if (joint(i).pitch != 0) return i;
-    }
-    return std::nullopt;
-  }
-  Nut& nut() { return *sections_.nut; }
-  const Nut& nut() const { return *sections_.nut; }
 
   /// The elements at the joints, in the order of the chain.
   const std::vector<MovingPart>& moving_parts() const { return parts_; }
@@ -298,10 +289,8 @@ class CurrentBeam {
     std::optional<Span<D>> left, right;
     std::vector<SpanBetween<D>> between;
   };
-  /// How sections turn about the axis: with `spin` alone, or with frames.
+  /// How sections with frames turn.
   struct Sections {
-    std::optional<Spin> spin;
-    std::optional<Nut> nut;
     std::shared_ptr<Frames> frames;  ///< one of what acts on the beam, too
     std::vector<SectionState> rest;
     std::shared_ptr<const RestTriads> rest_triads;
@@ -344,6 +333,7 @@ class CurrentBeam {
   mutable std::optional<MovingMesh<D>> moving_;  ///< its nodes are where travel() was told last
   Held<D> held_;
   std::vector<std::shared_ptr<const Part<D>>> acting_;
+  std::unique_ptr<Unknowns<D>> unknowns_;
   mutable Sections sections_;
   Layout<D> layout_;
   mutable Spans spans_;

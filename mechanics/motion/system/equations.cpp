@@ -35,10 +35,7 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
     const double mass = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass;
     r.segment<D>(at) = mass * (a.segment<D>(at) - now.gravity);
   }
-  if (Spin* spin = beam_.spin()) {
-    const Eigen::Index at = beam_.layout().angle();
-    lost += spin->residual(q.data() + at, v.data() + at, a.data() + at, t, r.data() + at);
-  }
+  if (auto* unknowns = beam_.unknowns()) lost += unknowns->residual(q.data(), v.data(), a.data(), t, r.data());
   return lost;
 }
 

@@ -26,8 +26,7 @@ class Equations {
   void add_travelling_inertia(const Eigen::VectorXd& a, Eigen::VectorXd& r) const {
     flow_.add_inertia(a.data(), r.data());
   }
-  /// Makes of `tangent` that of the residual with weights `by`, but for the angles of Spin, which couple to nothing
-  /// else.
+  /// Makes of `tangent` that of the residual with weights `by`, but for Unknowns, which have their own.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                 const TangentWeights& by, BeamMatrix<D>& tangent);
   /// What the matter brings that flows in, in a second, at the accelerations `a`: by the elements of the last residual,

@@ -78,7 +78,7 @@ bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Ei
   }
   const Eigen::Index departed = Eigen::Index{D} * is.departed;
   to.segment(is.departed_mass(), departed) = a.segment(was.departed_mass(), departed);
-  if (beam.spin() != nullptr) to.segment(is.angle(), is.turning) = a.segment(was.angle(), was.turning);
+  if (beam.unknowns() != nullptr) to.segment(is.angle(), is.turning) = a.segment(was.angle(), was.turning);
   return true;
 }
 

@@ -2,30 +2,37 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 
 namespace vlbeam {
+
+template <int D>
+ImplicitBeam<D>::ImplicitBeam(Accelerations<D>& of)
+    : accelerations_(of),
+      beam_(of.beam()),
+      equations_(of.beam()),
+      supports_(beam_, !with_multipliers()),
+      kinks_(beam_, !with_multipliers()),
+      links_(of.links()),
+      of_unknowns_(beam_.unknowns() != nullptr ? beam_.unknowns()->new_tangent() : nullptr) {}
+
 template <int D>
 void ImplicitBeam<D>::rebuild() const {
   revision_ = beam_.revision();
   layout_ = beam_.layout();
   reference_mass_ = beam_.model().section.rhoA * beam_.mesh().length() / beam_.mesh().elements();
-  supports_.clear();
-  if (with_multipliers()) supports_.adopt(holding().nodes());
-  kinks_.adopt(beam_, !with_multipliers());
-  links_.adopt(accelerations_.links().all());
-  layout_.multipliers = supports_.count() + kinks_.count() + links_.count();
+  for (ConstraintSet<D>* set : constraints()) {
+    set->adopt();
+    layout_.multipliers += set->count();
+  }
 }
 
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
-  std::vector<FieldRun> runs = layout().fields(beam_.spin());
-  supports_.add_fields(layout().multiplier(), runs);
-  if (kinks_.count() > 0) runs.push_back({Field::slope_multiplier, first_kink_multiplier(), kinks_.count()});
-  for (Eigen::Index i = 0; i < links_.count(); ++i) runs.push_back({Field::multiplier, first_link_multiplier() + i});
+  std::vector<FieldRun> runs = layout().fields(beam_.unknowns());
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) { set.add_fields(first, runs); });
   return runs;
 }
 
@@ -47,13 +54,15 @@ void ImplicitBeam<D>::find_acceleration(const ConstVector& q, const ConstVector&
   a.tail(q.size() - own).setZero();
   if (multipliers() == 0) return;
   a.tail(links_.count()) = -accelerations_.link_forces() / reference_mass_;
-  // what the equations of motion lack is what the constraints give
+  // what the equations of motion lack is what the other constraints give
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  supports_.balance(holding().at(t), free_.data(), reference_mass_, a.data() + layout().multiplier());
+  holding().at(t);
+  double* const multipliers = a.data() + layout().multiplier();
+  supports_.balance(free_.data(), reference_mass_, multipliers);
   holding().project(free_.data());
-  choose_conditions(q);
-  a.segment(first_kink_multiplier(), kinks_.count()) = -kinks_.nearest(q.data(), free_.data(), reference_mass_);
+  kinks_.choose(q.data());
+  kinks_.balance(q.data(), free_.data(), reference_mass_, multipliers + supports_.count());
 }
 
 /// What is held or given in time is as it is now.
@@ -62,7 +71,7 @@ bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::Vect
                             Eigen::VectorXd& memory) const {
   Eigen::VectorXd& carried = memory;
   assign(carried, a);
-  if (beam_.nut_place() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
+  if (tied() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
   assign(carried, carried - a);
   holding().at(t);
   holding().project(carried.data());
@@ -85,34 +94,26 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
                                  Eigen::VectorXd& r) {
   accelerations_.count_evaluation();
   refresh();
-  const auto& held = holding().at(t);
+  holding().at(t);
   if (!beam_.travel(t)) {
     r.setConstant(std::numeric_limits<double>::quiet_NaN());
     return 0;
   }
   const double dissipation = free_residual(q, v, a, t, r);
-  if (kinks_.count() > 0) {
-    choose_conditions(q);
-    const Eigen::Index at = first_kink_multiplier();
-    kinks_.add_residual(q.data(), a.data() + at, reference_mass_, r.data(), r.data() + at);
-  }
+  at_constraints([&](ConstraintSet<D>& set, Eigen::Index first) {
+    set.choose(q.data());
+    if (&set != &links_) set.add_forces(q.data(), a.data() + first, reference_mass_, r.data());
+    set.write_values(q.data(), r.data() + first);
+  });
   if (!with_multipliers()) holding().project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  if (const auto nut = beam_.nut_place()) {
-    const Eigen::Index mark = places()[*nut].mark, at = angles();
-    r.segment(at, beam_.spin()->coordinates()) -= nut_torque(*nut, q, v, r[mark]);
-    r[mark] = beam_.nut().off(*beam_.spin(), q.data() + at, v.data() + at, q[mark]);
-  }
-  if (const Spin* spin = beam_.spin()) spin->drive(a.data() + angles(), t, r.data() + angles());
-  const Eigen::Index first = layout().multiplier();
-  supports_.add_residual(held, q.data(), a.data() + first, reference_mass_, r.data(), r.data() + first);
-  links_.write_values(q.data(), r.data() + first_link_multiplier());
+  if (of_unknowns_) of_unknowns_->constrain(q.data(), v.data(), a.data(), t, r.data());
   return dissipation;
 }
 
 template <int D>
 bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
-  if (beam_.frames() != nullptr || beam_.nut_place()) return false;
+  if (beam_.frames() != nullptr || tied()) return false;
   refresh();
   if (beam_.moving_mesh() != nullptr) {
     r.setZero();
@@ -122,7 +123,7 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
     accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
     r.tail(r.size() - beam_.coordinates()).setZero();
   }
-  if (const Spin* spin = beam_.spin()) spin->inertia(a.data() + angles(), r.data() + angles());
+  if (beam_.unknowns() != nullptr) beam_.unknowns()->inertia(a.data(), r.data());
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     const Eigen::Index at = beam_.departed_at(i);
     r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);
@@ -136,23 +137,33 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
 template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
-  refresh();
   ConstraintResidual largest;
-  const auto add = [&largest](const ConstraintResidual& of) {
-    largest.position = std::max(largest.position, of.position);
-    largest.velocity = std::max(largest.velocity, of.velocity);
-  };
-  add(supports_.residual(holding().at(t), q.data(), v.data()));
-  add(kinks_.residual(q.data(), v.data()));
-  add(links_.residual(q.data(), v.data()));
+  holding().at(t);
+  Eigen::VectorXd of(multipliers());
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index /*first*/) {
+    set.write_values(q.data(), of.data());
+    largest.position = std::max(largest.position, of.head(set.count()).cwiseAbs().maxCoeff());
+    set.write_rates(q.data(), v.data(), of.data());
+    largest.velocity = std::max(largest.velocity, of.head(set.count()).cwiseAbs().maxCoeff());
+  });
   return largest;
 }
 
 template <int D>
 void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
-  supports_.rates(holding().at(t), q.data(), v.data(), rates.data() + layout().multiplier());
-  kinks_.rates(q.data(), v.data(), rates.data() + first_kink_multiplier());
+  holding().at(t);
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) {
+    set.write_rates(q.data(), v.data(), rates.data() + first);
+  });
+}
+
+template <int D>
+void ImplicitBeam<D>::add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const {
+  at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) {
+    const Eigen::Index own = layout().multiplier() + i - first;
+    if (own >= 0 && own < set.count()) set.add_second_derivative(own, factor, dense);
+  });
 }
 
 template <int D>
@@ -179,15 +190,12 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
     power.loads += beam_.line_power(now.beam, t);
     power.supports += beam_.fed_line_power(now.beam, t);
   }
-  if (Spin* spin = beam_.spin(); spin != nullptr && spin->model().supplied()) {
-    const Eigen::Index at = angles();
-    Eigen::VectorXd by_nut;
-    if (const auto nut = beam_.nut_place()) {
+  if (auto* unknowns = beam_.unknowns(); unknowns != nullptr && unknowns->supplied()) {
+    if (tied()) {
       free_.resize(q.size());
       free_residual(q, v, a, t, free_);
-      by_nut = nut_torque(*nut, q, v, free_[places()[*nut].mark]);
     }
-    power = power + spin->power(q.data() + at, v.data() + at, a.data() + at, t, by_nut.size() > 0 ? &by_nut : nullptr);
+    power = power + unknowns->power(q.data(), v.data(), a.data(), t, tied() ? free_.data() : nullptr);
   }
   if (!beam_.model().driven()) return power;
   free_.resize(q.size());
@@ -212,25 +220,6 @@ std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd&
 }
 
 template <int D>
-double ImplicitBeam<D>::conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0,
-                                            const Eigen::VectorXd& q1, const Eigen::VectorXd& v1, double t, double h,
-                                            Eigen::VectorXd& r) {
-  if (beam_.model().spin) {
-    throw ModelError("integrator", "\"energy-momentum\"", "it knows no spin: take any other integrator");
-  }
-  if (beam_.frames() != nullptr) {
-    throw ModelError("integrator", "\"energy-momentum\"", "it knows no frames in space: take any other integrator");
-  }
-  if (driven() || beam_.moving_mesh() != nullptr || beam_.model().loads.present() || beam_.model().drag.present()) {
-    throw ModelError(
-        "integrator", "\"energy-momentum\"",
-        "it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
-  }
-  accelerations_.count_evaluation();
-  return conserving_step_.residual(q0, v0, q1, v1, t, h, r);
-}
-
-template <int D>
 void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                          double t, const TangentWeights& by, Eigen::MatrixXd& axis,
                                          Eigen::MatrixXd& angles) {
@@ -239,12 +228,7 @@ void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::
   axis.setZero(after_nodes(), after_nodes());
   tangent_.expand(axis);
   angles.resize(0, 0);
-  const Spin* spin = beam_.spin();
-  if (spin == nullptr) return;
-  spin->assemble(by, spin_tangent_);
-  const Eigen::Index size = 2 * Eigen::Index{nodes()};  // an angle and a twist a node
-  angles.setZero(size, size);
-  spin_tangent_.band.expand(angles);
+  if (of_unknowns_) of_unknowns_->expand(by, angles);
 }
 
 template <int D>
@@ -253,77 +237,26 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   equations_.assemble(q, v, a, t, by, tangent_);
   constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
   add_constraints(q, a, t, constraint_scale_);
-  links_.add_tangent(q.data(), a.data() + first_link_multiplier(), reference_mass_, constraint_scale_, tangent_);
   if (!with_multipliers()) holding().project(tangent_);
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
-  const auto nut = beam_.nut_place();
-  if (nut) take_nut(*nut, reference_mass_ * by.a);
-  if (const Spin* spin = beam_.spin()) {
-    spin->assemble(by, spin_tangent_);
-    if (!spin->factor(by.a, spin_tangent_)) return false;
-  }
+  if (of_unknowns_ && !of_unknowns_->prepare(by, reference_mass_ * by.a, tangent_)) return false;
   if (!tangent_.factor()) return false;
-  if (nut) factor_nut(*nut, q, v, a, t);
+  if (tied()) {
+    free_.resize(q.size());
+    free_residual(q, v, a, t, free_);
+    of_unknowns_->complete(q.data(), v.data(), free_.data(), tangent_);
+  }
   return true;
 }
 
-template <int D>
-Eigen::VectorXd ImplicitBeam<D>::nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v,
-                                            double push) const {
-  return beam_.nut().torque(*beam_.spin(), q.data() + angles(), v.data() + angles(), q[places()[which].mark], push);
-}
-
-template <int D>
-void ImplicitBeam<D>::take_nut(std::size_t which, double size) {
-  const auto& border = tangent_.border[which];
-  nut_.row.setZero(angles());
-  nut_.column.setZero(angles());
-  for (int i = 0; i < BorderedBlockTridiagonal<B>::reach && border.first + i < nodes(); ++i) {
-    nut_.row.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.row[static_cast<std::size_t>(i)];
-    nut_.column.template segment<B>(Eigen::Index{B} * (border.first + i)) = border.column[static_cast<std::size_t>(i)];
-  }
-  const auto x = static_cast<Eigen::Index>(which), others = Eigen::Index{tangent_.borders()};
-  nut_.row.segment(after_nodes(), others) = tangent_.corner.row(x).head(others);
-  nut_.column.segment(after_nodes(), others) = tangent_.corner.col(x).head(others);
-  nut_.own = tangent_.corner(x, x);
-  nut_.row[after_nodes() + x] = nut_.column[after_nodes() + x] = 0;
-  tangent_.fix(static_cast<int>(which), size);
-}
-
-template <int D>
-void ImplicitBeam<D>::factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                 const Eigen::VectorXd& a, double t) {
-  const Spin& spin = *beam_.spin();
-  const Eigen::Index mark = places()[which].mark;
-  free_.resize(q.size());
-  free_residual(q, v, a, t, free_);
-  const double push = free_[mark];
-  tangent_.solve(nut_.column.data());
-  nut_.thread = beam_.nut().thread(spin, q.data() + angles(), v.data() + angles(), q[mark]);
-  const auto where_free = [&](Eigen::VectorXd torque) {
-    for (const DrivenAngle& drive : spin.model().drives) torque[spin.angle(drive.node)] = 0;
-    return torque;
-  };
-  nut_.torque = where_free(nut_.thread.by_angles);
-  nut_.by_x = where_free((nut_.own - nut_.row.dot(nut_.column)) * nut_.thread.by_angles + push * nut_.thread.slope);
-  nut_.answer.resize(spin.coordinates(), 2);
-  nut_.answer.col(0) = nut_.by_x;
-  nut_.answer.col(1) = where_free(push * nut_.thread.share);
-  for (int i = 0; i < 2; ++i) spin_tangent_.solve(nut_.answer.col(i).data());
-  Eigen::Matrix2d small = Eigen::Matrix2d::Identity();
-  small.row(0) += nut_.thread.by_angles.transpose() * nut_.answer;
-  small.row(1) += nut_.thread.twist.transpose() * nut_.answer;
-  nut_.inverse = small.inverse();
-}
-
-/// Rows and columns of supports and of conditions on slopes, times `scale`, and what their forces add to the tangent.
+/// Rows and columns of constraints, times `scale`, and what their forces add to the tangent.
 template <int D>
 void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale) {
-  supports_.add_rows(holding().at(t), scale, tangent_);
-  if (kinks_.count() == 0) return;
-  choose_conditions(q);
-  kinks_.add_curvature(a.data() + first_kink_multiplier(), reference_mass_, tangent_);
-  kinks_.add_rows(q.data(), scale, tangent_);
+  holding().at(t);
+  at_constraints([&](ConstraintSet<D>& set, Eigen::Index first) {
+    set.choose(q.data());
+    set.add_tangent(q.data(), a.data() + first, reference_mass_, scale, tangent_);
+  });
 }
 
 template <int D>
@@ -341,25 +274,20 @@ void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
   const auto& leader = dynamic_cast<const ImplicitBeam&>(other);
   leader.refresh();
   refresh();
-  kinks_ = leader.kinks_;
+  for (std::size_t i = 0; i < constraints().size(); ++i) constraints()[i]->follow(*leader.constraints()[i]);
 }
 
 template <int D>
 void ImplicitBeam<D>::exchange(Memory& memory) {
   refresh();
-  for (auto& kink : kinks_.all()) {
-    memory(kink.omitted_axis);
-    kinks_.omit(kink, kink.omitted_axis);
-  }
+  for (ConstraintSet<D>* set : constraints()) set->exchange(memory);
 }
 
 template <int D>
 void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   r.tail(multipliers()) *= constraint_scale_;
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
-  const auto nut = beam_.nut_place();
-  const Eigen::Index x = nut ? places()[*nut].mark : 0;
-  const double off = nut ? std::exchange(r[x], 0) : 0;
+  if (of_unknowns_) of_unknowns_->solve_before(r.data());
   // what has a tangent of its own stands between the others and multipliers
   const auto swap_multipliers = [&](Eigen::Index ahead) {
     std::rotate(r.begin() + angles(), r.end() - ahead, r.end());
@@ -368,18 +296,7 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   if (turning > 0) swap_multipliers(multipliers());
   tangent_.solve(r.data());
   if (turning > 0) swap_multipliers(turning);
-  if (const Spin* spin = beam_.spin()) {
-    auto turn = r.segment(angles(), spin->coordinates());
-    if (nut) turn -= nut_.row.dot(r.head(angles())) * nut_.torque + off * nut_.by_x;
-    spin_tangent_.solve(turn.data());
-    if (nut) {
-      const Eigen::Vector2d seen(nut_.thread.by_angles.dot(turn), nut_.thread.twist.dot(turn));
-      turn -= nut_.answer * (nut_.inverse * seen);
-      const double moves = off + nut_.thread.by_angles.dot(turn);
-      r.head(angles()) -= moves * nut_.column;
-      r[x] = moves;
-    }
-  }
+  if (of_unknowns_) of_unknowns_->solve_after(r.data());
   if (beam_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
     holding().project(r.data());
   }
@@ -414,13 +331,6 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   free_residual(q, v, a, t, free_);
   OuterForces<D> forces;
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
-  if (const Spin* spin = beam_.spin()) {
-    Eigen::VectorXd torques = free_.segment(angles(), spin->coordinates());
-    if (const auto nut = beam_.nut_place()) {
-      torques -= nut_torque(*nut, q, v, free_[places()[*nut].mark]);
-    }
-    forces.drives = spin->drive_torques(torques.data());
-  }
   for (const auto& [node, support] : beam_.model().held_nodes) {
     forces.guides.push_back(free_.segment<B>(Eigen::Index{B} * node));
   }
@@ -430,9 +340,7 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   for (const JointPlace& place : places()) forces.mark_accelerations.push_back(a[place.mark]);
   at_guides(
       [&](std::size_t i) { forces.guiding[static_cast<std::size_t>(beam_.joint_index(i))] = free_[places()[i].mark]; });
-  if (const auto nut = beam_.nut_place()) {
-    forces.guiding[static_cast<std::size_t>(beam_.joint_index(*nut))] = free_[places()[*nut].mark];
-  }
+  if (beam_.unknowns() != nullptr) beam_.unknowns()->observe_forces(q.data(), v.data(), free_.data(), forces);
   if (const auto& rider = beam_.rider()) {
     const auto at = beam_.rider_motion(q.data(), v.data());
     const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
@@ -446,8 +354,9 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     if (beam_.held(i) != nullptr)
       on_mass -= position<D>(free_.data(), places()[i].node);  // what holds it does the rest
   }
-  for (std::size_t c = 0; c < links_.all().size(); ++c) {  // and so does what it is linked to
-    const auto& link = links_.all()[c];
+  const auto& links = accelerations_.links().all();
+  for (std::size_t c = 0; c < links.size(); ++c) {  // and so does what it is linked to
+    const auto& link = links[c];
     const Vec<double, D> push = accelerations_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
     for (std::size_t i = 0; i < places().size(); ++i) {
       auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];

@@ -1,19 +1,19 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/beam/beam_matrix.hpp"
 #include "core/tangent_weights.hpp"
-#include "mechanics/conserving/conserving_step.hpp"
-#include "mechanics/motion/joint/kinks.hpp"
 #include "mechanics/motion/system/accelerations.hpp"
 #include "mechanics/motion/system/equations.hpp"
-#include "mechanics/motion/system/node_link.hpp"
+#include "mechanics/motion/system/kink_constraints.hpp"
+#include "mechanics/motion/system/link_constraints.hpp"
 #include "mechanics/motion/system/observation.hpp"
 #include "mechanics/motion/system/support_constraints.hpp"
 #include "mechanics/motion/system/turning.hpp"
 #include "mechanics/time/assign.hpp"
-#include "mechanics/time/second_order.hpp"
+#include "mechanics/time/constrained_system.hpp"
 
 namespace vlbeam {
 
@@ -27,12 +27,12 @@ namespace vlbeam {
 /// blocks, and what rests against each other. The border of the tangent holds the joints' material coordinates, the
 /// slopes behind kinks, the positions of masses that have left, and the multipliers.
 template <int D>
-class ImplicitBeam final : public SecondOrderSystem {
+class ImplicitBeam final : public ConstrainedSystem {
  public:
   /// `of` must outlive this object; events may change the beam at any time.
-  explicit ImplicitBeam(Accelerations<D>& of)
-      : accelerations_(of), beam_(of.beam()), equations_(of.beam()), conserving_step_(of.beam()) {}
+  explicit ImplicitBeam(Accelerations<D>& of);
 
+  Accelerations<D>& accelerations() const { return accelerations_; }
   Eigen::Index coordinates() const override { return layout().coordinates(); }
   Eigen::Index multipliers() const override { return layout().multipliers; }
   std::vector<FieldRun> fields() const override;
@@ -47,12 +47,12 @@ class ImplicitBeam final : public SecondOrderSystem {
   bool carry(const Eigen::VectorXd& before, double t, Eigen::VectorXd& a, Eigen::VectorXd& memory) const override;
   double residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                   Eigen::VectorXd& r) override;
-  /// Of a beam without frames and nuts, at the time of the last residual.
+  /// Of a beam without frames, and whose joints are tied to nothing, at the time of the last residual.
   bool inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) override;
   ConstraintResidual constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) const override;
   void constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                         Eigen::VectorXd& rates) const override;
-  bool driven() const override { return beam_.model().driven() || beam_.nut_place(); }
+  bool driven() const override { return beam_.model().driven() || tied(); }
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
     return turning_of(beam_, q.data(), v.data());
@@ -67,16 +67,12 @@ class ImplicitBeam final : public SecondOrderSystem {
   void solve(Eigen::VectorXd& r) const override;
   void tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                const TangentWeights& by, Eigen::MatrixXd& dense) override;
-  Eigen::Index curved_constraints() const override { return kinks_.count(); }
-  void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override {
-    kinks_.add_second_derivative(i, factor, dense);
-  }
+  void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
   double multiplier_unit() const override { return reference_mass_; }
   void follow(const SecondOrderSystem& other) override;
   void exchange(Memory& memory) override;
-  double conserving_residual(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
-                             const Eigen::VectorXd& v1, double t, double h, Eigen::VectorXd& r) override;
-  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;
+  /// Ode::jacobian().
+  void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
 
   /// The tangent of a beam whose nodes travel, with weights `by`, dense and before supports: of position and slope of
   /// the nodes, and of angle and twist of the nodes, empty without spin. They do not couple.
@@ -96,16 +92,23 @@ class ImplicitBeam final : public SecondOrderSystem {
     if (revision_ != beam_.revision()) rebuild();
   }
   void rebuild() const;
-  /// Where the multipliers of the conditions on slopes and of links stand, behind those of supports.
-  Eigen::Index first_kink_multiplier() const { return layout().multiplier() + supports_.count(); }
-  Eigen::Index first_link_multiplier() const { return first_kink_multiplier() + kinks_.count(); }
+  /// All constraints, in the order of their multipliers.
+  std::array<ConstraintSet<D>*, 3> constraints() const { return {&supports_, &kinks_, &links_}; }
+  /// Calls function(set, where its multipliers begin) for each set that has any constraints.
+  template <class Function>
+  void at_constraints(const Function& function) const {
+    Eigen::Index first = layout().multiplier();
+    for (ConstraintSet<D>* set : constraints()) {
+      if (set->count() > 0) function(*set, first);
+      first += set->count();
+    }
+  }
+  Eigen::Index first_link_multiplier() const { return coordinates() - links_.count(); }
+  /// A joint's material coordinate follows from other unknowns.
+  bool tied() const { return of_unknowns_ && of_unknowns_->ties(); }
   bool with_multipliers() const { return beam_.model().constraints == Constraints::multipliers; }
   const std::vector<JointPlace>& places() const { return beam_.places(); }
   const Held<D>& holding() const { return beam_.holding(); }
-  /// Lets the conditions on slopes be those that serve at q.
-  void choose_conditions(const ConstVector& q) const {
-    kinks_.choose(q.data(), [](Eigen::Index /*first*/, int /*count*/) {});
-  }
   /// Calls function(which) for the joints on the beam whose material coordinate is prescribed: it has no equation.
   template <class Function>
   void at_guides(const Function& function) const {
@@ -121,7 +124,7 @@ class ImplicitBeam final : public SecondOrderSystem {
   int nodes() const { return layout().nodes; }
   /// Where what follows the nodes stands: the joints' material coordinates, the masses that have left.
   Eigen::Index after_nodes() const { return layout().mark(); }
-  /// Where the angles of a beam that spins stand.
+  /// Where Unknowns, or the angles of frames, stand.
   Eigen::Index angles() const { return layout().angle(); }
   /// acceleration(), of parts of a state, too.
   void find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
@@ -129,13 +132,6 @@ class ImplicitBeam final : public SecondOrderSystem {
   double free_residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,
                        typename Equations<D>::Extent extent = Equations<D>::Extent::whole) const;
   void add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale);
-  /// What the thread does to the angles as it pushes the nut of these coordinates [N].
-  Eigen::VectorXd nut_torque(std::size_t which, const ConstVector& q, const ConstVector& v, double push) const;
-  /// Takes the nut's x out of the tangent, with `size` in its place.
-  void take_nut(std::size_t which, double size);
-  /// Completes it, once all else is factored.
-  void factor_nut(std::size_t which, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                  double t);
   void add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy);
   void rhs_difference(const Eigen::VectorXd& y, double t, Eigen::Index k, double size, Eigen::VectorXd& result);
   /// What moving supports change of the Jacobian.
@@ -145,27 +141,15 @@ class ImplicitBeam final : public SecondOrderSystem {
   Accelerations<D>& accelerations_;
   CurrentBeam<D>& beam_;
   Equations<D> equations_;
-  ConservingStep<D> conserving_step_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
   mutable Layout<D> layout_;
-  mutable SupportConstraints<D> supports_;  ///< none where they are eliminated
-  mutable Kinks<D> kinks_;
-  mutable NodeLinks<D> links_;
+  mutable SupportConstraints<D> supports_;
+  mutable KinkConstraints<D> kinks_;
+  mutable LinkConstraints<D> links_;
+  std::unique_ptr<UnknownsTangent<D>> of_unknowns_;
   mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
   double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
   BeamMatrix<D> tangent_;
-  SpinTangent spin_tangent_;
-  /// A nut moves by what the angles do, dx = g . dq + off, and what acts on it turns them by g: with all else solved
-  /// for, they have a tangent of their own and two dyads.
-  struct NutTangent {
-    double own = 0;               ///< of the force on x, by x
-    Eigen::VectorXd row, column;  ///< of it by all else but the angles; what of that moves against x
-    Nut::Thread thread;
-    Eigen::VectorXd torque, by_x;  ///< on the angles that are free: g, and what dx makes of it
-    Eigen::Matrix<double, Eigen::Dynamic, 2> answer;
-    Eigen::Matrix2d inverse;
-  };
-  NutTangent nut_;
   Eigen::VectorXd middle_q_, middle_v_;  ///< of power_lost_between()
   Eigen::VectorXd free_;
   typename CurrentBeam<D>::JointElements elements_;  ///< of inertia()

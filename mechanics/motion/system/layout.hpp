@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/beam/node_map.hpp"
-#include "mechanics/spin/spin.hpp"
+#include "mechanics/motion/system/unknowns.hpp"
 #include "mechanics/time/fields.hpp"
 #include "mechanics/time/tallies.hpp"
 
@@ -26,17 +26,17 @@ struct Layout {
   Eigen::Index coordinates() const { return multiplier() + multipliers; }
   Eigen::Index state() const { return 2 * coordinates() + tallies.count(); }
 
-  /// What they are, but for multipliers; `spin` is null without, or where angles are those of frames.
-  std::vector<FieldRun> fields(const Spin* spin) const {
+  /// What they are, but for multipliers; `unknowns` is null without, or where angles are those of frames.
+  std::vector<FieldRun> fields(const Unknowns<D>* unknowns) const {
     std::vector<FieldRun> runs = nodal_fields(D, nodes);
     if (marks > 0) runs.push_back({Field::mark, mark(), 1, 1, marks});
     if (kinks > 0) runs.push_back({Field::slope, kink(), D, D, kinks});
     if (departed > 0) runs.push_back({Field::mass, departed_mass(), D, D, departed});
-    if (spin == nullptr) {
-      if (turning > 0) runs.push_back({Field::angle, angle(), 1, 1, turning});
-      return runs;
+    if (unknowns != nullptr) {
+      unknowns->add_fields(angle(), runs);
+    } else if (turning > 0) {
+      runs.push_back({Field::angle, angle(), 1, 1, turning});
     }
-    for (const FieldRun& run : spin->fields(angle())) runs.push_back(run);
     return runs;
   }
 };

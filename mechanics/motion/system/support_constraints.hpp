@@ -1,78 +1,71 @@
 #pragma once
 
-#include "mechanics/motion/system/held.hpp"
-#include "mechanics/time/fields.hpp"
-#include "mechanics/time/solver_counters.hpp"
+#include "mechanics/motion/system/constraint_set.hpp"
+#include "mechanics/motion/system/current_beam.hpp"
 
 namespace vlbeam {
 
-/// What supports hold, as constraints C = 0 with a multiplier m each, a reaction over `unit`: direction . (what it
-/// holds of a node - where it holds it) = 0. Directions at a node are orthonormal. Of a beam with frames a clamp holds
-/// the node's angle, too.
+/// What supports hold, as constraints: direction . (what it holds of a node - where it holds it) = 0. A multiplier is a
+/// reaction over `unit`. Directions at a node are orthonormal. Of a beam with angles a clamp holds the node's angle,
+/// too. Supports stand as CurrentBeam::holding() was looked at last.
 template <int D>
-class SupportConstraints {
+class SupportConstraints final : public ConstraintSet<D> {
  public:
-  void clear() { all_.clear(); }
-  /// After each change of the mesh.
-  void adopt(const std::vector<HeldNode<D>>& held) {
+  /// `beam` must outlive this object. Supports are none of its constraints where they are `eliminated`.
+  SupportConstraints(const CurrentBeam<D>& beam, bool eliminated) : beam_(beam), eliminated_(eliminated) {}
+
+  void adopt() override {
     all_.clear();
-    for (std::size_t i = 0; i < held.size(); ++i) {
+    if (eliminated_) return;
+    for (std::size_t i = 0; i < held().size(); ++i) {
+      const Support<D>& support = held()[i].support;
       for (int c = 0; c < D; ++c) {
-        if (held[i].support.free_position[c] == 0) all_.push_back({i, c, Of::position});
-        if (held[i].support.free_slope[c] == 0) all_.push_back({i, c, Of::slope});
+        if (support.free_position[c] == 0) all_.push_back({i, c, Of::position});
+        if (support.free_slope[c] == 0) all_.push_back({i, c, Of::slope});
       }
-      if (held[i].holds_angle()) all_.push_back({i, 0, Of::angle});
+      if (held()[i].holds_angle()) all_.push_back({i, 0, Of::angle});
     }
   }
-  Eigen::Index count() const { return static_cast<Eigen::Index>(all_.size()); }
-  void add_fields(Eigen::Index at, std::vector<FieldRun>& runs) const {
+  Eigen::Index count() const override { return static_cast<Eigen::Index>(all_.size()); }
+  void add_fields(Eigen::Index first, std::vector<FieldRun>& runs) const override {
     for (const Constraint& one : all_) {
-      runs.push_back({one.of == Of::position ? Field::multiplier : Field::slope_multiplier, at++});
+      runs.push_back({one.of == Of::position ? Field::multiplier : Field::slope_multiplier, first++});
     }
   }
 
-  // `held` are the nodes as they stand at the instant.
-
-  /// Adds the reactions to r, an array like q, and writes the constraints into `rows`.
-  void add_residual(const std::vector<HeldNode<D>>& held, const double* q, const double* multipliers, double unit,
-                    double* r, double* rows) const {
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      const double reaction = unit * multipliers[i];
-      if (all_[i].of == Of::angle) {
-        r[held[all_[i].held].angle] += reaction;
+  void add_forces(const double* /*q*/, const double* multipliers, double unit, double* r) const override {
+    for (const Constraint& one : all_) {
+      const double reaction = unit * *multipliers++;
+      if (one.of == Of::angle) {
+        r[by(one).angle] += reaction;
       } else {
-        part(all_[i], held, r) += reaction * direction(all_[i], held);
+        part(one, r) += reaction * direction(one);
       }
-      rows[i] = value(all_[i], held, q);
     }
   }
-  void rates(const std::vector<HeldNode<D>>& held, const double* q, const double* v, double* rows) const {
-    for (const Constraint& one : all_) *rows++ = rate(one, held, q, v);
+  void write_values(const double* q, double* values) const override {
+    for (const Constraint& one : all_) *values++ = value(one, q);
   }
-  ConstraintResidual residual(const std::vector<HeldNode<D>>& held, const double* q, const double* v) const {
-    ConstraintResidual largest;
+  void write_rates(const double* q, const double* v, double* rates) const override {
+    for (const Constraint& one : all_) *rates++ = rate(one, q, v);
+  }
+  void add_tangent(const double* /*q*/, const double* /*multipliers*/, double /*unit*/, double scale,
+                   BeamMatrix<D>& tangent) const override {
     for (const Constraint& one : all_) {
-      largest.position = std::max(largest.position, std::abs(value(one, held, q)));
-      largest.velocity = std::max(largest.velocity, std::abs(rate(one, held, q, v)));
-    }
-    return largest;
-  }
-  /// The multipliers that take the place of what `lacking`, an array like q, has in their directions.
-  void balance(const std::vector<HeldNode<D>>& held, const double* lacking, double unit, double* multipliers) const {
-    for (const Constraint& one : all_) *multipliers++ = -along(one, held, lacking) / unit;
-  }
-  /// Adds rows and columns of the multipliers, times `scale`, to the border.
-  void add_rows(const std::vector<HeldNode<D>>& held, double scale, BeamMatrix<D>& tangent) const {
-    for (const Constraint& one : all_) {
-      auto& border = tangent.add_border(held[one.held].node);
+      auto& border = tangent.add_border(by(one).node);
       if (one.of == Of::angle) {
         if constexpr (D == 3) tangent.tie_angle(tangent.borders() - 1, 0, scale);
         continue;
       }
       auto column = border.column[0].template segment<D>(one.of == Of::slope ? D : 0);
-      column = scale * direction(one, held);
+      column = scale * direction(one);
       border.row[0] = border.column[0];
     }
+  }
+
+  /// The multipliers that take the place of what `lacking`, an array like q, has in their directions.
+  void balance(const double* lacking, double unit, double* multipliers) const {
+    for (const Constraint& one : all_) *multipliers++ = -along(one, lacking) / unit;
   }
 
  private:
@@ -83,31 +76,32 @@ class SupportConstraints {
     Of of;
   };
 
+  const std::vector<HeldNode<D>>& held() const { return beam_.holding().nodes(); }
+  const HeldNode<D>& by(const Constraint& one) const { return held()[one.held]; }
   template <class Array>
-  static auto part(const Constraint& one, const std::vector<HeldNode<D>>& held, Array* a) {
-    const int node = held[one.held].node;
-    return one.of == Of::slope ? slope<D>(a, node) : position<D>(a, node);
+  auto part(const Constraint& one, Array* a) const {
+    return one.of == Of::slope ? slope<D>(a, by(one).node) : position<D>(a, by(one).node);
   }
   /// What it holds, of an array like q.
-  static double along(const Constraint& one, const std::vector<HeldNode<D>>& held, const double* a) {
-    return one.of == Of::angle ? a[held[one.held].angle] : direction(one, held).dot(part(one, held, a));
+  double along(const Constraint& one, const double* a) const {
+    return one.of == Of::angle ? a[by(one).angle] : direction(one).dot(part(one, a));
   }
-  static Vec<double, D> direction(const Constraint& one, const std::vector<HeldNode<D>>& held) {
-    return held[one.held].support.frame.col(one.component);
+  Vec<double, D> direction(const Constraint& one) const { return by(one).support.frame.col(one.component); }
+  double value(const Constraint& one, const double* q) const {
+    const HeldNode<D>& at = by(one);
+    if (one.of == Of::angle) return q[at.angle] - at.driven.angle.value;
+    const Vec<double, D> there = one.of == Of::slope ? at.slope_now() : at.position_now();
+    return direction(one).dot(part(one, q) - there);
   }
-  static double value(const Constraint& one, const std::vector<HeldNode<D>>& held, const double* q) {
-    const HeldNode<D>& by = held[one.held];
-    if (one.of == Of::angle) return q[by.angle] - by.driven.angle.value;
-    const Vec<double, D> there = one.of == Of::slope ? by.slope_now() : by.position_now();
-    return direction(one, held).dot(part(one, held, q) - there);
-  }
-  static double rate(const Constraint& one, const std::vector<HeldNode<D>>& held, const double* q, const double* v) {
-    const HeldNode<D>& by = held[one.held];
-    if (one.of == Of::angle) return v[by.angle] - by.driven.angle.rate;
-    const Vec<double, D> there = one.of == Of::slope ? by.driven.slope_rate(slope<D>(q, by.node)) : by.driven.rate;
-    return direction(one, held).dot(part(one, held, v) - there);
+  double rate(const Constraint& one, const double* q, const double* v) const {
+    const HeldNode<D>& at = by(one);
+    if (one.of == Of::angle) return v[at.angle] - at.driven.angle.rate;
+    const Vec<double, D> there = one.of == Of::slope ? at.driven.slope_rate(slope<D>(q, at.node)) : at.driven.rate;
+    return direction(one).dot(part(one, v) - there);
   }
 
+  const CurrentBeam<D>& beam_;
+  bool eliminated_;
   std::vector<Constraint> all_;
 };
 

@@ -29,11 +29,6 @@ class MortalOscillator final : public SecondOrderSystem {
     return true;
   }
   void solve(Eigen::VectorXd& r) const override { r /= pivot_; }
-  void jacobian(const Eigen::VectorXd&, double, Eigen::MatrixXd&, Eigen::VectorXd&) override {}
-  double conserving_residual(const Eigen::VectorXd&, const Eigen::VectorXd&, const Eigen::VectorXd&,
-                             const Eigen::VectorXd&, double, double, Eigen::VectorXd&) override {
-    return 0;
-  }
 
  private:
   double dies_at_, pivot_ = 1;

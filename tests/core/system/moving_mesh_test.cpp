@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"
 
@@ -100,7 +101,7 @@ TYPED_TEST(MovingMeshTest, DrivenAnglesFollowTheirFunctions) {
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = random_state(beam, this->random_), dydt(y.size());
   beam.rhs(y, dydt, 0);
-  EXPECT_EQ(dydt[beam.coordinates() + beam.angle(0)], 2);
+  EXPECT_EQ(dydt[beam.coordinates() + angle_of(beam, 0)], 2);
 }
 
 TYPED_TEST(MovingMeshTest, StaticTorqueIsExactWithOneElement) {
@@ -113,7 +114,7 @@ TYPED_TEST(MovingMeshTest, StaticTorqueIsExactWithOneElement) {
   model.spin->torques.points = {{.node = 1, .torque = [=](double) { return torque; }}};
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
-  y[beam.angle(1)] = torque * length / model.spin->section.GIp;
+  y[angle_of(beam, 1)] = torque * length / model.spin->section.GIp;
   Eigen::VectorXd dydt(y.size());
   beam.rhs(y, dydt, 0);
   EXPECT_LE(dydt.head(2 * beam.coordinates()).norm(), 1e-9 * torque / (model.spin->section.rhoIp * length));
