@@ -35,9 +35,10 @@ constexpr double mesh_share = 0.01;         // of the motion
 constexpr double whole_motion_share = 0.1;  // of the length: motion from which the accuracy is one of the length
 constexpr double least_motion = 1e-6;
 constexpr int most_repeats = 2;
-constexpr double aimed_share = 0.8;  // of what is allowed, when a run is done again
-constexpr double most_growth = 3;    // of the steps of a repetition, over what its ratio would make of them
-constexpr double finest_ratio = 4;   // of steps from one repetition to the next
+constexpr double aimed_share = 0.8;   // of what is allowed, when a run is done again
+constexpr double most_growth = 3;     // of the steps of a repetition, over what its ratio would make of them
+constexpr double finest_ratio = 4;    // of steps from one repetition to the next
+constexpr double hopeless_ratio = 8;  // that the order seen asks for: a second repetition would be far from it
 constexpr const char* too_long = "it takes more work than the run itself";
 
 /// One run and what it is compared by.
@@ -343,6 +344,14 @@ class Checked {
     }
   }
 
+  /// The beam's length, the largest that there was where it is fed [m].
+  static double longest(const Seen& run) {
+    double length = beam_length(run.scene);
+    if (!run.scene.start.feed && !run.scene.end.feed) return length;
+    for (const Sample& sample : run.result.samples) length = std::max(length, sample.beam_length);
+    return length;
+  }
+
   /// Estimates the error in time, and does the run again where it is too large. Returns the last run.
   Seen& judge_time() {
     const Scene& scene = main_.scene;
@@ -351,7 +360,7 @@ class Checked {
       return main_;
     }
     if (scene.integrator.automatic) {
-      const double length = beam_length(scene);
+      const double length = longest(main_);
       const double share =
           std::clamp(error_.motion / (whole_motion_share * length), least_motion / whole_motion_share, 1.0);
       error_.allowed = scene.integrator.accuracy * length * share;
@@ -379,6 +388,7 @@ class Checked {
     while (scene.integrator.automatic && *error_.time > error_.allowed && error_.repeats < most_repeats) {
       const double order = error_.repeats == 0 ? orders.best : time_places_.order;
       const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / order);
+      if (error_.repeats > 0 && wanted > hopeless_ratio) break;
       const double ratio = std::min(wanted, finest_ratio);
       if (!repeat(chain, ratio)) break;  // what is known is said
       estimate();
