@@ -5,6 +5,7 @@
 #include "mechanics/motion/system/joint_cuts.hpp"
 #include "mechanics/motion/system/joint_limits.hpp"
 #include "mechanics/motion/system/passages.hpp"
+#include "mechanics/motion/system/room.hpp"
 #include "mechanics/remesh/giving_way.hpp"
 #include "mechanics/ride/ride_events.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
@@ -33,6 +34,7 @@ EventSources<D> sources_of_rooms(const BeamInside<D>& inside) {
   if constexpr (D == 3) {
     if (model.frames) sources.push_back(std::make_unique<FrameEvents>(inside));
   }
+  for (const auto& room : model.rooms) room->add_sources(inside, sources);
   return sources;
 }
 

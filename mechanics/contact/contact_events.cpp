@@ -10,7 +10,7 @@ void ContactEvents<D>::add_guards(const Eigen::VectorXd& y, double t, Guards& gu
   const auto contacts = contacts_.all();
   Eigen::VectorXd forces;
   if (!contacts_.resting().empty()) forces = accelerations_.forces_of_links(y, t);
-  auto rests = static_cast<Eigen::Index>(links_.of_blocks().size());
+  auto rests = static_cast<Eigen::Index>(links_.tied().size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const int part = static_cast<int>(i);
     if (contacts[i].rests) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mechanics/motion/system/room.hpp"
+
 namespace vlbeam {
 
 template <int D>
@@ -11,6 +13,7 @@ void BeamLinks<D>::adopt() {
     const int behind = beam_.place_of(tie.behind).node, ahead = beam_.place_of(tie.ahead).node;
     for (int c = 0; c < D; ++c) all_.push_back({behind, ahead, tie.apart[c], Vector(Vector::Unit(c))});
   }
+  for (const auto& room : beam_.model().rooms) room->add_links(beam_, all_);
   tied_ = all_.size();
 }
 

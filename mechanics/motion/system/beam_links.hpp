@@ -7,7 +7,7 @@
 
 namespace vlbeam {
 
-/// Nodes of a beam that keep a distance: joints of blocks, and what rests against each other.
+/// Nodes of a beam that keep a distance: joints of blocks, links of rooms, and what rests against each other.
 template <int D>
 class BeamLinks {
  public:
@@ -24,10 +24,10 @@ class BeamLinks {
   /// What rests against each other from now on.
   void set_resting(const std::vector<Link>& resting);
 
-  /// Blocks, then what rests.
+  /// Those that push and pull, then what rests.
   const std::vector<Link>& all() const { return all_; }
-  /// Those of blocks: they pull, too.
-  std::vector<Link> of_blocks() const { return {all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(tied_)}; }
+  /// The first of these.
+  std::vector<Link> tied() const { return {all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(tied_)}; }
   /// Whether joint `index` of the model is one of a block.
   bool in_block(int index) const;
 

@@ -42,6 +42,9 @@ struct NodeSupport {
   Support<D> support;
 };
 
+template <int D>
+class Room;
+
 /// Stands for a model's own Gauss points, which need not be as many in all elements.
 inline constexpr int own_points = 0;
 
@@ -68,6 +71,7 @@ struct BeamModel {
   std::optional<FrameModel> frames = {};
   PointMasses<D> masses;
   std::vector<std::shared_ptr<const Part<D>>> parts = {};  ///< what else acts on the beam
+  std::vector<std::shared_ptr<const Room<D>>> rooms = {};  ///< what else happens to it, and ties its nodes
   Impact at_meeting = {};                                  ///< of two joints
   bool joints_rest = false;       ///< what bounces lower and lower stays, else the run ends there
   double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike

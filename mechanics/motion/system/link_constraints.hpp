@@ -40,7 +40,8 @@ class LinkConstraints final : public ConstraintSet<D> {
       border.far = link.ahead;
       border.far_column.template head<D>() = border.far_row.template head<D>() = line;
       const double turns = unit * *multipliers++ / link.distance;
-      if (link.along) continue;  // its direction stays
+      // its direction stays, or the band does not reach: Newton's iteration then converges a little slower
+      if (link.along || link.ahead != link.behind + 1) continue;
       const auto k = static_cast<std::size_t>(link.behind);
       const auto diagonal = [](auto& block) { return block.template topLeftCorner<D, D>().diagonal().array(); };
       diagonal(tangent.diagonal[k]) += turns;
