@@ -65,5 +65,7 @@ Tally Drag<D>::add_forces(const ChainView<D>& beam, double* out, double* on_mark
 
 template struct Drag<2>;
 template struct Drag<3>;
+template class ActingDrag<2>;
+template class ActingDrag<3>;
 
 }  // namespace vlbeam

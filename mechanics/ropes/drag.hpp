@@ -86,4 +86,7 @@ class ActingDrag final : public Part<D> {
   const Drag<D>& drag_;
 };
 
+extern template class ActingDrag<2>;
+extern template class ActingDrag<3>;
+
 }  // namespace vlbeam

@@ -141,5 +141,7 @@ template struct Loads<2>;
 template struct Loads<3>;
 template Vec<double, 2> swept(const MovingKinematics<double, 2>&, const ShapeTabulation&, bool, Formulation);
 template Vec<double, 3> swept(const MovingKinematics<double, 3>&, const ShapeTabulation&, bool, Formulation);
+template class ActingLoads<2>;
+template class ActingLoads<3>;
 
 }  // namespace vlbeam

@@ -89,6 +89,9 @@ class ActingLoads final : public Part<D> {
   explicit ActingLoads(const Loads<D>& loads) : loads_(loads) {}
   Tally add_force(const Motion<D>& motion, double* force) const override {
     return {.loads = loads_.add_forces(motion.beam, motion.t, force)};
+
+extern template class ActingLoads<2>;
+extern template class ActingLoads<3>;
   }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
     loads_.add_tangent(motion.beam, motion.t, by,

@@ -72,5 +72,7 @@ PointMatrix<D> PointMasses<D>::tangent(const PointMass& point, const ChainView<D
 
 template struct PointMasses<2>;
 template struct PointMasses<3>;
+template class ActingPointMasses<2>;
+template class ActingPointMasses<3>;
 
 }  // namespace vlbeam
