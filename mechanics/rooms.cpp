@@ -40,7 +40,11 @@ EventSources<D> sources_of_rooms(const BeamInside<D>& inside) {
 
 template <int D>
 std::unique_ptr<Unknowns<D>> unknowns_of_rooms(const CurrentBeam<D>& beam, const std::vector<double>& x) {
-  return beam.model().spin ? std::make_unique<SpinUnknowns<D>>(beam, x) : nullptr;
+  if (beam.model().spin) return std::make_unique<SpinUnknowns<D>>(beam, x);
+  if constexpr (D == 3) {
+    if (beam.model().frames) return std::make_unique<FrameUnknowns>(beam);
+  }
+  return nullptr;
 }
 
 template std::unique_ptr<Unknowns<2>> unknowns_of_rooms(const CurrentBeam<2>&, const std::vector<double>&);

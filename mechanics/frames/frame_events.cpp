@@ -24,12 +24,12 @@ int same_node(const ChainState<3>& before, const ChainState<3>& after, int k) {
 }  // namespace
 
 void FrameEvents::add_guards(const Eigen::VectorXd& y, double /*t*/, Guards& guards) const {
-  guards.push_back({0, 0, beam_.frames()->turned_away(y.data())});
+  guards.push_back({0, 0, frames_of(beam_)->turned_away(y.data())});
 }
 
 bool FrameEvents::settles(const Guard& /*guard*/, Eigen::VectorXd& y) {
   accelerations_.last_event().forget();  // angles count from elsewhere now
-  beam_.frames()->follow(y.data(), y.data() + beam_.coordinates());
+  frames_of(beam_)->follow(y.data(), y.data() + beam_.coordinates());
   return true;
 }
 
@@ -44,7 +44,7 @@ std::vector<MergedWeights> FrameEvents::apply(const std::vector<PendingEvent>& /
 
 void FrameEvents::complete(const ChainState<3>& before, const Eigen::VectorXd& y, ChainState<3>& after) const {
   const double *q = y.data(), *rate = q + beam_.coordinates();
-  const Frames& frames = *beam_.frames();
+  const Frames& frames = *frames_of(beam_);
   const auto& rest = beam_.model().rest;
   const std::vector<double> turned = frames.twists_to(q, after.mesh.x);
   std::vector<SectionState> sections, rest_sections;
@@ -73,7 +73,7 @@ void FrameEvents::complete(const ChainState<3>& before, const Eigen::VectorXd& y
 void FrameEvents::transfer(const Eigen::VectorXd& old, Eigen::VectorXd& y) const {
   if (!(beam_.model().frames->section.rhoIp > 0)) return;
   const Eigen::Index before = (old.size() - beam_.layout().tallies.count()) / 2;
-  beam_.frames()->project_spins(*before_, old.data(), old.data() + before, y.data(), y.data() + beam_.coordinates());
+  frames_of(beam_)->project_spins(*before_, old.data(), old.data() + before, y.data(), y.data() + beam_.coordinates());
 }
 
 }  // namespace vlbeam

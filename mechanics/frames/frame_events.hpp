@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mechanics/frames/frame_unknowns.hpp"
 #include "mechanics/motion/system/event_source.hpp"
 
 namespace vlbeam {
@@ -19,7 +20,7 @@ class FrameEvents final : public EventSource<3> {
   bool observes_all() const override { return true; }
   /// Gives the nodes of `after` their sections: new ones those that were there in the beam.
   void complete(const ChainState<3>& before, const Eigen::VectorXd& y, ChainState<3>& after) const override;
-  void keep() override { before_ = beam_.shared_frames(); }
+  void keep() override { before_ = frames_of(beam_); }
   void transfer(const Eigen::VectorXd& old, Eigen::VectorXd& y) const override;
 
  private:

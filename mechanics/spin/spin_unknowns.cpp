@@ -1,5 +1,6 @@
 #include "mechanics/spin/spin_unknowns.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace vlbeam {
@@ -145,6 +146,15 @@ void SpinUnknowns<D>::start(double* q, double* rate) {
   }
 }
 
+/// Events leave them alone.
+template <int D>
+void SpinUnknowns<D>::write(const ChainState<D>& /*chain*/, const double* old_q, const double* old_rate, double* q,
+                            double* rate) const {
+  if (old_q == nullptr) return;
+  std::copy_n(old_q, count(), q + at());
+  std::copy_n(old_rate, count(), rate + at());
+}
+
 template <int D>
 std::optional<std::size_t> SpinUnknowns<D>::nut_place() const {
   for (std::size_t i = 0; nut_ && i < beam_.places().size(); ++i) {
@@ -176,7 +186,7 @@ bool SpinUnknowns<D>::load(const double* q, const double* rate, double* a, std::
 }
 
 template <int D>
-void SpinUnknowns<D>::follow(double* a) {
+void SpinUnknowns<D>::follow(const double* /*q*/, const double* /*rate*/, double* a) {
   by_nut_ = nullptr;
   if (const auto which = nut_place()) {
     by_nut_ = &nut_->torque(nut_->turn(a[beam_.places()[*which].mark], a + at()));

@@ -22,6 +22,8 @@ class SpinUnknowns final : public Unknowns<D> {
   Eigen::Index count() const override { return spin_.coordinates(); }
   void add_fields(Eigen::Index first, std::vector<FieldRun>& runs) const override;
   void start(double* q, double* rate) override;
+  void write(const ChainState<D>& chain, const double* old_q, const double* old_rate, double* q,
+             double* rate) const override;
   void move() override { spin_.move(*beam_.marks()); }
 
   bool ties(std::size_t joint) const override { return nut_ && beam_.joint(joint).pitch != 0; }
@@ -29,7 +31,7 @@ class SpinUnknowns final : public Unknowns<D> {
 
   bool accelerate(const double* q, const double* rate, double t, double* a, double& dissipated) override;
   bool load(const double* q, const double* rate, double* a, std::vector<JointMotion<D>>& joints) override;
-  void follow(double* a) override;
+  void follow(const double* q, const double* rate, double* a) override;
   bool supplied() const override { return spin_.model().supplied(); }
   Tally power(const double* q, const double* rate, const double* a, double t, const double* free) override;
 

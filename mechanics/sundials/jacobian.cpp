@@ -12,7 +12,7 @@
 namespace vlbeam {
 template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
-  if (beam_.unknowns() != nullptr) {
+  if (of_unknowns_) {
     throw ModelError("integrator", "\"rosenbrock4\"", "its Jacobian knows no spin: take any other integrator");
   }
   refresh();

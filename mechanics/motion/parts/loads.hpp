@@ -89,9 +89,6 @@ class ActingLoads final : public Part<D> {
   explicit ActingLoads(const Loads<D>& loads) : loads_(loads) {}
   Tally add_force(const Motion<D>& motion, double* force) const override {
     return {.loads = loads_.add_forces(motion.beam, motion.t, force)};
-
-extern template class ActingLoads<2>;
-extern template class ActingLoads<3>;
   }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
     loads_.add_tangent(motion.beam, motion.t, by,
@@ -101,6 +98,9 @@ extern template class ActingLoads<3>;
  private:
   const Loads<D>& loads_;
 };
+
+extern template class ActingLoads<2>;
+extern template class ActingLoads<3>;
 
 /// Rate of the integral of r dx over an element [m^2/s], by the points of its table: as they move along the beam, or,
 /// for the virtual work, at fixed material points. The power of an even force over the force.

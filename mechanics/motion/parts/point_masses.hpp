@@ -60,9 +60,6 @@ class ActingPointMasses final : public Part<D> {
   Tally add_force(const Motion<D>& motion, double* force) const override {
     masses_.add_weight(motion.beam, motion.gravity, force);
     return {};
-
-extern template class ActingPointMasses<2>;
-extern template class ActingPointMasses<3>;
   }
   double load_power(const Motion<D>& /*motion*/, double* /*scratch*/) const override { return 0; }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
@@ -73,5 +70,8 @@ extern template class ActingPointMasses<3>;
  private:
   const PointMasses<D>& masses_;
 };
+
+extern template class ActingPointMasses<2>;
+extern template class ActingPointMasses<3>;
 
 }  // namespace vlbeam

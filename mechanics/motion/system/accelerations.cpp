@@ -95,20 +95,17 @@ template <int D>
 std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate, double t, double* a) {
   if (!beam_.travel(t)) return std::nullopt;
   Tally power = add_forces(q, rate, t, a, elements_);
-  Frames* const frames = beam_.frames();
   Unknowns<D>* const unknowns = beam_.unknowns();
-  if (frames != nullptr) frames->solve_spins(q, rate, a);
   if (unknowns != nullptr && !unknowns->accelerate(q, rate, t, a, power.dissipated)) return std::nullopt;
   std::optional<PrescribedMotion<D>> pull;  // of moving supports
   const bool solved = beam_.moving_mesh() != nullptr ? solve_travelling(q, rate, t, a, pull)
                       : beam_.has_joint()            ? solve_at_joints(q, rate, t, a, pull, power)
                                                      : solve_without_joints(q, rate, t, a, pull, power);
   if (!solved) return std::nullopt;
-  if (frames != nullptr) frames->complete(q, rate, a);
+  if (unknowns != nullptr) unknowns->follow(q, rate, a);
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     Eigen::Map<Vector>(a + beam_.departed_at(i)) = beam_.gravity(t);
   }
-  if (unknowns != nullptr) unknowns->follow(a);
   if (beam_.moving_mesh() != nullptr) {
     power.loads = 0;
     if (beam_.model().books_flow) power = power + flow_.power(elements_, q, rate, a, t);
@@ -135,7 +132,6 @@ bool Accelerations<D>::solve_at_joints(const double* q, const double* rate, doub
   motions_.clear();
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     motions_.push_back(mass_.joint_motion(i, q, rate, t));
-    if (beam_.frames() != nullptr) motions_[i].x_inertia += beam_.frames()->mark_inertia(i, i);
   }
   if (beam_.unknowns() != nullptr && !beam_.unknowns()->load(q, rate, a, motions_)) return false;
   pull = mass_.prescribed(elements_, q, rate, a, t);

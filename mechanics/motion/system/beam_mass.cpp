@@ -29,7 +29,7 @@ void BeamMass<D>::adopt() {
 template <int D>
 bool BeamMass<D>::chained() const {
   if (beam_.places().size() > 1) return true;
-  return beam_.has_joint() && (beam_.guides(0) || beam_.feeds(0) || beam_.ties(0) || beam_.frames() != nullptr);
+  return beam_.has_joint() && (beam_.guides(0) || beam_.feeds(0) || beam_.ties(0) || couples());
 }
 
 template <int D>
@@ -53,12 +53,12 @@ std::optional<JointPower> BeamMass<D>::solve_chain(const JointElements& elements
   return lost ? std::optional(JointPower{.dissipated = *lost}) : std::nullopt;
 }
 
-/// With frames, spins tie each joint's x'' to those of all others, but little: by rounds.
+/// Unknowns may tie each joint's x'' to those of all others, but little: by rounds.
 template <int D>
 std::optional<JointPower> BeamMass<D>::solve_joints(const JointElements& elements,
                                                     const std::vector<JointMotion<D>>& motions, double* force) {
   const std::size_t count = beam_.places().size();
-  if (beam_.frames() == nullptr || count < 2) return solve_chain(elements, motions, force);
+  if (!couples() || count < 2) return solve_chain(elements, motions, force);
   constexpr int most_rounds = 50;
   constexpr double settled = 1e-14;
   round_forces_ = Eigen::Map<const Eigen::VectorXd>(force, beam_.coordinates());
@@ -69,7 +69,7 @@ std::optional<JointPower> BeamMass<D>::solve_joints(const JointElements& element
     Eigen::Map<Eigen::VectorXd>(force, beam_.coordinates()) = round_forces_;
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < count; ++j) {
-        if (j != i) force[beam_.places()[i].mark] -= beam_.frames()->mark_inertia(i, j) * x[j];
+        if (j != i) force[beam_.places()[i].mark] -= beam_.unknowns()->coupling(i, j) * x[j];
       }
     }
     const auto power = solve_chain(elements, motions, force);

@@ -64,6 +64,8 @@ class BeamMass {
   void push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const;
 
  private:
+  /// Joints are tied to each other.
+  bool couples() const { return beam_.unknowns() != nullptr && beam_.unknowns()->couples_joints(); }
   /// The joints are solved for as a chain.
   bool chained() const;
   std::optional<JointPower> solve_chain(const JointElements& elements, const std::vector<JointMotion<D>>& motions,

@@ -105,14 +105,6 @@ Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y
     beam.unknowns()->observe(y.data(), y.data() + beam.coordinates(),
                              points == own_points ? beam.model().points_of_polynomials() : points, seen);
   }
-  if (beam.frames()) {
-    const Frames::Seen bent = beam.frames()->observe(y.data(), y.data() + beam.coordinates());
-    seen.energy.kinetic += bent.kinetic;
-    seen.energy.bending += bent.bending;
-    seen.energy.torsion += bent.torsion;
-    seen.angular_momentum += bent.momentum;
-    if (strains) seen.extremes->curvature = bent.curvature;
-  }
   const Tally counted = beam.layout().tallies.of(y);
   seen.energy.dissipated = counted.dissipated;
   seen.load_work = counted.loads;

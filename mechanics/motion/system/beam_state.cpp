@@ -19,18 +19,11 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
     y[layout_.mark()] = chain.rider->x;
     y[coordinates() + layout_.mark()] = chain.rider->rate;
   }
-  for (Eigen::Index k = 0; sections_.frames && k < sections_.frames->nodes(); ++k) {
-    y[angles() + k] = chain.sections[static_cast<std::size_t>(k)].angle;
-    y[coordinates() + angles() + k] = chain.sections[static_cast<std::size_t>(k)].spin;
-  }
-  if (old.size() == 0) return;
-  const Eigen::Index tallies = layout_.tallies.count();
-  y.tail(tallies) = old.tail(tallies);
-  if (unknowns_) {
-    const Eigen::Index count = unknowns_->count(), before = (old.size() - tallies) / 2;
-    y.segment(angles(), count) = old.segment(before - count, count);
-    y.segment(coordinates() + angles(), count) = old.segment(2 * before - count, count);
-  }
+  const Eigen::Index tallies = layout_.tallies.count(), before = (old.size() - tallies) / 2;
+  if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
+  if (!unknowns_) return;
+  const double* const were = old.size() > 0 ? old.data() + before - unknowns_->count() : nullptr;
+  unknowns_->write(chain, were, were == nullptr ? nullptr : were + before, y.data(), y.data() + coordinates());
 }
 
 template <int D>
@@ -89,11 +82,6 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
   result.rest.clear();
   if (!rest_.empty()) take(rest_, node_size<D>, first, last + 1, result.rest);
   result.rest_curve = model_.rest.get();
-  if (sections_.frames) {
-    result.sections = sections_.frames->sections(y.data(), y.data() + coordinates());
-    result.rest_sections = sections_.rest;
-    result.rest_triads = sections_.rest_triads;
-  }
   result.joints.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const JointPlace& place = places_[i];
@@ -107,11 +95,6 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
     const auto at_joint = model_.rest->derivatives(y[place.mark]);
     position<D>(result.rest.data(), node) = at_joint[0];
     slope<D>(result.rest.data(), node) = at_joint[1];
-    if constexpr (D == 3) {
-      if (!sections_.frames) continue;
-      result.rest_sections[static_cast<std::size_t>(node)].direction =
-          sections_.rest_triads->template direction<double>(y[place.mark], at_joint[1]);
-    }
   }
   for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
     const auto at_node = model_.rest->derivatives(result.mesh.x[static_cast<std::size_t>(k)]);
@@ -124,6 +107,7 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
     result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
   }
   result.rider.reset();
+  if (unknowns_) unknowns_->read(y.data(), y.data() + coordinates(), result);
   if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
 }
 
@@ -140,7 +124,7 @@ void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) 
     chain.departed[i].v = y.segment<D>(coordinates() + departed_at(i));
   }
   if (rider_) chain.rider->rate = rate[layout_.mark()];
-  if (sections_.frames) chain.sections = sections_.frames->sections(y.data(), rate);
+  if (unknowns_) unknowns_->read(y.data(), rate, chain);
 }
 
 template <int D>

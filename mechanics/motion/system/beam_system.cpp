@@ -104,7 +104,7 @@ void BeamSystem<D>::exchange(Memory& memory) {
   memory(evaluations);
   accelerations_.set_evaluations(evaluations);
   ramp_.exchange(memory);
-  if (Beam::frames() != nullptr) Beam::frames()->exchange(memory);
+  if (Beam::unknowns() != nullptr) Beam::unknowns()->exchange(memory);
   bool viewed = implicit_ != nullptr;
   memory(viewed);
   if (viewed) second_order()->exchange(memory);

@@ -74,14 +74,19 @@ void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   replace_part(chain.mesh.x, chain.part, 1, mesh_.x);
   replace_part(chain.mesh.weights, chain.part, 1, mesh_.weights);
   if (chain.curved_at_rest()) replace_part(chain.rest, chain.part, node_size<D>, rest_);
-  if (model_.frames) take_frames(chain);
+  if (unknowns_) {
+    if (own_part_) std::erase(acting_, own_part_);
+    unknowns_->take(chain);
+    own_part_ = unknowns_->part();
+    if (own_part_) acting_.push_back(own_part_);
+  }
   departed_.clear();
   for (const auto& mass : chain.departed) departed_.push_back(mass.index);
   adopt_joints(chain);
   std::vector<int> index;
   for (const Joint& joint : joints_) index.push_back(joint.index);
-  held_.adopt(model_, mesh_.last(), places_, index, sections_.frames ? layout_.angle() : -1);
-  if (sections_.frames) adopt_frames();
+  held_.adopt(model_, mesh_.last(), places_, index, unknowns_ && unknowns_->of_nodes() ? layout_.angle() : -1);
+  if (unknowns_) unknowns_->adopt();
   adopt_elements(unchanged);
   rider_.reset();
   if (chain.rider) {
@@ -99,9 +104,7 @@ void CurrentBeam<D>::adopt_joints(const ChainState<D>& chain) {
   layout_ = {.nodes = static_cast<int>(mesh_.x.size()),
              .marks = chain.rider ? 1 : static_cast<int>(chain.joints.size()),
              .departed = static_cast<int>(departed_.size()),
-             .turning = unknowns_          ? unknowns_->count()
-                        : sections_.frames ? sections_.frames->coordinates()
-                                           : 0,
+             .turning = unknowns_ ? unknowns_->count() : 0,
              .tallies = model_.tallies()};
   std::vector<JointPlace> places;
   std::vector<Joint> joints;
@@ -120,16 +123,6 @@ void CurrentBeam<D>::adopt_joints(const ChainState<D>& chain) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (kinked(i)) places_[i].behind = layout_.kink(layout_.kinks++);
   }
-}
-
-template <int D>
-void CurrentBeam<D>::adopt_frames() {
-  if constexpr (D == 3) {
-    sections_.frames->let_slide(places_, layout_.angle(), model_.rest.get(), sections_.rest_triads);
-  }
-  std::vector<bool> held(mesh_.x.size(), false);
-  for (const HeldNode<D>& node : held_.nodes()) held[static_cast<std::size_t>(node.node)] = node.holds_angle();
-  sections_.frames->hold(held);
 }
 
 template <int D>

@@ -236,17 +236,13 @@ class CurrentBeam {
                                            held ? rider_->end : q[layout_.mark()], held ? 0 : rate[layout_.mark()]);
   }
 
-  /// What stands behind all else; null where nothing does, or the angles of frames.
+  /// What stands behind all else; null where nothing does.
   Unknowns<D>* unknowns() const { return unknowns_.get(); }
   /// Whether a joint on the beam is tied to them.
   bool ties(std::size_t which) const { return unknowns_ && unknowns_->ties(which); }
-  /// Of a beam whose sections have frames, or null. Their angles stand behind the nodes.
-  Frames* frames() const { return sections_.frames.get(); }
-  /// Those that there are until the next event, and on while someone holds them.
-  std::shared_ptr<Frames> shared_frames() const { return sections_.frames; }
   /// After a step on a path of equilibria: what angles are counted from follows.
   void follow(const Eigen::VectorXd& q) {
-    if (sections_.frames) sections_.frames->follow(q.data(), nullptr);
+    if (unknowns_) unknowns_->settle(q.data());
   }
   /// Where the angles stand among the coordinates.
   Eigen::Index angles() const { return layout_.angle(); }
@@ -289,12 +285,6 @@ class CurrentBeam {
     std::optional<Span<D>> left, right;
     std::vector<SpanBetween<D>> between;
   };
-  /// How sections with frames turn.
-  struct Sections {
-    std::shared_ptr<Frames> frames;  ///< one of what acts on the beam, too
-    std::vector<SectionState> rest;
-    std::shared_ptr<const RestTriads> rest_triads;
-  };
 
   /// A joint on the beam: which of the model's it is, and what it touches.
   struct Joint {
@@ -314,11 +304,8 @@ class CurrentBeam {
   void adopt_joints(const ChainState<D>& chain);
   /// Puts where the joints are, and how they move, into a state.
   void write_joints(const ChainState<D>& chain, Eigen::VectorXd& y) const;
-  void adopt_frames();
   /// The same.
   void adopt_elements(const UnchangedElements& unchanged);
-  /// The frames of a chain, in the place of those there were.
-  void take_frames(const ChainState<D>& chain);
 
   BeamModel<D> model_;
   BeamRules rules_;
@@ -334,7 +321,7 @@ class CurrentBeam {
   Held<D> held_;
   std::vector<std::shared_ptr<const Part<D>>> acting_;
   std::unique_ptr<Unknowns<D>> unknowns_;
-  mutable Sections sections_;
+  std::shared_ptr<const Part<D>> own_part_;  ///< of the unknowns, one of what acts on the beam
   Layout<D> layout_;
   mutable Spans spans_;
   std::vector<MovingPart> parts_;

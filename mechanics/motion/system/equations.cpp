@@ -22,7 +22,7 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
       [&](const Span<D>& span) { lost += span.add_residual(q.data(), v.data(), a.data(), on_beam, r.data(), most); });
   const PointMasses<D>& masses = beam_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
-  if (beam_.frames() != nullptr) beam_.frames()->add_inertia(q.data(), v.data(), a.data(), r.data());
+  if (auto* unknowns = beam_.unknowns()) lost += unknowns->residual(q.data(), v.data(), a.data(), t, r.data());
   if (beam_.moving_mesh() != nullptr) {
     lost += flow_.add_residual(q.data(), v.data(), a.data(), t, r.data());
   } else if (beam_.has_joint()) {
@@ -35,7 +35,6 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
     const double mass = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass;
     r.segment<D>(at) = mass * (a.segment<D>(at) - now.gravity);
   }
-  if (auto* unknowns = beam_.unknowns()) lost += unknowns->residual(q.data(), v.data(), a.data(), t, r.data());
   return lost;
 }
 
@@ -113,7 +112,7 @@ void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, 
   const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
   tangent.start(beam_.layout().nodes, beam_.places());
   if constexpr (D == 3) {
-    if (beam_.frames() != nullptr) tangent.add_angles();
+    if (beam_.unknowns() != nullptr && beam_.unknowns()->of_nodes()) tangent.add_angles();
   }
   if (beam_.moving_mesh() != nullptr) {
     add_travelling_elements(now, by, tangent);

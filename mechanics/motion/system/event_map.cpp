@@ -39,7 +39,7 @@ void EventMap<D>::carry_node(const CurrentBeam<D>& beam, int node, const Eigen::
     from = chain.part.before + static_cast<int>(at - x_before.begin());
     if (joint_of(places, from) >= 0) from = -1;
   }
-  const bool turns = beam.frames() != nullptr;
+  const bool turns = beam.unknowns() != nullptr && beam.unknowns()->of_nodes();
   if (from >= 0) {
     to.segment<node_size<D>>(Eigen::Index{node_size<D>} * node) =
         a.segment<node_size<D>>(Eigen::Index{node_size<D>} * from);
@@ -78,7 +78,8 @@ bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Ei
   }
   const Eigen::Index departed = Eigen::Index{D} * is.departed;
   to.segment(is.departed_mass(), departed) = a.segment(was.departed_mass(), departed);
-  if (beam.unknowns() != nullptr) to.segment(is.angle(), is.turning) = a.segment(was.angle(), was.turning);
+  if (beam.unknowns() != nullptr && !beam.unknowns()->of_nodes())
+    to.segment(is.angle(), is.turning) = a.segment(was.angle(), was.turning);
   return true;
 }
 

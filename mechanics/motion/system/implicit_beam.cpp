@@ -113,7 +113,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
 
 template <int D>
 bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
-  if (beam_.frames() != nullptr || tied()) return false;
+  if (tied() || (beam_.unknowns() != nullptr && !of_unknowns_)) return false;
   refresh();
   if (beam_.moving_mesh() != nullptr) {
     r.setZero();
@@ -123,7 +123,7 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
     accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
     r.tail(r.size() - beam_.coordinates()).setZero();
   }
-  if (beam_.unknowns() != nullptr) beam_.unknowns()->inertia(a.data(), r.data());
+  if (of_unknowns_) beam_.unknowns()->inertia(a.data(), r.data());
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     const Eigen::Index at = beam_.departed_at(i);
     r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);

@@ -26,17 +26,13 @@ struct Layout {
   Eigen::Index coordinates() const { return multiplier() + multipliers; }
   Eigen::Index state() const { return 2 * coordinates() + tallies.count(); }
 
-  /// What they are, but for multipliers; `unknowns` is null without, or where angles are those of frames.
+  /// What they are, but for multipliers; `unknowns` is null without.
   std::vector<FieldRun> fields(const Unknowns<D>* unknowns) const {
     std::vector<FieldRun> runs = nodal_fields(D, nodes);
     if (marks > 0) runs.push_back({Field::mark, mark(), 1, 1, marks});
     if (kinks > 0) runs.push_back({Field::slope, kink(), D, D, kinks});
     if (departed > 0) runs.push_back({Field::mass, departed_mass(), D, D, departed});
-    if (unknowns != nullptr) {
-      unknowns->add_fields(angle(), runs);
-    } else if (turning > 0) {
-      runs.push_back({Field::angle, angle(), 1, 1, turning});
-    }
+    if (unknowns != nullptr) unknowns->add_fields(angle(), runs);
     return runs;
   }
 };

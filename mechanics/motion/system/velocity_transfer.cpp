@@ -145,7 +145,7 @@ Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double 
     if (place.behind >= 0) turning(behind, place.behind);
   }
   sum += behind;
-  if constexpr (D == 3) sum.tail<3>() += spin_momentum(y);
+  if constexpr (D == 3) sum.tail<3>() += own_momentum(y);
   return sum;
 }
 
@@ -153,7 +153,8 @@ template <int D>
 void VelocityProjection<D>::restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y,
                                     double t) {
   restore_axis(momenta, gained, y, t);
-  if (beam_.frames() != nullptr) restore_axis(momenta, gained, y, t);  // spins follow marks a little
+  const bool follow = beam_.unknowns() != nullptr && beam_.unknowns()->couples_joints();  // marks, a little
+  if (follow) restore_axis(momenta, gained, y, t);
 }
 
 template <int D>
@@ -161,7 +162,7 @@ void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const Energ
                                          double t) {
   Eigen::VectorXd momenta;
   momenta = all;
-  if constexpr (D == 3) momenta.tail<3>() -= spin_momentum(y);
+  if constexpr (D == 3) momenta.tail<3>() -= own_momentum(y);
   const JointElements elements = beam_.masses_at(y, t);
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
   // momenta of the rigid motions, and of these motions what the supports leave

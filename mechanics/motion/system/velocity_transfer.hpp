@@ -45,11 +45,10 @@ class VelocityProjection {
   void rigid_rates(int mode, const Eigen::VectorXd& y, Eigen::VectorXd& rigid) const;
   /// M phi of the rigid motions phi.
   Eigen::MatrixXd rigid_momenta(const JointElements& elements, const Eigen::VectorXd& y) const;
-  /// Angular momentum of sections that spin [kg m^2/s].
-  Vec<double, 3> spin_momentum(const Eigen::VectorXd& y) const {
-    Frames* const frames = beam_.frames();
-    return frames != nullptr ? frames->observe(y.data(), y.data() + beam_.coordinates()).momentum
-                             : Vec<double, 3>::Zero();
+  /// Angular momentum beside that of points [kg m^2/s].
+  Vec<double, 3> own_momentum(const Eigen::VectorXd& y) const {
+    if (beam_.unknowns() == nullptr) return Vec<double, 3>::Zero();
+    return beam_.unknowns()->momentum(y.data(), y.data() + beam_.coordinates());
   }
   /// restore(), once, of the motion of the axis.
   void restore_axis(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);

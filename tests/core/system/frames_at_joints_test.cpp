@@ -263,7 +263,7 @@ struct ChainInSpace {
 TEST(FramesAtJoints, ResidualVanishesAtTheExplicitAcceleration) {
   for (const bool friction : {false, true}) {
     ChainInSpace chain(3, true, friction);
-    SecondOrderSystem& implicit = *chain.system->second_order();
+    auto& implicit = *chain.system->second_order();
     Eigen::VectorXd a, r(chain.q.size());
     implicit.acceleration(chain.q, chain.v, 0, a);
     implicit.residual(chain.q, chain.v, a, 0, r);
@@ -277,7 +277,7 @@ TEST(FramesAtJoints, TangentIsTheDerivativeOfTheResidual) {
   for (const TangentWeights& by :
        {TangentWeights{1, 0, 0}, TangentWeights{0, 1, 0}, TangentWeights{0, 0, 1}, TangentWeights{1, 30, 900}}) {
     ChainInSpace chain(4, true);
-    SecondOrderSystem& implicit = *chain.system->second_order();
+    auto& implicit = *chain.system->second_order();
     Random random(9);
     Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(chain.q.size(), [&] { return random.uniform(-1, 1); });
     chain.system->holding().project(d.data());
