@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/length_control/event_type.hpp"
 #include "mechanics/motion/system/energy.hpp"
+#include "mechanics/motion/system/event_type.hpp"
 #include "mechanics/time/solver_counters.hpp"
 #include "scene/run_error.hpp"
 #include "scene/scene.hpp"

@@ -28,11 +28,11 @@ bool is_at_root(const Guard& guard, int i) {
 }
 
 /// Lets a vector be what another one is, in the end.
-struct Restored {
+struct PutBack {
   Eigen::VectorXd& vector;
   const Eigen::VectorXd& as;
 
-  ~Restored() { assign(vector, as); }
+  ~PutBack() { assign(vector, as); }
 };
 
 /// The cubic Hermite interpolant of a step's states.
@@ -213,7 +213,7 @@ double EventAim::take(const Eigen::VectorXd& start, double t, double dt, Eigen::
   if (behind) return dt;
   repeats_ = main_.extrapolate(start, t, dt, dt, y);
   if (!repeats_) return dt;
-  const Restored at_last{y, start};
+  const PutBack at_last{y, start};
   const Guards then = ode_.guards(y, t + dt);
   const auto foreseen = [&](std::size_t k, double tau) {
     main_.extrapolate(start, t, dt, tau, y);

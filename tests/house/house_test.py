@@ -34,7 +34,7 @@ WORDS = {
     "ride": r"[Rr]ider|[Dd]eparted",
     "contact": r"[Ii]mpact|[Rr]ebound|NodeContact|AtSupport|at_support",
     "ropes": r"[Dd]rum|[Gg]round|[Dd]rag\b|[Ff]luid|[Ww]inch|[Oo]utlet|[Ss]lack",
-    "remesh": r"[Rr]elax|[Ll]east_?[Cc]hange|[Rr]estore",
+    "remesh": r"(?<!order_)[Rr]elax|[Ll]east_?[Cc]hange|[Rr]estore",
     "conserving": r"[Cc]onserving|[Ee]nergy_?[Mm]omentum|[Dd]iscrete_?[Gg]radient",
     "sundials": r"[Ss]undials|SUNDIALS|\bIDA\b|\bida\b|cvode",
     "statics": r"[Ss]tatic(Sample|Equations|Search|Modes|Sum)|[Ee]quilibri",

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/length_control/event_type.hpp"
 #include "core/length_control/length_control.hpp"
 #include "mechanics/motion/system/accelerations.hpp"
 #include "mechanics/motion/system/event_ledger.hpp"
+#include "mechanics/motion/system/event_type.hpp"
 #include "mechanics/time/ode.hpp"
 
 namespace vlbeam {
