@@ -14,7 +14,7 @@
 namespace vlbeam {
 namespace {
 
-constexpr double large = 0.01;           // of the largest kinetic energy
+constexpr double large = 0.01;           // of the energy that moves
 constexpr double unjudged_share = 1e-9;  // of the energies there are
 constexpr double noise_strain = 1e-10;   // of a beam at rest
 constexpr double from_nowhere = 0.5;     // of all energy: more of it is an unstable computation
@@ -50,12 +50,25 @@ std::string joules(double energy) {
   return text.str();
 }
 
-/// "1.2 J (34 % of the largest kinetic energy)".
-std::string in_proportion(double energy, double kinetic) {
+/// The energy that moves: the largest kinetic energy, with what is stored in strain and height otherwise than at the
+/// start [J]. A load that is lowered slowly has next to no kinetic energy.
+double moved_energy(const RunResult& result) {
+  const auto strained = [](const Energy& e) { return e.axial + e.bending + e.torsion; };
+  const Energy& first = result.samples.front().energy;
+  double most = result.max_kinetic;
+  for (const Sample& sample : result.samples) {
+    const Energy& e = sample.energy;
+    most = std::max(most, e.kinetic + std::abs(strained(e) - strained(first)) + std::abs(e.gravity - first.gravity));
+  }
+  return most;
+}
+
+/// "1.2 J (34 % of the energy that moves)".
+std::string in_proportion(double energy, double moved) {
   std::ostringstream text;
   text.precision(2);
   text << joules(energy);
-  if (kinetic > 0) text << " (" << 100 * energy / kinetic << " % of the largest kinetic energy)";
+  if (moved > 0) text << " (" << 100 * energy / moved << " % of the energy that moves)";
   return text.str();
 }
 
@@ -145,9 +158,9 @@ std::vector<Warning> energy_warnings(const Scene& scene, const RunResult& result
     const Energy& e = sample.energy;
     size = std::max(size, e.kinetic + e.axial + e.bending + e.torsion + std::abs(e.gravity) + e.dissipated);
   }
-  const double least = unjudged_share * size + energy_noise(scene);
-  const auto counts = [&](double energy) { return energy > large * result.max_kinetic + least; };
-  const auto shown = [&](double energy) { return in_proportion(energy, result.max_kinetic); };
+  const double least = unjudged_share * size + energy_noise(scene), moved = moved_energy(result);
+  const auto counts = [&](double energy) { return energy > large * moved + least; };
+  const auto shown = [&](double energy) { return in_proportion(energy, moved); };
 
   const EnergyLedger ledger = energy_ledger(result);
   std::vector<Warning> warnings;

@@ -33,8 +33,9 @@ double energy_there_is(const Sample& first, const Sample& now);
 /// [J]. Throws ComputationFailed.
 void check_source_of_energy(const Scene& scene, double most, double gain, double t);
 
-/// A warning for each of these that exceeds 1 % of the largest kinetic energy: energy at events, energy between them,
-/// energy that nothing explains. And one for events that should have kept the energy and could not.
+/// A warning for each of these that exceeds 1 % of the energy that moves (kinetic, strain and height from the start):
+/// energy at events, energy between them, energy that nothing explains. And one for events that should have kept the
+/// energy and could not.
 std::vector<Warning> energy_warnings(const Scene& scene, const RunResult& result);
 
 }  // namespace vlbeam

@@ -347,7 +347,7 @@ class Checked {
   /// The beam's length, the largest that there was where it is fed [m].
   static double longest(const Seen& run) {
     double length = beam_length(run.scene);
-    if (!run.scene.start.feed && !run.scene.end.feed) return length;
+    if (!run.scene.start.pays_out() && !run.scene.end.pays_out()) return length;
     for (const Sample& sample : run.result.samples) length = std::max(length, sample.beam_length);
     return length;
   }

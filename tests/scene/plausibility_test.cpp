@@ -69,6 +69,24 @@ TEST(Plausibility, BlamesNoUnitForAJerk) {
   EXPECT_NE(warnings[0].message.find("jerks"), std::string::npos) << warnings[0].message;
 }
 
+// A rope that is folded is shorter than it is long, and one of nylon stretches by a tenth in its daily work.
+TEST(Plausibility, KnowsThatRopesFoldAndStretch) {
+  Scene rope = hanging_bar();
+  rope.beam.section = Section{};
+  rope.beam.section.type = Section::Type::stiffness;
+  rope.beam.section.EA = 1e4;
+  rope.beam.section.rhoA = 0.2;
+  RunResult run;
+  run.samples.resize(1);
+  run.samples.front().strains.axial_strain = {-0.9, 0.15};
+  EXPECT_TRUE(implausible(rope, run).empty());
+  rope.beam.section.EI = 10;  // a beam is neither
+  EXPECT_EQ(kinds(implausible(rope, run)), std::vector{WarningKind::large_strain});
+  rope.beam.section.EI = 0;
+  run.samples.front().strains.axial_strain = {0, 0.4};
+  EXPECT_EQ(kinds(implausible(rope, run)), std::vector{WarningKind::large_strain});
+}
+
 TEST(Plausibility, TellsSlackBeams) {
   RunResult run;
   run.samples = {with_force(0, 0, 20), with_force(1, -10, 20)};
