@@ -196,7 +196,7 @@ class Run {
                                                 const OuterForces<D>& forces) const {
     FlowSample flow;
     flow.mass = seen.mass;
-    if (system_.unknowns() != nullptr) {
+    if (spin_of(system_) != nullptr) {
       flow.end_angles = {y[angle_of(system_, 0)], y[angle_of(system_, scene_.beam.elements)]};
       flow.spin_momentum = seen.spin_momentum;
       flow.torques = forces.drives;

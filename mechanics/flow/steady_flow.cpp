@@ -67,7 +67,7 @@ Eigen::VectorXd straight_state(const BeamSystem<D>& beam, const Vec<double, D>& 
   Eigen::VectorXd y = Eigen::VectorXd::Zero(beam.size());
   std::ranges::copy(chain.q, y.data());
   std::ranges::copy(chain.rate, y.data() + beam.coordinates());
-  for (int k = 0; beam.unknowns() != nullptr && k <= chain.mesh.last(); ++k) {
+  for (int k = 0; spin_of(beam) != nullptr && k <= chain.mesh.last(); ++k) {
     y[beam.coordinates() + angle_of(beam, k)] = spin;
   }
   return y;
