@@ -8,6 +8,7 @@
 #include "mechanics/motion/system/room.hpp"
 #include "mechanics/remesh/giving_way.hpp"
 #include "mechanics/ride/ride_events.hpp"
+#include "mechanics/ride/riding_mass.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 
 namespace vlbeam {
@@ -47,6 +48,13 @@ std::unique_ptr<Unknowns<D>> unknowns_of_rooms(const CurrentBeam<D>& beam, const
   return nullptr;
 }
 
+template <int D>
+std::unique_ptr<LooseMass<D>> loose_mass_of_rooms(const CurrentBeam<D>& beam, const ChainState<D>& chain) {
+  return chain.rider ? std::make_unique<RidingMass<D>>(beam, *chain.rider) : nullptr;
+}
+
+template std::unique_ptr<LooseMass<2>> loose_mass_of_rooms(const CurrentBeam<2>&, const ChainState<2>&);
+template std::unique_ptr<LooseMass<3>> loose_mass_of_rooms(const CurrentBeam<3>&, const ChainState<3>&);
 template std::unique_ptr<Unknowns<2>> unknowns_of_rooms(const CurrentBeam<2>&, const std::vector<double>&);
 template std::unique_ptr<Unknowns<3>> unknowns_of_rooms(const CurrentBeam<3>&, const std::vector<double>&);
 template EventSources<2> sources_of_rooms(const BeamInside<2>&);

@@ -32,7 +32,7 @@ void FrictionWatch<D>::step(const BeamSystem<D>& system, const Eigen::VectorXd& 
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     Joint& joint = joints_[i];
     const int index = static_cast<int>(i);
-    if (!joint.watched || !system.on_beam(index) || system.rider()) continue;
+    if (!joint.watched || !system.on_beam(index) || system.loose() != nullptr) continue;
     const JointPlace& place = system.place_of(index);
     const Vector v = position<D>(rate, place.node), s = slope<D>(q, place.node);
     if (joint.velocity && h > 0) {

@@ -209,7 +209,7 @@ class Run {
 
   /// Where the material coordinate of a joint that is on the beam stands in a state.
   Eigen::Index mark(int index) const {
-    return system_.rider() ? system_.layout().mark() : system_.place_of(index).mark;
+    return system_.loose() != nullptr ? system_.layout().mark() : system_.place_of(index).mark;
   }
   /// Material coordinate of a joint, while it is on the beam.
   std::optional<double> mark_of(const Eigen::VectorXd& y, int index) const {
@@ -219,8 +219,8 @@ class Run {
   JointSample joint_sample(const Eigen::VectorXd& y, int index, const OuterForces<D>& forces) const {
     const Vec<double, D>& force = forces.on_masses[static_cast<std::size_t>(index)];
     Vec<double, D> tangent;
-    if (system_.rider()) {
-      tangent = system_.rider_motion(y.data(), y.data() + system_.coordinates()).r_x.normalized();
+    if (const auto* loose = system_.loose()) {
+      tangent = loose->place(y.data(), y.data() + system_.coordinates()).r_x.normalized();
     } else {
       const JointPlace& place = system_.place_of(index);
       tangent = slope<D>(y.data(), place.node).normalized();

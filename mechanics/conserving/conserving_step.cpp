@@ -2,6 +2,7 @@
 
 #include "mechanics/conserving/discrete_gradient.hpp"
 #include "mechanics/ride/rider_step.hpp"
+#include "mechanics/ride/riding_mass.hpp"
 
 namespace vlbeam {
 namespace {
@@ -87,12 +88,12 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
                                               mesh.weights[ju], beam_.moving_parts()[1].table, law));
     position<D>(out, j) +=
         beam_.joint(0).law.mass * ((position<D>(v1.data(), j) - position<D>(v0.data(), j)) / h - law.gravity);
-  } else if (const auto& rider = beam_.rider()) {
-    const int k = rider->element;
+  } else if (const auto* rider = rider_of(beam_)) {
+    const int k = rider->element();
     const auto part =
-        conserving_rider<D>(rider->curve, {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)},
+        conserving_rider<D>(rider->curve(), {element_nodes<D>(q0.data(), k), element_nodes<D>(q1.data(), k)},
                             {element_nodes<D>(v0.data(), k), element_nodes<D>(v1.data(), k)}, {q0[extra], q1[extra]},
-                            {v0[extra], v1[extra]}, h, model.joints.front().law.mass, law.gravity, rider->held);
+                            {v0[extra], v1[extra]}, h, model.joints.front().law.mass, law.gravity, rider->held());
     position<D>(out, k) += part.nodes[0];
     slope<D>(out, k) += part.nodes[1];
     position<D>(out, k + 1) += part.nodes[2];

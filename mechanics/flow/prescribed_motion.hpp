@@ -49,11 +49,11 @@ class PrescribedMotion {
     }
   }
 
-  /// `on_rider` acts on the rider, whose shape functions are `s`, and its opposite on the beam.
-  void add_rider(const Vector& on_rider, const std::array<double, 4>& s) {
+  /// `force` acts on what is inside an element, with shares `s` of its positions and slopes, and its opposite on these.
+  void add_force(int element, const Vector& force, const std::array<double, 4>& s) {
     for (Side& side : sides_) {
-      if (side.element != beam_->rider()->element) continue;
-      for (std::size_t k = 0; k < side.driven; ++k) side.parts[k].force -= s[side.held + k] * on_rider;
+      if (side.element != element) continue;
+      for (std::size_t k = 0; k < side.driven; ++k) side.parts[k].force -= s[side.held + k] * force;
     }
   }
 

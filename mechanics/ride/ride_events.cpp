@@ -6,6 +6,7 @@
 #include "mechanics/motion/system/event_limits.hpp"
 #include "mechanics/motion/system/joint_limits.hpp"
 #include "mechanics/motion/system/joint_neighbours.hpp"
+#include "mechanics/ride/riding_mass.hpp"
 
 namespace vlbeam {
 
@@ -17,7 +18,9 @@ void RideEvents<D>::adopt() {
   end_limit_ = {0, 0};
   cut_limit_ = std::numeric_limits<double>::infinity();
   if (!control.enabled || control.end_merge == 0) return;
-  if (beam_.rider()) cut_limit_ = control.end_cut() * std::min(control.standard_length, beam_.rider()->curve.length);
+  if (const auto* rider = rider_of(beam_)) {
+    cut_limit_ = control.end_cut() * std::min(control.standard_length, rider->curve().length);
+  }
   if (!beam_.has_joint()) return;
   const int node = beam_.places().front().node;
   const auto j = static_cast<std::size_t>(node);
@@ -32,7 +35,7 @@ void RideEvents<D>::adopt() {
 
 template <int D>
 void RideEvents<D>::add_guards(const Eigen::VectorXd& y, double t, Guards& guards) const {
-  if (beam_.rider()) {
+  if (beam_.loose() != nullptr) {
     add_rider_guards(y, t, guards);
   } else if (beam_.places().size() == 1) {
     add_joint_guards(y, t, guards);
@@ -50,15 +53,16 @@ void RideEvents<D>::add_joint_guards(const Eigen::VectorXd& y, double t, Guards&
 
 template <int D>
 void RideEvents<D>::add_rider_guards(const Eigen::VectorXd& y, double t, Guards& guards) const {
-  const bool at_end = beam_.rider()->at_end();
+  const RidingMass<D>& rider = *rider_of(beam_);
+  const bool at_end = rider.at_end();
   const double unit = beam_.model().length_control.standard_length;
-  if (beam_.rider()->held) {
+  if (rider.held()) {
     const double stiffness = beam_.model().section.stiffness.EA;
     guards.push_back({lifts_off, 0, (at_end ? 1 : -1) * accelerations_.contact_force(y, t) / stiffness});
     return;
   }
   const double x = y[beam_.layout().mark()], rate = y[beam_.coordinates() + beam_.layout().mark()];
-  const double distance = at_end ? beam_.rider()->end - x : x - beam_.rider()->end;
+  const double distance = at_end ? rider.end() - x : x - rider.end();
   const bool releases = at_end ? beam_.model().end_releases : beam_.model().start_releases;
   const double least = releases ? beam_.model().joints.front().separation_distance : 0;
   const double known = rounding_of(beam_.mesh()) / unit;
@@ -68,11 +72,11 @@ void RideEvents<D>::add_rider_guards(const Eigen::VectorXd& y, double t, Guards&
 
 template <int D>
 std::vector<PendingEvent> RideEvents<D>::due(const Guard& first, const Eigen::VectorXd& y, double /*t*/) const {
-  const auto& rider = beam_.rider();
-  PendingEvent due{.type = EventType::end_merge, .joint = rider ? 0 : beam_.joint_index(0)};
-  due.node = rider ? rider->element : beam_.places().front().node;
-  due.x = y[rider ? beam_.layout().mark() : beam_.places().front().mark];
-  if (first.kind == near_start || (rider && !rider->at_end())) due.direction = Direction::backward;
+  const auto* rider = rider_of(beam_);
+  PendingEvent due{.type = EventType::end_merge, .joint = rider != nullptr ? 0 : beam_.joint_index(0)};
+  due.node = rider != nullptr ? rider->element() : beam_.places().front().node;
+  due.x = y[rider != nullptr ? beam_.layout().mark() : beam_.places().front().mark];
+  if (first.kind == near_start || (rider != nullptr && !rider->at_end())) due.direction = Direction::backward;
   switch (first.kind) {
     case near_end:
     case near_start:
@@ -97,8 +101,8 @@ std::vector<PendingEvent> RideEvents<D>::due(const Guard& first, const Eigen::Ve
 
 template <int D>
 double RideEvents<D>::clear_of_end() const {
-  const auto& rider = *beam_.rider();
-  return rider.end + (rider.at_end() ? -1 : 1) * clearance * beam_.model().length_control.standard_length;
+  const RidingMass<D>& rider = *rider_of(beam_);
+  return rider.end() + (rider.at_end() ? -1 : 1) * clearance * beam_.model().length_control.standard_length;
 }
 
 template <int D>
@@ -111,7 +115,7 @@ std::vector<MergedWeights> RideEvents<D>::apply(const std::vector<PendingEvent>&
       return {merge_at_end(chain, due.direction, control, beam_.moving_law(t))};
     case EventType::end_cut: {
       const MergedWeights merged = cut_at_end(chain, control, beam_.moving_law(t));
-      if (beam_.rider_law().kinked()) {
+      if (beam_.model().joints.front().law.kinked()) {
         auto& node = chain.joints.front();
         node.kink = {slope<D>(chain.q.data(), node.node), slope<D>(chain.rate.data(), node.node)};
       }
@@ -125,7 +129,7 @@ std::vector<MergedWeights> RideEvents<D>::apply(const std::vector<PendingEvent>&
       const bool rests = hit(y, t);
       chain = beam_.chain(y, t);
       chain.rider->held = rests;
-      chain.rider->x = rests ? beam_.rider()->end : clear_of_end();
+      chain.rider->x = rests ? rider_of(beam_)->end() : clear_of_end();
       if (rests) chain.rider->rate = 0;
       break;
     }
@@ -151,7 +155,7 @@ Reshaped RideEvents<D>::reshaped(const PendingEvent& due, const ChainState<D>& a
 template <int D>
 bool RideEvents<D>::hit(Eigen::VectorXd& y, double t) {
   const Impact& impact = beam_.model().joints.front().at_support;
-  const int outwards = beam_.rider()->at_end() ? 1 : -1;
+  const int outwards = rider_of(beam_)->at_end() ? 1 : -1;
   if (impact.law == AtSupport::stop) {
     throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);
   }

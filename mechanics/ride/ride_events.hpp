@@ -18,7 +18,7 @@ class RideEvents final : public EventSource<D> {
   std::vector<MergedWeights> apply(const std::vector<PendingEvent>& dues, ChainState<D>& chain, Eigen::VectorXd& y,
                                    double t) override;
   Reshaped reshaped(const PendingEvent& due, const ChainState<D>& after) const override;
-  bool observes_all() const override { return beam_.rider().has_value(); }
+  bool observes_all() const override { return beam_.loose() != nullptr; }
 
  private:
   enum Kind { near_end, near_start, reaches_end, away, lifts_off };

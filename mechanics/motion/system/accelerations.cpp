@@ -147,13 +147,11 @@ template <int D>
 bool Accelerations<D>::solve_without_joints(const double* q, const double* rate, double t, double* a,
                                             std::optional<PrescribedMotion<D>>& pull, Tally& power) {
   pull = mass_.solve_without_joints(q, rate, t, a);
-  if (!beam_.rider()) return true;
-  const auto at = beam_.rider_motion(q, rate);
-  const auto solved = mass_.solve_rider(at, beam_.gravity(t), a);
-  if (!solved) return false;
-  a[beam_.layout().mark()] = solved->x;
-  power.dissipated += solved->dissipation;
-  if (pull) pull->add_rider(solved->force, at.s);
+  if (beam_.loose() == nullptr) return true;
+  const auto answer = beam_.loose()->accelerate(q, rate, beam_.gravity(t), a);
+  if (!answer) return false;
+  power.dissipated += answer->dissipation;
+  if (pull) pull->add_force(answer->element, answer->force, answer->s);
   return true;
 }
 
@@ -180,8 +178,8 @@ double Accelerations<D>::contact_force(const Eigen::VectorXd& y, double t) const
   JointElements none;
   add_forces(q, rate, t, a.data(), none);
   mass_.solve_without_joints(q, rate, t, a.data());
-  const auto solved = mass_.solve_rider(beam_.rider_motion(q, rate), beam_.gravity(t), a.data());
-  return solved ? solved->contact : 0;
+  const auto answer = beam_.loose()->accelerate(q, rate, beam_.gravity(t), a.data());
+  return answer ? answer->contact : 0;
 }
 
 template <int D>

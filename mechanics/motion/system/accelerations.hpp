@@ -37,7 +37,7 @@ class Accelerations {
   const Eigen::VectorXd& link_forces() const { return link_forces_; }
   /// The same at a state.
   Eigen::VectorXd forces_of_links(const Eigen::VectorXd& y, double t) const;
-  /// Generalized force of the support on the x of a held rider [N].
+  /// Generalized force of the support that holds a loose mass, on its coordinate [N].
   double contact_force(const Eigen::VectorXd& y, double t) const;
 
   /// Evaluations of the equations, as accelerations or as a residual.

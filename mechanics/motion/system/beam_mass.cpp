@@ -95,14 +95,6 @@ std::optional<PrescribedMotion<D>> BeamMass<D>::solve_without_joints(const doubl
 }
 
 template <int D>
-std::optional<RiderSolution<D>> BeamMass<D>::solve_rider(const RiderMotion<double, D>& at, const Vector& gravity,
-                                                         double* a) const {
-  const RidingMass<D>& rider = *beam_.rider();
-  return solve_with_rider<D>(rider.mass, beam_.rider_law(), at, element_nodes<D>(a, rider.element),
-                             at.remainder - gravity, 0, rider.held, true, a);
-}
-
-template <int D>
 bool BeamMass<D>::solve(const JointElements& elements, const double* q, double* p, const BeamPart& part) {
   if (!solve_apart(elements, q, p, part)) return false;
   const auto count = static_cast<Eigen::Index>(links_.all().size());
@@ -113,14 +105,7 @@ template <int D>
 bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, double* p, const BeamPart& part) {
   if (elements.empty()) {
     solve_without_joint(beam_.left(), beam_.right(), p);
-    if (!beam_.rider()) return true;
-    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(beam_.coordinates());
-    const auto solved =
-        solve_with_rider<D>(beam_.rider()->mass, beam_.rider_law(), beam_.rider_motion(q, at_rest.data()),
-                            element_nodes<D>(p, beam_.rider()->element), Vector::Zero(), p[beam_.layout().mark()],
-                            beam_.rider()->held, false, p);
-    if (solved) p[beam_.layout().mark()] = solved->x;
-    return solved.has_value();
+    return beam_.loose() == nullptr || beam_.loose()->solve(q, p);
   }
   std::vector<JointMotion<D>> at_rest;
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
@@ -174,10 +159,7 @@ void BeamMass<D>::multiply(const JointElements& elements, const double* q, const
   beam_.left().add_inertia(rate, out, part.before);
   beam_.right().add_inertia(rate, out, part.behind);
   for (const SpanBetween<D>& span : beam_.between()) span.span().add_inertia(rate, out);
-  if (beam_.rider()) {
-    const auto at = beam_.rider_motion(q, rate);
-    push_rider(at, beam_.rider_law().mass * at.v, out);
-  }
+  if (const auto* loose = beam_.loose()) loose->add_momentum(q, rate, loose->place(q, rate).v, out);
   for (std::size_t p = 0; p < beam_.moving_parts().size(); ++p) {
     const MovingPart& moving = beam_.moving_parts()[p];
     const auto& eq = elements[p];
@@ -202,16 +184,6 @@ void BeamMass<D>::multiply(const JointElements& elements, const double* q, const
     position<D>(out, beam_.places()[i].node) += beam_.joint(i).law.mass * position<D>(rate, beam_.places()[i].node);
     out[beam_.places()[i].mark] += beam_.turning_inertia(i, q) * rate[beam_.places()[i].mark];
   }
-}
-
-template <int D>
-void BeamMass<D>::push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const {
-  const int k = beam_.rider()->element;
-  position<D>(out, k) += at.s[0] * force;
-  slope<D>(out, k) += at.s[1] * force;
-  position<D>(out, k + 1) += at.s[2] * force;
-  slope<D>(out, k + 1) += at.s[3] * force;
-  if (!beam_.rider()->held) out[beam_.layout().mark()] += at.r_x.dot(force);
 }
 
 template class BeamMass<2>;

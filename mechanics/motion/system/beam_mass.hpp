@@ -39,8 +39,6 @@ class BeamMass {
   /// The same of the nodes of a beam without a joint; what moving supports do is in what it returns.
   std::optional<PrescribedMotion<D>> solve_without_joints(const double* q, const double* rate, double t,
                                                           double* force) const;
-  /// What the rider does to a beam that would have the accelerations `a` without it; completes them.
-  std::optional<RiderSolution<D>> solve_rider(const RiderMotion<double, D>& at, const Vector& gravity, double* a) const;
 
   /// Solves M v = p in place for the velocities v that a momentum p means at the coordinates `q`; false where the mass
   /// matrix is singular. Of a beam with a joint and without links, nodes outside `part` may be left out: p acts on none
@@ -60,8 +58,6 @@ class BeamMass {
   /// which are multiples of Pack::width.
   void multiply(const JointElements& elements, const double* q, const double* rate, double* out,
                 const BeamPart& part = {}) const;
-  /// Adds what a force (or momentum) on the rider is of its element's nodes and of x.
-  void push_rider(const RiderMotion<double, D>& at, const Vector& force, double* out) const;
 
  private:
   /// Joints are tied to each other.

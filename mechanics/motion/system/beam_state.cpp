@@ -15,7 +15,7 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
     y.segment<D>(departed_at(i)) = chain.departed[i].r;
     y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
   }
-  if (rider_) {
+  if (loose_) {
     y[layout_.mark()] = chain.rider->x;
     y[coordinates() + layout_.mark()] = chain.rider->rate;
   }
@@ -108,7 +108,7 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
   }
   result.rider.reset();
   if (unknowns_) unknowns_->read(y.data(), y.data() + coordinates(), result);
-  if (rider_) result.rider = {rider_->element, y[layout_.mark()], y[coordinates() + layout_.mark()], rider_->held};
+  if (loose_) loose_->write(result, y[layout_.mark()], y[coordinates() + layout_.mark()]);
 }
 
 template <int D>
@@ -123,7 +123,7 @@ void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) 
   for (std::size_t i = 0; i < departed_.size(); ++i) {
     chain.departed[i].v = y.segment<D>(coordinates() + departed_at(i));
   }
-  if (rider_) chain.rider->rate = rate[layout_.mark()];
+  if (loose_) chain.rider->rate = rate[layout_.mark()];
   if (unknowns_) unknowns_->read(y.data(), rate, chain);
 }
 
@@ -133,9 +133,9 @@ std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(c
   const auto at = [&](Eigen::Index place) {
     return MassMotion{y.segment<D>(place), y.segment<D>(coordinates() + place)};
   };
-  if (rider_ && index == 0) {
-    const auto motion = rider_motion(y.data(), y.data() + coordinates());
-    return MassMotion{motion.r, motion.v};
+  if (loose_ && index == 0) {
+    const auto place = loose_->place(y.data(), y.data() + coordinates());
+    return MassMotion{place.r, place.v};
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (joints_[i].index == index) return at(Eigen::Index{node_size<D>} * places_[i].node);

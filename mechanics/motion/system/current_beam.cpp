@@ -88,15 +88,7 @@ void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
   held_.adopt(model_, mesh_.last(), places_, index, unknowns_ && unknowns_->of_nodes() ? layout_.angle() : -1);
   if (unknowns_) unknowns_->adopt();
   adopt_elements(unchanged);
-  rider_.reset();
-  if (chain.rider) {
-    const auto k = static_cast<std::size_t>(chain.rider->element);
-    rider_.emplace(Riding{chain.rider->element,
-                          chain.rider->held,
-                          k > 0 ? mesh_.x.back() : mesh_.x.front(),
-                          {mesh_.x[k], mesh_.x[k + 1] - mesh_.x[k], mesh_.weights[k].w},
-                          RiderMass<D>(left(), right(), mesh_.last() + 1, chain.rider->element)});
-  }
+  loose_ = loose_mass_of_rooms(*this, chain);
 }
 
 template <int D>
@@ -283,7 +275,7 @@ void CurrentBeam<D>::orient(double t) const {
   const auto& held = held_.at(t);
   spans_.left->stand_by(held[0].support);
   spans_.right->stand_by(held[1].support);
-  if (rider_) rider_->mass.update(*spans_.left, *spans_.right);
+  if (loose_) loose_->update();
 }
 
 template <int D>

@@ -15,23 +15,11 @@
 #include "mechanics/motion/system/beam_model.hpp"
 #include "mechanics/motion/system/held.hpp"
 #include "mechanics/motion/system/layout.hpp"
+#include "mechanics/motion/system/loose_mass.hpp"
 #include "mechanics/motion/system/unknowns.hpp"
-#include "mechanics/ride/rider.hpp"
 #include "mechanics/time/solver_counters.hpp"
 
 namespace vlbeam {
-
-/// A mass inside the first or the last element.
-template <int D>
-struct RidingMass {
-  int element;
-  bool held;
-  double end;  ///< material coordinate of the beam's end there [m]
-  RiderElement curve;
-  RiderMass<D> mass;
-
-  bool at_end() const { return element > 0; }
-};
 
 /// How many elements at the start and at the end of a beam stay as they are.
 struct UnchangedElements {
@@ -154,7 +142,7 @@ class CurrentBeam {
   /// Where joint `index` of the model is, which is on the beam.
   const JointPlace& place_of(int index) const { return places_[static_cast<std::size_t>(find(index))]; }
   /// Whether joint `index` of the model is on the beam.
-  bool on_beam(int index) const { return rider_ ? index == 0 : find(index) >= 0; }
+  bool on_beam(int index) const { return loose_ ? index == 0 : find(index) >= 0; }
   bool at_joint(int node) const { return view(nullptr, nullptr).joint_at(node) != nullptr; }
   /// Whether that joint is an end of the beam, through which it is fed: there is an element on one side only.
   bool feeds(std::size_t which) const { return places_[which].node == 0 || places_[which].node == mesh_.last(); }
@@ -223,18 +211,8 @@ class CurrentBeam {
   /// Of joint `index` of the model; empty once a beam has run out of its ring or sleeve.
   std::optional<MassMotion> mass_motion(const Eigen::VectorXd& y, int index = 0) const;
 
-  using Riding = RidingMass<D>;
-  /// Empty unless the mass rides inside an element.
-  const std::optional<Riding>& rider() const { return rider_; }
-  /// The law of the mass that rides.
-  const SlidingJoint& rider_law() const { return model_.joints.front().law; }
-  /// Motion of the rider, of arrays like q and q' with x behind the nodes.
-  RiderMotion<double, D> rider_motion(const double* q, const double* rate) const {
-    const bool held = rider_->held;
-    return vlbeam::rider_motion<double, D>(rider_->curve, element_nodes<D>(q, rider_->element),
-                                           element_nodes<D>(rate, rider_->element),
-                                           held ? rider_->end : q[layout_.mark()], held ? 0 : rate[layout_.mark()]);
-  }
+  /// The mass of the only joint while no node carries it, or null.
+  const LooseMass<D>* loose() const { return loose_.get(); }
 
   /// What stands behind all else; null where nothing does.
   Unknowns<D>* unknowns() const { return unknowns_.get(); }
@@ -316,7 +294,7 @@ class CurrentBeam {
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain
   std::vector<Joint> joints_;       ///< the same
   std::vector<int> departed_;       ///< the same of masses that have left
-  mutable std::optional<Riding> rider_;
+  std::unique_ptr<LooseMass<D>> loose_;
   mutable std::optional<MovingMesh<D>> moving_;  ///< its nodes are where travel() was told last
   Held<D> held_;
   std::vector<std::shared_ptr<const Part<D>>> acting_;
@@ -327,6 +305,10 @@ class CurrentBeam {
   std::vector<MovingPart> parts_;
   std::size_t revision_ = 0;
 };
+
+/// The mass that rides in a chain, on the beam that has just become that of the chain. Defined in rooms.cpp.
+template <int D>
+std::unique_ptr<LooseMass<D>> loose_mass_of_rooms(const CurrentBeam<D>& beam, const ChainState<D>& chain);
 
 extern template class CurrentBeam<2>;
 extern template class CurrentBeam<3>;

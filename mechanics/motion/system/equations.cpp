@@ -27,8 +27,8 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
     lost += flow_.add_residual(q.data(), v.data(), a.data(), t, r.data());
   } else if (beam_.has_joint()) {
     add_joints(now, r, lost);
-  } else if (beam_.rider()) {
-    add_rider(now, r, lost);
+  } else if (beam_.loose() != nullptr) {
+    lost += beam_.loose()->add_residual(now, r.data());
   }
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     const Eigen::Index at = beam_.layout().departed_mass(static_cast<int>(i));
@@ -92,21 +92,6 @@ void Equations<D>::add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& 
 }
 
 template <int D>
-void Equations<D>::add_rider(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const {
-  const auto& rider = *beam_.rider();
-  const Eigen::Index x = beam_.layout().mark();
-  const auto part =
-      rider_residual<double, D>(beam_.rider_motion(now.beam.q, now.beam.rate), element_nodes<D>(now.a, rider.element),
-                                now.a[x], beam_.model().joints.front().law, now.gravity, rider.held);
-  position<D>(r.data(), rider.element) += part.nodes[0];
-  slope<D>(r.data(), rider.element) += part.nodes[1];
-  position<D>(r.data(), rider.element + 1) += part.nodes[2];
-  slope<D>(r.data(), rider.element + 1) += part.nodes[3];
-  r[x] = part.x;
-  lost += part.dissipation;
-}
-
-template <int D>
 void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                             const TangentWeights& by, BeamMatrix<D>& tangent) {
   const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
@@ -160,14 +145,7 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
     tangent.add_mass(beam_.places()[i].node, by.a * joint.mass);
     if (joint.turning.present()) add_turning(i, now, by, tangent);
   }
-  if (const auto& rider = beam_.rider()) {
-    tangent.add_border(rider->element);
-    tangent.add_element(
-        beam, rider->element,
-        rider_tangent<D>(beam_.rider_motion(beam.q, beam.rate), element_nodes<D>(now.a, rider->element),
-                         now.a[beam_.layout().mark()], joints.front().law, now.gravity, rider->held, by),
-        {0, -1});
-  }
+  if (beam_.loose() != nullptr) beam_.loose()->add_tangent(now, by, tangent);
   for (const int index : beam_.departed()) {
     for (int c = 0; c < D; ++c) {
       tangent.add_border(0);

@@ -37,7 +37,6 @@ class Equations {
 
  private:
   void add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const;
-  void add_rider(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const;
   void add_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
   void add_turning(std::size_t which, const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
   void add_travelling_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;

@@ -341,10 +341,8 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
   at_guides(
       [&](std::size_t i) { forces.guiding[static_cast<std::size_t>(beam_.joint_index(i))] = free_[places()[i].mark]; });
   if (beam_.unknowns() != nullptr) beam_.unknowns()->observe_forces(q.data(), v.data(), free_.data(), forces);
-  if (const auto& rider = beam_.rider()) {
-    const auto at = beam_.rider_motion(q.data(), v.data());
-    const Vec<double, D> acceleration = combine_nodes<double, D>(at.s, element_nodes<D>(a.data(), rider->element)) +
-                                        at.r_x * a[after_nodes()] + at.remainder;
+  if (const auto* loose = beam_.loose()) {
+    const Vec<double, D> acceleration = loose->acceleration(q.data(), v.data(), a.data());
     forces.on_masses.front() = joints.front().law.mass * (acceleration - beam_.gravity(t));
   }
   for (std::size_t i = 0; i < places().size(); ++i) {

@@ -73,10 +73,10 @@ template <int D>
 void VelocityProjection<D>::project(const ChainState<D>& before, const ChainState<D>& after, int first, int last,
                                     Eigen::VectorXd& y, double t) {
   find_excess_momentum(before, after, first, last);
-  if (beam_.rider() && !before.joints.empty()) {  // a node moves as its element does not
-    const auto at = beam_.rider_motion(y.data(), y.data() + beam_.coordinates());
+  if (const auto* loose = beam_.loose(); loose != nullptr && !before.joints.empty()) {  // a node moves otherwise
+    const double *const q = y.data(), *const of_now = q + beam_.coordinates();
     const Vector was = position<D>(before.rate.data(), before.joints.front().node);
-    mass_.push_rider(at, beam_.rider_law().mass * (was - at.v), momentum_.data());
+    loose->add_momentum(q, of_now, was - loose->place(q, of_now).v, momentum_.data());
   }
   if (!mass_.solve(beam_.masses_at(y, t), y.data(), momentum_.data(), after.part)) return;
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
