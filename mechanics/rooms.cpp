@@ -53,6 +53,16 @@ std::unique_ptr<LooseMass<D>> loose_mass_of_rooms(const CurrentBeam<D>& beam, co
   return chain.rider ? std::make_unique<RidingMass<D>>(beam, *chain.rider) : nullptr;
 }
 
+template <int D>
+std::unique_ptr<PrescribedMesh<D>> prescribed_mesh_of_rooms(const CurrentBeam<D>& beam,
+                                                            const std::vector<WeightFunction>& weights) {
+  return beam.model().travels() ? std::make_unique<MovingMesh<D>>(beam.model(), weights) : nullptr;
+}
+
+template std::unique_ptr<PrescribedMesh<2>> prescribed_mesh_of_rooms(const CurrentBeam<2>&,
+                                                                     const std::vector<WeightFunction>&);
+template std::unique_ptr<PrescribedMesh<3>> prescribed_mesh_of_rooms(const CurrentBeam<3>&,
+                                                                     const std::vector<WeightFunction>&);
 template std::unique_ptr<LooseMass<2>> loose_mass_of_rooms(const CurrentBeam<2>&, const ChainState<2>&);
 template std::unique_ptr<LooseMass<3>> loose_mass_of_rooms(const CurrentBeam<3>&, const ChainState<3>&);
 template std::unique_ptr<Unknowns<2>> unknowns_of_rooms(const CurrentBeam<2>&, const std::vector<double>&);

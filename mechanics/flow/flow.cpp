@@ -1,5 +1,6 @@
 #include "mechanics/flow/flow.hpp"
 
+#include "core/element/moving_tangent.hpp"
 #include "mechanics/flow/driven_residual.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 
@@ -8,9 +9,9 @@ namespace vlbeam {
 template <int D>
 double Flow<D>::add_residual(const double* q, const double* rate, const double* a, double t, double* r) {
   beam_.fill_elements(q, rate, t, elements_);
-  beam_.moving_mesh()->add_residual(elements_, a, r);
+  mesh().add_residual(elements_, a, r);
   forces_.setZero(beam_.coordinates());
-  beam_.moving_mesh()->add_inflow(beam_.view(q, rate), forces_.data());
+  mesh().add_inflow(beam_.view(q, rate), forces_.data());
   Eigen::Map<Eigen::VectorXd>(r, beam_.layout().mark()) -= forces_.head(beam_.layout().mark());
   double lost = 0;
   for (const auto& element : elements_) lost += element.dissipation;
@@ -18,26 +19,28 @@ double Flow<D>::add_residual(const double* q, const double* rate, const double* 
 }
 
 template <int D>
-Tally Flow<D>::power(const JointElements& elements, const double* q, const double* rate, const double* a, double t) {
-  const std::vector<Prescribed>& marks = beam_.moving_mesh()->marks();
+Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, const double* a, double t) {
+  if (!beam_.model().books_flow) return {};
+  const Elements& elements = of == nullptr ? elements_ : *of;
+  const std::vector<Prescribed>& marks = mesh().marks();
   const ChainView<D> beam = beam_.view(q, rate);
   const Eigen::Index turns = beam_.angles();
   Spin* const spin = spin_of(beam_);
   residual_.setZero(beam_.coordinates());
-  beam_.moving_mesh()->add_residual(elements, a, residual_.data());
+  mesh().add_residual(elements, a, residual_.data());
   if (spin != nullptr) spin->inner_residual(q + turns, rate + turns, a + turns, residual_.data() + turns);
   double power = residual_.dot(Eigen::Map<const Eigen::VectorXd>(rate, beam_.coordinates()));  // all that comes in
-  double loads = 0, mesh = 0;
+  double loads = 0, meshed = 0;
   const auto drive = [&](int k, double force) {  // along the beam at node k
     const double p = force * marks[static_cast<std::size_t>(k)].rate;
     power += p;
-    if (k > 0 && k < beam_.mesh().last()) mesh += p;
+    if (k > 0 && k < beam_.mesh().last()) meshed += p;
   };
   const Vector line = beam_.model().loads.line_force ? beam_.model().loads.line_force(t) : Vector::Zero();
   for (const MovingPart& part : beam_.moving_parts()) {
     const int k = part.element;
     const auto i = static_cast<std::size_t>(k);
-    auto [force_a, force_b] = guiding_forces(elements[i], beam_.moving_mesh()->accelerations(a, k));
+    auto [force_a, force_b] = guiding_forces(elements[i], mesh().accelerations(a, k));
     if (spin != nullptr) {
       const auto& by_spin = spin->guiding_forces(k);
       force_a += by_spin[0];
@@ -57,7 +60,7 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
       }
     }
     if (beam_.model().rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
-      power += beam_.moving_mesh()->rotary_power(beam, part, a);
+      power += mesh().rotary_power(beam, part, a);
     }
     drive(k, force_a);
     drive(k + 1, force_b);
@@ -74,13 +77,13 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
     taken = beam_.model().drag.add_forces(beam, forces_.data(), on_marks_.data()).dissipated;
   for (int k = 1; k < beam_.mesh().last(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    mesh -= on_marks_[i] * marks[i].rate;
+    meshed -= on_marks_[i] * marks[i].rate;
   }
 
   Tally result;
-  result.ends = power + taken - loads - mesh;
+  result.ends = power + taken - loads - meshed;
   result.loads = loads;
-  result.mesh = mesh;
+  result.mesh = meshed;
   result.mass = beam_.model().section.rhoA * (marks.back().rate - marks.front().rate);
   Vector impulse = beam_.beam_gravity(t) * (beam_.model().section.rhoA * (marks.back().value - marks.front().value));
   for (int k = 0; k <= beam_.mesh().last(); ++k) impulse += position<D>(residual_.data(), k);
@@ -90,6 +93,40 @@ Tally Flow<D>::power(const JointElements& elements, const double* q, const doubl
   return result;
 }
 
+/// Elements whose nodes all travel as prescribed, and what flows in.
+template <int D>
+void Flow<D>::add_tangent(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const {
+  beam_.move_nodes(now.t);
+  const BeamModel<D>& model = beam_.model();
+  const MovingMesh<D>& mesh = this->mesh();
+  const ChainView<D>& beam = now.beam;
+  MovingLaw<D> law = beam_.moving_law(now.t);
+  for (const MovingPart& part : beam_.moving_parts()) {
+    const auto rest = beam_.rest_of(part, beam.q);
+    law.rest = rest ? &*rest : nullptr;
+    const int k = part.element;
+    tangent.add_element(
+        beam, k,
+        moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(now.a, k), by,
+                                               beam.weights(k), part.table, law));
+    if (!model.rotary.present()) continue;
+    const auto i = static_cast<std::size_t>(k);
+    tangent.add_element(beam, k,
+                        RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
+  }
+  mesh.add_inflow_tangent(beam, by, [&](int row, int column, const auto& block) {
+    auto& band = column == row ? tangent.diagonal : column > row ? tangent.upper : tangent.lower;
+    band[static_cast<std::size_t>(row)] += block;
+  });
+}
+
+template <int D>
+std::unique_ptr<MeshEquations<D>> MovingMesh<D>::new_equations(CurrentBeam<D>& beam) const {
+  return std::make_unique<Flow<D>>(beam);
+}
+
+template std::unique_ptr<MeshEquations<2>> MovingMesh<2>::new_equations(CurrentBeam<2>&) const;
+template std::unique_ptr<MeshEquations<3>> MovingMesh<3>::new_equations(CurrentBeam<3>&) const;
 template class Flow<2>;
 template class Flow<3>;
 

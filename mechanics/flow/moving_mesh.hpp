@@ -7,8 +7,7 @@
 #include "core/beam/chain_view.hpp"
 #include "core/tangent_weights.hpp"
 #include "mechanics/flow/chain_mass.hpp"
-#include "mechanics/motion/joint/joint_chain.hpp"
-#include "mechanics/motion/system/beam_model.hpp"
+#include "mechanics/motion/system/current_beam.hpp"
 
 namespace vlbeam {
 
@@ -16,10 +15,10 @@ namespace vlbeam {
 /// guides, a span that is only what lies between two supports at any time. It knows where the nodes are, the mass
 /// matrix, which changes with time, and what comes in with the matter at the ends.
 template <int D>
-class MovingMesh {
+class MovingMesh final : public PrescribedMesh<D> {
  public:
   using Vector = Vec<double, D>;
-  using Elements = std::vector<MovingEquations<double, D>>;  ///< one an element
+  using typename PrescribedMesh<D>::Elements;
 
   /// `model` must outlive this object. Throws ModelError where it makes no sense: nodes that do not exist, elements
   /// of no length at t = 0, supports with oblique frames of their own.
@@ -27,9 +26,9 @@ class MovingMesh {
 
   /// The nodes are where they are at time t; false where they tangle. Throws ComputationFailed where a load is beyond
   /// the ends of the beam.
-  bool move(double t);
+  bool move(double t) override;
   /// Material coordinates of the nodes, as they were moved last.
-  const std::vector<Prescribed>& marks() const { return marks_; }
+  const std::vector<Prescribed>& marks() const override { return marks_; }
   int last() const { return model_.motion.last(); }
 
   /// An array of accelerations as element k sees it, its ends included.
@@ -38,7 +37,7 @@ class MovingMesh {
     return {element_nodes<D>(a, k), marks_[i].acceleration, marks_[i + 1].acceleration};
   }
   /// Takes from the nodal forces what rotary inertia and the given accelerations of the ends ask for.
-  void take_inertia(const ChainView<D>& beam, const std::vector<MovingPart>& parts, Elements& elements);
+  void take_inertia(const ChainView<D>& beam, const std::vector<MovingPart>& parts, Elements& elements) override;
   /// Adds M a - Q of elements from which that was taken, a the accelerations of the nodes.
   void add_residual(const Elements& elements, const double* a, double* r) const;
   /// Adds their M a alone.
@@ -46,9 +45,10 @@ class MovingMesh {
   /// Power of rotary inertia in an element that does not come in by its nodal residual [W].
   double rotary_power(const ChainView<D>& beam, const MovingPart& part, const double* a) const;
   /// Adds the momentum that comes in with the matter at the ends.
-  void add_inflow(const ChainView<D>& beam, double* f) const;
+  void add_inflow(const ChainView<D>& beam, double* f) const override;
   /// Solves M a = f in place; false where the mass matrix is not positive.
-  bool solve(const Elements& elements, double* f);
+  bool solve(const Elements& elements, double* f) override;
+  std::unique_ptr<MeshEquations<D>> new_equations(CurrentBeam<D>& beam) const override;
   /// Adds the tangent of the inflow, times minus one, by blocks: add(row node, column node, matrix).
   template <class Add>
   void add_inflow_tangent(const ChainView<D>& beam, const TangentWeights& by, const Add& add) const;
@@ -122,6 +122,12 @@ void MovingMesh<D>::add_inflow_tangent(const ChainView<D>& beam, const TangentWe
       add(at.node, at.element + end, block);
     }
   }
+}
+
+/// The mesh of a beam whose nodes all travel.
+template <int D>
+MovingMesh<D>& moving_mesh_of(const CurrentBeam<D>& beam) {
+  return dynamic_cast<MovingMesh<D>&>(*beam.prescribed_mesh());
 }
 
 extern template class MovingMesh<2>;

@@ -75,13 +75,13 @@ Eigen::VectorXd straight_state(const BeamSystem<D>& beam, const Vec<double, D>& 
 
 namespace {
 
-/// The matrix of travelling_tangent() with weights `by`, of free coordinates.
+/// The matrix of tangents_apart() with weights `by`, of free coordinates.
 template <int D>
 void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                 const TangentWeights& by, Eigen::MatrixXd LinearFlow::*which, LinearFlows& flows) {
   ImplicitBeam<D> view(beam.accelerations());
   Eigen::MatrixXd axis, angles;
-  view.travelling_tangent(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
+  view.tangents_apart(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
   const Spin* spin = spin_of(beam);
   const Eigen::MatrixXd free = beam.holding().directions(beam.coordinates());
   const Eigen::Index turning = spin == nullptr ? 0 : spin->coordinates();
@@ -105,7 +105,7 @@ Eigen::VectorXd steady_state(BeamSystem<D>& beam, const Eigen::VectorXd& guess, 
   Eigen::VectorXd q = guess.head(n), r(n);
   const Eigen::VectorXd v = guess.segment(n, n), a = Eigen::VectorXd::Zero(n);
   const std::vector<FieldRun> fields = flow.fields();
-  beam.travel(t);
+  beam.move_nodes(t);
   const double length = beam.marks()->back().value - beam.marks()->front().value;
   FieldNorms natural;  // sizes below which a field's rounding is no error
   natural.fill(1);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/geometry/elementary.hpp"
+#include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
@@ -87,7 +88,7 @@ struct Sample {
 std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples) {
   const BeamModel<D> model = model_of(stem, elements, false);
   BeamSystem<D> beam(model, straight_chain(model));
-  beam.moving_mesh()->check_motion(stem.duration);
+  moving_mesh_of(beam).check_motion(stem.duration);
   std::vector<Sample> history;
   std::vector<double> times;
   for (int i = 0; i <= samples; ++i) times.push_back(stem.duration * i / samples);

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
 #include "scene/options.hpp"
@@ -89,7 +90,7 @@ class Shaft {
     };
     model.loads.points = {{.node = middle, .force = turning}};
     BeamSystem<D> beam(model, straight_chain(model));
-    beam.moving_mesh()->check_motion((1 - 2 * margin) * duration);
+    moving_mesh_of(beam).check_motion((1 - 2 * margin) * duration);
 
     std::vector<double> times;
     for (int i = 1; i < samples; ++i) times.push_back(duration * (static_cast<double>(i) / samples - margin));

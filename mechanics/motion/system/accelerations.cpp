@@ -24,7 +24,7 @@ Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t
     power.dissipated += span.span().add_forces(q, rate, on_beam, force);
   const Motion<D> now = beam_.motion(q, rate, nullptr, t);
   for (const auto& part : beam_.acting()) power = power + part->add_force(now, force);
-  if (beam_.model().loads.present() && !beam_.moving_mesh()) {  // else flow_power() counts it
+  if (beam_.model().loads.present() && beam_.prescribed_mesh() == nullptr) {  // else MeshEquations counts it
     power.loads += beam_.line_power(now.beam, t);
     power.supports += beam_.fed_line_power(now.beam, t);
   }
@@ -45,7 +45,7 @@ Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t
     position<D>(force, beam_.places()[i].node) += beam_.joint(i).law.mass * g;
     force[beam_.places()[i].mark] -= beam_.turning_lag(i, q, rate);
   }
-  if (beam_.moving_mesh()) beam_.moving_mesh()->add_inflow(beam_.view(q, rate), force);
+  if (const auto* mesh = beam_.prescribed_mesh()) mesh->add_inflow(beam_.view(q, rate), force);
   return power;
 }
 
@@ -93,35 +93,35 @@ void Accelerations<D>::impose(double t) {
 
 template <int D>
 std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate, double t, double* a) {
-  if (!beam_.travel(t)) return std::nullopt;
+  if (!beam_.move_nodes(t)) return std::nullopt;
   Tally power = add_forces(q, rate, t, a, elements_);
   Unknowns<D>* const unknowns = beam_.unknowns();
   if (unknowns != nullptr && !unknowns->accelerate(q, rate, t, a, power.dissipated)) return std::nullopt;
   std::optional<PrescribedMotion<D>> pull;  // of moving supports
-  const bool solved = beam_.moving_mesh() != nullptr ? solve_travelling(q, rate, t, a, pull)
-                      : beam_.has_joint()            ? solve_at_joints(q, rate, t, a, pull, power)
-                                                     : solve_without_joints(q, rate, t, a, pull, power);
+  const bool solved = beam_.prescribed_mesh() != nullptr ? solve_prescribed(q, rate, t, a, pull)
+                      : beam_.has_joint()                ? solve_at_joints(q, rate, t, a, pull, power)
+                                                         : solve_without_joints(q, rate, t, a, pull, power);
   if (!solved) return std::nullopt;
   if (unknowns != nullptr) unknowns->follow(q, rate, a);
   for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
     Eigen::Map<Vector>(a + beam_.departed_at(i)) = beam_.gravity(t);
   }
-  if (beam_.moving_mesh() != nullptr) {
+  if (beam_.prescribed_mesh() != nullptr) {
     power.loads = 0;
-    if (beam_.model().books_flow) power = power + flow_.power(elements_, q, rate, a, t);
+    power = power + of_mesh_->power(&elements_, q, rate, a, t);
   } else if (unknowns != nullptr && unknowns->supplied()) {
     power = power + unknowns->power(q, rate, a, t, nullptr);
   }
-  if (pull && beam_.moving_mesh() == nullptr) power.supports += pull->power(a);
+  if (pull && beam_.prescribed_mesh() == nullptr) power.supports += pull->power(a);
   if (!links_.all().empty() && !press(q, rate, a, power)) return std::nullopt;
   return power;
 }
 
 template <int D>
-bool Accelerations<D>::solve_travelling(const double* q, const double* rate, double t, double* a,
+bool Accelerations<D>::solve_prescribed(const double* q, const double* rate, double t, double* a,
                                         std::optional<PrescribedMotion<D>>& pull) {
   pull = mass_.prescribed(elements_, q, rate, a, t);
-  if (!beam_.moving_mesh()->solve(elements_, a)) return false;
+  if (!beam_.prescribed_mesh()->solve(elements_, a)) return false;
   if (pull) pull->complete(a);
   return true;
 }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/geometry/const_vector.hpp"
-#include "mechanics/flow/flow.hpp"
 #include "mechanics/motion/system/beam_mass.hpp"
 #include "mechanics/motion/system/event_map.hpp"
 
@@ -20,7 +19,9 @@ class Accelerations {
 
   /// All must outlive this object.
   Accelerations(CurrentBeam<D>& beam, const BeamLinks<D>& links, BeamMass<D>& mass)
-      : beam_(beam), links_(links), mass_(mass), flow_(beam) {}
+      : beam_(beam), links_(links), mass_(mass) {
+    if (beam.prescribed_mesh() != nullptr) of_mesh_ = beam.prescribed_mesh()->new_equations(beam);
+  }
 
   CurrentBeam<D>& beam() const { return beam_; }
   const BeamLinks<D>& links() const { return links_; }
@@ -53,7 +54,7 @@ class Accelerations {
   /// Writes the accelerations; returns powers, nothing where there is no solution.
   std::optional<Tally> solve(const double* q, const double* rate, double t, double* a);
   // Forces in `a` become accelerations; `pull` is what moving supports do.
-  bool solve_travelling(const double* q, const double* rate, double t, double* a,
+  bool solve_prescribed(const double* q, const double* rate, double t, double* a,
                         std::optional<PrescribedMotion<D>>& pull);
   bool solve_at_joints(const double* q, const double* rate, double t, double* a,
                        std::optional<PrescribedMotion<D>>& pull, Tally& power);
@@ -68,7 +69,7 @@ class Accelerations {
   const BeamLinks<D>& links_;
   BeamMass<D>& mass_;
   EventMap<D> last_event_;
-  Flow<D> flow_;
+  std::unique_ptr<MeshEquations<D>> of_mesh_;
   JointElements elements_;               ///< of rates()
   std::vector<JointMotion<D>> motions_;  ///< the same
   Eigen::VectorXd imposed_;              ///< coordinates and velocities

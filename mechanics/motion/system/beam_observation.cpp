@@ -88,7 +88,7 @@ Energy energies_of_elements(const CurrentBeam<D>& beam, const ChainState<D>& cha
 
 template <int D>
 Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y, double t, int points, bool strains) {
-  const bool needs_chain = beam.model().rest || beam.moving_mesh() != nullptr;
+  const bool needs_chain = beam.model().rest || beam.prescribed_mesh() != nullptr;
   const int elements = beam.mesh().elements();
   Observation<D> seen = needs_chain ? observe_chain(beam, beam.chain(y, t), 0, elements, t, points, strains)
                                     : observe_chain(beam, beam.view(y.data(), y.data() + beam.coordinates()), 0,

@@ -69,11 +69,11 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
   take(mesh_.x, 1, first, last + 1, result.mesh.x);
   take(mesh_.weights, 1, first, last, result.mesh.weights);
   result.mark_rates.clear();
-  if (moving_) {
-    travel(t);
+  if (prescribed_) {
+    move_nodes(t);
     for (std::size_t k = 0; k < mesh_.x.size(); ++k) {
-      result.mesh.x[k] = moving_->marks()[k].value;
-      result.mark_rates.push_back(moving_->marks()[k].rate);
+      result.mesh.x[k] = prescribed_->marks()[k].value;
+      result.mark_rates.push_back(prescribed_->marks()[k].rate);
     }
   }
   take(std::span(y.data(), y.data() + layout_.mark()), node_size<D>, first, last + 1, result.q);
@@ -96,7 +96,7 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
     position<D>(result.rest.data(), node) = at_joint[0];
     slope<D>(result.rest.data(), node) = at_joint[1];
   }
-  for (int k = 0; moving_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
+  for (int k = 0; prescribed_ && result.curved_at_rest() && k <= mesh_.last(); ++k) {
     const auto at_node = model_.rest->derivatives(result.mesh.x[static_cast<std::size_t>(k)]);
     position<D>(result.rest.data(), k) = at_node[0];
     slope<D>(result.rest.data(), k) = at_node[1];

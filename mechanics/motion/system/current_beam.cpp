@@ -48,7 +48,7 @@ UnchangedElements unchanged_elements(const Mesh& mesh, const std::vector<double>
 template <int D>
 CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chain)
     : model_(model), rules_(model.rules()) {
-  if (model.travels()) moving_.emplace(model_, chain.mesh.weights);
+  prescribed_ = prescribed_mesh_of_rooms(*this, chain.mesh.weights);
   unknowns_ = unknowns_of_rooms<D>(*this, chain.mesh.x);
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   if (model_.loads.present()) acting_.push_back(std::make_shared<ActingLoads<D>>(model_.loads));
@@ -129,8 +129,8 @@ template <int D>
 void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
   const BeamSection section = model_.axis_section();
   const int middle = mesh_.elements() / 2;
-  const int left_open = moving_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
-  const int right_open = moving_       ? mesh_.last()
+  const int left_open = prescribed_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
+  const int right_open = prescribed_   ? mesh_.last()
                          : has_joint() ? std::min(mesh_.last(), places_.back().node + 1)
                                        : middle;
   const double* rest = rest_.empty() ? nullptr : rest_.data();
@@ -152,10 +152,12 @@ void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
     }
     return -1;
   };
-  for (int k = left_open; (has_joint() || moving_) && k < right_open; ++k) {
+  for (int k = left_open; (has_joint() || prescribed_) && k < right_open; ++k) {
     const int a = joint_at(k), b = joint_at(k + 1);
-    if (a < 0 && b < 0 && !moving_) continue;
-    const MovingEnds ends = moving_ || (a >= 0 && b >= 0) ? MovingEnds::both : a < 0 ? MovingEnds::b : MovingEnds::a;
+    if (a < 0 && b < 0 && !prescribed_) continue;
+    const MovingEnds ends = prescribed_ || (a >= 0 && b >= 0) ? MovingEnds::both
+                            : a < 0                           ? MovingEnds::b
+                                                              : MovingEnds::a;
     const Weights<double>& weights = mesh_.weights[static_cast<std::size_t>(k)].w;
     parts_.push_back({k, ends, a, b, ShapeTabulation(rules_.of(weights), weights)});
   }
@@ -198,8 +200,8 @@ template <int D>
 std::optional<RestElement<D>> CurrentBeam<D>::rest_of(const MovingPart& part, const double* q) const {
   if (!model_.rest) return std::nullopt;
   const auto end = [&](int node, int joint) -> RestEnd<D> {
-    if (moving_) {
-      return rest_end(moving_->marks()[static_cast<std::size_t>(node)].value);
+    if (prescribed_) {
+      return rest_end(prescribed_->marks()[static_cast<std::size_t>(node)].value);
     }
     if (joint >= 0) return rest_end(q[places_[static_cast<std::size_t>(joint)].mark]);
     return {mesh_.x[static_cast<std::size_t>(node)],
@@ -239,7 +241,7 @@ void CurrentBeam<D>::fill_elements(const double* q, const double* rate, double t
     law.rest = rest ? &*rest : nullptr;
     return moving_equations<double, D, Ends>(beam.coordinates(k), beam.rates(k), beam.weights(k), part.table, law);
   });
-  if (moving_) moving_->take_inertia(beam, parts_, elements);
+  if (prescribed_) prescribed_->take_inertia(beam, parts_, elements);
 }
 
 template <int D>

@@ -9,13 +9,13 @@
 
 #include "core/beam/span_between.hpp"
 #include "core/element/element_sums.hpp"
-#include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/motion/joint/joint_chain.hpp"
 #include "mechanics/motion/joint/kinks.hpp"
 #include "mechanics/motion/system/beam_model.hpp"
 #include "mechanics/motion/system/held.hpp"
 #include "mechanics/motion/system/layout.hpp"
 #include "mechanics/motion/system/loose_mass.hpp"
+#include "mechanics/motion/system/prescribed_mesh.hpp"
 #include "mechanics/motion/system/unknowns.hpp"
 #include "mechanics/time/solver_counters.hpp"
 
@@ -66,8 +66,8 @@ class CurrentBeam {
     if (model_.loads.line_force) sum += model_.loads.line_force(t) / model_.section.rhoA;
     return sum;
   }
-  /// The beam with coordinates q and their rates, arrays like those of the state; where its nodes travel, as travel()
-  /// was told last.
+  /// The beam with coordinates q and their rates, arrays like those of the state; where its nodes travel, as
+  /// move_nodes() was told last.
   ChainView<D> view(const double* q, const double* rate) const {
     return {mesh_, model_.transport, q, rate, places_, marks()};
   }
@@ -117,17 +117,17 @@ class CurrentBeam {
   void impose(Eigen::VectorXd& y, double t) const;
   /// Lets the supports of the spans stand as they do at time t.
   void orient(double t) const;
-  /// Lets nodes that travel be where they are at time t; false where they tangle.
-  bool travel(double t) const {
-    if (!moving_) return true;
-    const bool sound = moving_->move(t);
+  /// Lets nodes that are prescribed along the beam be where they are at time t; false where they tangle.
+  bool move_nodes(double t) const {
+    if (!prescribed_) return true;
+    const bool sound = prescribed_->move(t);
     if (unknowns_) unknowns_->move();
     return sound;
   }
-  /// The mesh of a beam whose nodes travel, or null.
-  MovingMesh<D>* moving_mesh() const { return moving_ ? &*moving_ : nullptr; }
-  /// Material coordinates of all nodes, if they travel, or null.
-  const std::vector<Prescribed>* marks() const { return moving_ ? &moving_->marks() : nullptr; }
+  /// The mesh of a beam all of whose nodes are, or null.
+  PrescribedMesh<D>* prescribed_mesh() const { return prescribed_.get(); }
+  /// Material coordinates of all nodes, if they are, or null.
+  const std::vector<Prescribed>* marks() const { return prescribed_ ? &prescribed_->marks() : nullptr; }
   /// What holds nodes in space.
   const Held<D>& holding() const { return held_; }
 
@@ -295,7 +295,7 @@ class CurrentBeam {
   std::vector<Joint> joints_;       ///< the same
   std::vector<int> departed_;       ///< the same of masses that have left
   std::unique_ptr<LooseMass<D>> loose_;
-  mutable std::optional<MovingMesh<D>> moving_;  ///< its nodes are where travel() was told last
+  std::unique_ptr<PrescribedMesh<D>> prescribed_;  ///< its nodes are where move_nodes() was told last
   Held<D> held_;
   std::vector<std::shared_ptr<const Part<D>>> acting_;
   std::unique_ptr<Unknowns<D>> unknowns_;
@@ -305,6 +305,11 @@ class CurrentBeam {
   std::vector<MovingPart> parts_;
   std::size_t revision_ = 0;
 };
+
+/// The mesh of a beam all of whose nodes are prescribed along it, or null. Defined in rooms.cpp.
+template <int D>
+std::unique_ptr<PrescribedMesh<D>> prescribed_mesh_of_rooms(const CurrentBeam<D>& beam,
+                                                            const std::vector<WeightFunction>& weights);
 
 /// The mass that rides in a chain, on the beam that has just become that of the chain. Defined in rooms.cpp.
 template <int D>

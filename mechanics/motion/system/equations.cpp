@@ -23,8 +23,8 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
   const PointMasses<D>& masses = beam_.model().masses;
   if (masses.present()) masses.add_residual(now.beam, a.data(), now.gravity, r.data());
   if (auto* unknowns = beam_.unknowns()) lost += unknowns->residual(q.data(), v.data(), a.data(), t, r.data());
-  if (beam_.moving_mesh() != nullptr) {
-    lost += flow_.add_residual(q.data(), v.data(), a.data(), t, r.data());
+  if (of_mesh_) {
+    lost += of_mesh_->add_residual(q.data(), v.data(), a.data(), t, r.data());
   } else if (beam_.has_joint()) {
     add_joints(now, r, lost);
   } else if (beam_.loose() != nullptr) {
@@ -99,8 +99,8 @@ void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, 
   if constexpr (D == 3) {
     if (beam_.unknowns() != nullptr && beam_.unknowns()->of_nodes()) tangent.add_angles();
   }
-  if (beam_.moving_mesh() != nullptr) {
-    add_travelling_elements(now, by, tangent);
+  if (of_mesh_) {
+    of_mesh_->add_tangent(now, by, tangent);
   } else {
     add_elements(now, by, tangent);
   }
@@ -174,33 +174,6 @@ void Equations<D>::add_turning(std::size_t which, const Motion<D>& now, const Ta
     tangent.entry(place.mark, Eigen::Index{node_size<D>} * place.node + D + c) +=
         m * (by.q * (2 * s[c] * a + s_rate[c] * rate) + by.v * s[c] * rate);
   }
-}
-
-/// Elements whose nodes all travel as prescribed, and what flows in.
-template <int D>
-void Equations<D>::add_travelling_elements(const Motion<D>& now, const TangentWeights& by,
-                                           BeamMatrix<D>& tangent) const {
-  beam_.travel(now.t);
-  const auto& model = beam_.model();
-  const MovingMesh<D>& mesh = *beam_.moving_mesh();
-  const ChainView<D>& beam = now.beam;
-  at_moving_parts(now, [&]<MovingEnds Ends>(const MovingPart& part, const MovingLaw<D>& law) {
-    if constexpr (Ends == MovingEnds::both) {
-      const int k = part.element;
-      tangent.add_element(
-          beam, k,
-          moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(now.a, k), by,
-                                                 beam.weights(k), part.table, law));
-      if (!model.rotary.present()) return;
-      const auto i = static_cast<std::size_t>(k);
-      tangent.add_element(beam, k,
-                          RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
-    }
-  });
-  mesh.add_inflow_tangent(beam, by, [&](int row, int column, const auto& block) {
-    auto& band = column == row ? tangent.diagonal : column > row ? tangent.upper : tangent.lower;
-    band[static_cast<std::size_t>(row)] += block;
-  });
 }
 
 template class Equations<2>;

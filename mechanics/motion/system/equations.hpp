@@ -2,7 +2,6 @@
 
 #include "core/beam/beam_matrix.hpp"
 #include "core/geometry/const_vector.hpp"
-#include "mechanics/flow/flow.hpp"
 #include "mechanics/motion/system/current_beam.hpp"
 
 namespace vlbeam {
@@ -17,29 +16,24 @@ class Equations {
   enum class Extent { whole, ends };
 
   /// `beam` must outlive this object; its events may change it at any time.
-  explicit Equations(CurrentBeam<D>& beam) : beam_(beam), flow_(beam) {}
+  explicit Equations(CurrentBeam<D>& beam) : beam_(beam) {
+    if (beam.prescribed_mesh() != nullptr) of_mesh_ = beam.prescribed_mesh()->new_equations(beam);
+  }
 
   /// Writes r of the coordinates of the state, at the start of an array that may be longer; returns the power lost [W].
   double residual(const ConstVector& q, const ConstVector& v, const ConstVector& a, double t, Eigen::VectorXd& r,
                   Extent extent = Extent::whole) const;
-  /// Adds M a of elements all of whose nodes travel as prescribed, at the time of the last residual.
-  void add_travelling_inertia(const Eigen::VectorXd& a, Eigen::VectorXd& r) const {
-    flow_.add_inertia(a.data(), r.data());
-  }
   /// Makes of `tangent` that of the residual with weights `by`, but for Unknowns, which have their own.
   void assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                 const TangentWeights& by, BeamMatrix<D>& tangent);
-  /// What the matter brings that flows in, in a second, at the accelerations `a`: by the elements of the last residual,
-  /// which Newton's last correction is next to nothing away from.
-  Tally flow_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) {
-    return flow_.power(q.data(), v.data(), a.data(), t);
-  }
+  /// Those of a beam all of whose nodes are prescribed, or null: by the elements of the last residual, which Newton's
+  /// last correction is next to nothing away from.
+  MeshEquations<D>* of_mesh() { return of_mesh_.get(); }
 
  private:
   void add_joints(const Motion<D>& now, Eigen::VectorXd& r, double& lost) const;
   void add_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
   void add_turning(std::size_t which, const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
-  void add_travelling_elements(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const;
   /// Calls function(part, law) with the ends of the part for the elements at joints.
   template <class Function>
   void at_moving_parts(const Motion<D>& now, const Function& function) const;
@@ -52,7 +46,7 @@ class Equations {
   }
 
   CurrentBeam<D>& beam_;
-  mutable Flow<D> flow_;
+  std::unique_ptr<MeshEquations<D>> of_mesh_;
   Eigen::VectorXd lacking_;  ///< of what holds joints
 };
 

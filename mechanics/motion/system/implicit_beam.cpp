@@ -95,7 +95,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
   accelerations_.count_evaluation();
   refresh();
   holding().at(t);
-  if (!beam_.travel(t)) {
+  if (!beam_.move_nodes(t)) {
     r.setConstant(std::numeric_limits<double>::quiet_NaN());
     return 0;
   }
@@ -115,9 +115,9 @@ template <int D>
 bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, Eigen::VectorXd& r) {
   if (tied() || (beam_.unknowns() != nullptr && !of_unknowns_)) return false;
   refresh();
-  if (beam_.moving_mesh() != nullptr) {
+  if (const auto* of_mesh = equations_.of_mesh()) {
     r.setZero();
-    equations_.add_travelling_inertia(a, r);
+    of_mesh->add_inertia(a.data(), r.data());
   } else {
     beam_.fill_masses(q.data(), t, elements_);
     accelerations_.mass().multiply(elements_, q.data(), a.data(), r.data());
@@ -179,9 +179,7 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
 template <int D>
 Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                       double t) {
-  if (beam_.moving_mesh() != nullptr) {
-    return beam_.model().books_flow ? equations_.flow_power(q, v, a, t) : Tally{};
-  }
+  if (auto* of_mesh = equations_.of_mesh()) return of_mesh->power(nullptr, q.data(), v.data(), a.data(), t);
   Tally power;
   if (beam_.model().tallies().loads) {
     free_.setZero(q.size());
@@ -210,19 +208,19 @@ template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
                                                           double h, double t) {
-  if (!beam_.model().section.damped() || !beam_.travel(t + h / 2)) return std::nullopt;
+  if (!beam_.model().section.damped() || !beam_.move_nodes(t + h / 2)) return std::nullopt;
   assign_both(middle_q_, 0.5 * (q0 + q1), middle_v_, (q1 - q0) / h);
   assign(a_, 0.5 * (a0 + a1));
   free_.resize(q0.size());
   const double lost = equations_.residual(middle_q_, middle_v_, a_, t + h / 2, free_);
-  beam_.travel(t + h);
+  beam_.move_nodes(t + h);
   return lost;
 }
 
 template <int D>
-void ImplicitBeam<D>::travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                         double t, const TangentWeights& by, Eigen::MatrixXd& axis,
-                                         Eigen::MatrixXd& angles) {
+void ImplicitBeam<D>::tangents_apart(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                     double t, const TangentWeights& by, Eigen::MatrixXd& axis,
+                                     Eigen::MatrixXd& angles) {
   refresh();
   equations_.assemble(q, v, a, t, by, tangent_);
   axis.setZero(after_nodes(), after_nodes());

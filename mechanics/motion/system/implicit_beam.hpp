@@ -74,10 +74,10 @@ class ImplicitBeam final : public ConstrainedSystem {
   /// Ode::jacobian().
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
 
-  /// The tangent of a beam whose nodes travel, with weights `by`, dense and before supports: of position and slope of
-  /// the nodes, and of angle and twist of the nodes, empty without spin. They do not couple.
-  void travelling_tangent(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
-                          const TangentWeights& by, Eigen::MatrixXd& axis, Eigen::MatrixXd& angles);
+  /// The tangent with weights `by`, dense and before supports: of position and slope of the nodes, and of Unknowns that
+  /// do not couple with them, empty without.
+  void tangents_apart(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
+                      const TangentWeights& by, Eigen::MatrixXd& axis, Eigen::MatrixXd& angles);
 
   /// By the accelerations that belong to a state y at time t.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);

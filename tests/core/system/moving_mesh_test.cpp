@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 #include "tests/core/support/element_family.hpp"
@@ -85,7 +86,7 @@ TYPED_TEST(MovingMeshTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
   const Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), along, 1, velocity, spin, t);
   const Eigen::Index n = beam.coordinates();
   Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n), residual(n);
-  beam.travel(t);
+  beam.move_nodes(t);
   for (int k = 0; k <= beam.mesh().last(); ++k) {
     position<D>(acceleration.data(), k) = along * (*beam.marks())[static_cast<std::size_t>(k)].acceleration;
   }
@@ -148,8 +149,8 @@ TEST(MovingMesh, StopsWhereItsNodesTangle) {
   model.motion = MeshMotion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});
   for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
     BeamSystem<3> beam(model, straight_chain(model));
-    EXPECT_NO_THROW(beam.moving_mesh()->check_motion(0.24));
-    EXPECT_THROW(beam.moving_mesh()->check_motion(0.26), InvalidInput);
+    EXPECT_NO_THROW(moving_mesh_of(beam).check_motion(0.24));
+    EXPECT_THROW(moving_mesh_of(beam).check_motion(0.26), InvalidInput);
     Eigen::VectorXd y = straight_state<3>(beam, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1, 0, 0);
     IntegrationOptions options;
     options.type = type;
