@@ -25,10 +25,10 @@ constexpr double stagnation = 0.5;  // contraction with tangents of the same ste
 constexpr double shortest_share = 1e-5;
 constexpr double safety = 0.9, least_factor = 0.3, largest_factor = 1.5;  // of an adaptive step
 constexpr double turn_margin = 1.1, turn_share = 0.85;                    // of the longest step for what it turns
-constexpr int calm_steps = 12;         // behind one that was rejected: growing at once, it would be rejected again
-constexpr double least_motion = 1e-5;  // of Tolerances::motion
-constexpr double foreseen_share = 0.1;  // of the longest step: motion that is foreseen
-constexpr double torn_share = 0.3;     // of it: no step is off so far, in modes that it does not follow either
+constexpr int calm_steps = 12;          // behind one that was rejected: growing at once, it would be rejected again
+constexpr double least_motion = 1e-5;   // of Tolerances::motion
+constexpr double foreseen_share = 0.1;  // of the longest step that follows the motion: so far it is foreseen
+constexpr double torn_share = 0.3;      // of it: no step is off so far, in modes that it does not follow either
 
 class GeneralizedAlpha final : public Stepper {
  public:
@@ -463,6 +463,14 @@ class GeneralizedAlpha final : public Stepper {
     system_.solve(r_);
   }
 
+  /// The longest step that is thought to follow the motion, whatever the duration of the run: what tolerances make of
+  /// positions and their rates [s].
+  double longest_followed() const {
+    const auto position = static_cast<std::size_t>(Field::position);
+    const auto& by_field = options_.tolerances.by_field;
+    return by_field && by_field->of_rate[position] > 0 ? by_field->of[position] / by_field->of_rate[position] : 0;
+  }
+
   /// Of the tolerances, by the largest displacement so far, or that of a part of the longest step at the largest speed:
   /// what starts with a jolt will move farther than it has, and vibrations that turn back before do not count in full.
   /// At an event nodes become others: what they move from then on is added to the largest before.
@@ -475,7 +483,7 @@ class GeneralizedAlpha final : public Stepper {
     for (const Field field : {Field::position, Field::mark, Field::mass}) {
       const auto f = static_cast<std::size_t>(field);
       motion_ = std::max(motion_, motion_until_event_ + moved[f]);
-      motion = std::max(motion, foreseen_share * options_.step * speeds[f]);
+      motion = std::max(motion, foreseen_share * longest_followed() * speeds[f]);
     }
     return std::clamp(std::max(motion_, motion) / whole, least_motion, 1.0);
   }

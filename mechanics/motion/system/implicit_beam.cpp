@@ -27,6 +27,7 @@ void ImplicitBeam<D>::rebuild() const {
     set->adopt();
     layout_.multipliers += set->count();
   }
+  values_.resize(layout_.multipliers);
 }
 
 template <int D>
@@ -139,12 +140,13 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
                                                         double t) const {
   ConstraintResidual largest;
   holding().at(t);
-  Eigen::VectorXd of(multipliers());
+  refresh();
+  auto of = [this](const ConstraintSet<D>& set) { return values_.head(set.count()).cwiseAbs().maxCoeff(); };
   at_constraints([&](const ConstraintSet<D>& set, Eigen::Index /*first*/) {
-    set.write_values(q.data(), of.data());
-    largest.position = std::max(largest.position, of.head(set.count()).cwiseAbs().maxCoeff());
-    set.write_rates(q.data(), v.data(), of.data());
-    largest.velocity = std::max(largest.velocity, of.head(set.count()).cwiseAbs().maxCoeff());
+    set.write_values(q.data(), values_.data());
+    largest.position = std::max(largest.position, of(set));
+    set.write_rates(q.data(), v.data(), values_.data());
+    largest.velocity = std::max(largest.velocity, of(set));
   });
   return largest;
 }

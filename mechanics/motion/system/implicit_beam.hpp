@@ -147,6 +147,7 @@ class ImplicitBeam final : public ConstrainedSystem {
   mutable KinkConstraints<D> kinks_;
   mutable LinkConstraints<D> links_;
   std::unique_ptr<UnknownsTangent<D>> of_unknowns_;
+  mutable Eigen::VectorXd values_;     ///< of constraints
   mutable double reference_mass_ = 1;  ///< [kg], makes an acceleration of a multiplier
   double constraint_scale_ = 1;        ///< of the constraints' equations, that of the last tangent
   BeamMatrix<D> tangent_;

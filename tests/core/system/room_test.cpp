@@ -98,13 +98,12 @@ TEST(Room, BringsEventsOfItsOwn) {
 TEST(Room, BringsLinksOfItsOwn) {
   for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
     Falling beam(std::make_shared<RodBetweenEnds>());
-    const double before = beam.seen().energy.total();
+    const double before = beam.seen().energy.total(), fell = beam.seen().momentum[1] - 1.3 * 9.81 * 0.3;
     beam.run(0.3, type);
     const Vec<double, 2> apart = position<2>(beam.y.data(), 4) - position<2>(beam.y.data(), 0);
     EXPECT_NEAR(apart.norm(), 1, 1e-8);
     EXPECT_NEAR(beam.seen().energy.total(), before, type == IntegratorType::dopri5 ? 1e-6 : 1e-4);
-    EXPECT_NEAR(beam.seen().momentum[1], -1.3 * 9.81 * 0.3, 1e-8) << "it acts within the beam";
-    beam.system = nullptr;
+    EXPECT_NEAR(beam.seen().momentum[1], fell, 1e-8) << "it acts within the beam";
   }
 }
 
