@@ -82,6 +82,56 @@ double whole_length(const Scene& scene) {
   return length;
 }
 
+/// That of longest_implicit_step() by what drives the beam or turns it; infinite where nothing does [s].
+double longest_driven_step(const Scene& scene) {
+  double step = std::numeric_limits<double>::infinity();
+  const auto at_most = [&step](double time) {
+    if (time > 0) step = std::min(step, time);
+  };
+  const double L = whole_length(scene), element = standard_length(scene);
+  const auto driven = [&](const TimeSpec& f) { at_most(1 / std::abs(f.frequency) / steps_a_period); };
+  const auto passing = [&](const TimeSpec& x) {
+    driven(x);
+    at_most(element / (std::abs(x.rate) + steepest(x) + turn * std::abs(x.frequency * x.amplitude)) / steps_an_element);
+  };
+  const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
+  at_most(turn * std::sqrt(L / g) / steps_a_swing);
+  at_most(scene.gravity_ramp / steps_a_ramp);  // what has begun to move then goes on as fast
+  if (scene.initial_velocity) at_most(turn / std::abs(scene.initial_velocity->rotation) / steps_a_swing);
+  for (const SlidingJointSpec& joint : sliding_joints(scene)) {
+    at_most(element / std::abs(joint.velocity) / steps_an_element);
+    if (joint.friction) at_most(joint.friction->velocity / (joint.friction->coefficient * g) / steps_of_fading);
+    if (joint.x) passing(*joint.x);
+    if (joint.motion) driven(joint.motion->displacement);
+  }
+  for (const LoadSpec& load : scene.loads) {
+    driven(load.magnitude);
+    driven(load.turn);
+    at_most(turn / std::abs(load.turn.rate) / steps_a_period);
+    passing(load.x);
+  }
+  for (const SupportSpec* support : {&scene.start, &scene.end}) {
+    if (support->feed) passing(*support->feed);
+    if (!support->motion) continue;
+    driven(support->motion->displacement);
+    if (support->motion->angle) driven(*support->motion->angle);
+  }
+  if (scene.spin) {
+    for (const auto& drive : scene.spin->drives) driven(drive.angle);
+  }
+  if (scene.flow) {
+    for (const auto& node : scene.flow->nodes) passing(node.x);
+  }
+  return step;
+}
+
+/// In which what moves goes on moving, as far as that can be foreseen: the longest step, but of a beam that nothing
+/// drives a tenth of it, ten times that of a wave along it [s].
+double followed_time(const Scene& scene) {
+  const double driven = longest_driven_step(scene);
+  return std::isfinite(driven) ? driven : 0.1 * longest_implicit_step(scene);
+}
+
 IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   IntegratorSpec spec;
   spec.automatic = true;
@@ -102,7 +152,7 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   // next to nothing, for positions have no size of their own: it keeps its ratio where tolerances are refined
   spec.rtol = two_digits(std::max(relative_share * allowed / length, least_rtol));
   spec.atol_by_kind = AbsoluteTolerances{.length = two_digits(allowed),
-                                         .velocity = two_digits(allowed / longest_implicit_step(scene)),
+                                         .velocity = two_digits(allowed / followed_time(scene)),
                                          .angle = {},
                                          .spin = {},
                                          .motion = two_digits(whole_motion * length)};
@@ -145,47 +195,10 @@ double work_until(double until, Scene scene, const IntegratorSpec& integrator, d
 }  // namespace
 
 double longest_implicit_step(const Scene& scene) {
-  double step = std::numeric_limits<double>::infinity();
-  const auto at_most = [&step](double time) {
-    if (time > 0) step = std::min(step, time);
-  };
-  const double L = whole_length(scene), element = standard_length(scene);
-  const auto driven = [&](const TimeSpec& f) { at_most(1 / std::abs(f.frequency) / steps_a_period); };
-  const auto passing = [&](const TimeSpec& x) {
-    driven(x);
-    at_most(element / (std::abs(x.rate) + steepest(x) + turn * std::abs(x.frequency * x.amplitude)) / steps_an_element);
-  };
-  const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
-  at_most(turn * std::sqrt(L / g) / steps_a_swing);
-  at_most(scene.gravity_ramp / steps_a_ramp);  // what has begun to move then goes on as fast
-  if (scene.initial_velocity) at_most(turn / std::abs(scene.initial_velocity->rotation) / steps_a_swing);
-  for (const SlidingJointSpec& joint : sliding_joints(scene)) {
-    at_most(element / std::abs(joint.velocity) / steps_an_element);
-    if (joint.friction) at_most(joint.friction->velocity / (joint.friction->coefficient * g) / steps_of_fading);
-    if (joint.x) passing(*joint.x);
-    if (joint.motion) driven(joint.motion->displacement);
-  }
-  for (const LoadSpec& load : scene.loads) {
-    driven(load.magnitude);
-    driven(load.turn);
-    at_most(turn / std::abs(load.turn.rate) / steps_a_period);
-    passing(load.x);
-  }
-  for (const SupportSpec* support : {&scene.start, &scene.end}) {
-    if (support->feed) passing(*support->feed);
-    if (!support->motion) continue;
-    driven(support->motion->displacement);
-    if (support->motion->angle) driven(*support->motion->angle);
-  }
-  if (scene.spin) {
-    for (const auto& drive : scene.spin->drives) driven(drive.angle);
-  }
-  if (scene.flow) {
-    for (const auto& node : scene.flow->nodes) passing(node.x);
-  }
-  if (std::isfinite(step)) return step;
+  const double driven = longest_driven_step(scene);
+  if (std::isfinite(driven)) return driven;
   const BeamSection section = build_section(scene);
-  const double waves = L * std::sqrt(section.rhoA / section.stiffness.EA) / steps_of_a_wave;
+  const double waves = whole_length(scene) * std::sqrt(section.rhoA / section.stiffness.EA) / steps_of_a_wave;
   const double change = shortest_change(scene) / steps_a_ramp;
   return std::isfinite(change) ? std::max(waves, change) : waves;
 }

@@ -30,7 +30,7 @@ LengthControl build_length_control(const Scene& scene) {
           merge_policy(scene),
           cut_policy(scene),
           control.merge_rule,
-          !is_polynomial(scene.beam.element),
+          merges_rationally(scene),
           scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
           end_merge(scene),
           merge_below(scene)};

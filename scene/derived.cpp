@@ -111,17 +111,27 @@ CutPolicy cut_policy(const Scene& scene) {
   return scene.length_control.cut.value_or(sampled && !has_frames(scene) ? CutPolicy::relaxed : CutPolicy::exact);
 }
 
+namespace {
+
+/// Whether weights that fit a point would fit noise. In space a point fits three equations to three weights: those of a
+/// nearly straight element become anything, and curvature and torsion at two points of an element with such weights are
+/// no longer its energy. Along a taut rope a point fits what its waves stretch: weights of 0.002 follow, and slopes
+/// that turn the next merge into a blow.
+bool fits_noise(const Scene& scene) { return has_frames(scene) || is_rope(scene.beam); }
+
+}  // namespace
+
 MergePolicy merge_policy(const Scene& scene) {
   const bool relaxes = axial_strain(scene) == AxialStrain::lobatto && !has_frames(scene);
-  // In space a point fits three equations to three weights: those of a nearly straight element become anything, and
-  // curvature and torsion at two points of an element with such weights are no longer its energy. Along a taut rope a
-  // point fits what its waves stretch: weights of 0.002 follow, and slopes that turn the next merge into a blow.
-  const bool fits_noise = has_frames(scene) || is_rope(scene.beam);
   const MergePolicy otherwise = relaxes                    ? MergePolicy::relaxed
                                 : is_curved_at_rest(scene) ? MergePolicy::rest_arc
-                                : fits_noise               ? MergePolicy::unit
+                                : fits_noise(scene)        ? MergePolicy::unit
                                                            : MergePolicy::point_fit;
   return scene.length_control.merge.value_or(otherwise);
+}
+
+bool merges_rationally(const Scene& scene) {
+  return !is_polynomial(scene.beam.element) && (scene.length_control.merge || !fits_noise(scene));
 }
 
 WeightTransport weight_transport(const Scene& scene) {

@@ -42,9 +42,11 @@ AxisForm axis_form(const Scene& scene);
 
 /// Where a cut's new node is, and how the scene's elements are merged. By default both are relaxed with sampled axial
 /// strain. Without it cuts are exact; merges are by the paper's fit, or with the weights of the arc if the beam is
-/// curved at rest, or with unit weights if its sections have frames.
+/// curved at rest, or with unit weights if its sections have frames or it is a rope.
 CutPolicy cut_policy(const Scene& scene);
 MergePolicy merge_policy(const Scene& scene);
+/// Whether a merge fits weights. Of a rope, or of sections with frames, only where the scene names how to merge.
+bool merges_rationally(const Scene& scene);
 
 /// Whether an element's weights are 1 and stay 1.
 inline bool is_polynomial(ElementKind kind) { return kind == ElementKind::ale_ancf || kind == ElementKind::ancf; }

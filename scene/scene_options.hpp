@@ -261,8 +261,8 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
            "shape of a merged element: weights by the paper's fit, unit weights, weights of the arc that its rest "
            "shape turns by, or weights and slopes by the least change at constant strain energy, or (own) weights by a "
            "rule of the program that links the library, or (relaxed) weights as by default and the outer nodes at the "
-           "least strain energy; if not given, relaxed with sampled axial strain, else rest-arc with an as-built arc "
-           "or NURBS curve, unit with frames and of ropes, point-fit otherwise",
+           "least strain energy; if not given, relaxed with sampled axial strain (of ropes with unit weights), else "
+           "rest-arc with an as-built arc or NURBS curve, unit with frames and of ropes, point-fit otherwise",
            scene.length_control.merge, {.source = "Ding & Ouyang 2022, Eq. 31-38 is point-fit"});
     choice("/length_control/velocities",
            "velocities after length control: nodes keep theirs, or the old field is projected, or projected and scaled "
