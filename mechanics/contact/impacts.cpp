@@ -18,7 +18,7 @@ template <int D>
 void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& y, double t) {
   const auto elements = beam_.masses_at(y, t);
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
-  std::vector<Contact> bearing = contacts;                     // what rests pushes, but does not pull
+  std::vector<Contact> bearing = contacts;                // what rests pushes, but does not pull
   const std::vector<NodeLink<D>> blocks = links_.tied();  // they push and pull
   const auto tied = static_cast<Eigen::Index>(blocks.size());
   while (!bearing.empty()) {
