@@ -7,18 +7,20 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <functional>
 #include <future>
 #include <limits>
+#include <map>
 #include <thread>
 
 #include "scene/names.hpp"
+#include "scene/sample_quantities.hpp"
 #include "scene/shape.hpp"
 #include "studies/harness/checked_run.hpp"
 #include "studies/harness/converge.hpp"
 #include "studies/harness/interrupt.hpp"
 #include "studies/harness/own_sweep.hpp"
 #include "studies/harness/quantity.hpp"
-#include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_library.hpp"
 #include "studies/harness/schema.hpp"
 #include "studies/harness/sweep.hpp"
@@ -156,6 +158,18 @@ class Run {
     return list;
   }
 
+  /// Of every single number over all steps: name to (least, its time, largest, its time); empty where the scene does
+  /// not ask for it.
+  std::map<std::string, std::array<double, 4>> extremes() const {
+    std::map<std::string, std::array<double, 4>> found;
+    if (result_.samples.empty() || !result_.samples.back().extremes) return found;
+    for (const Quantity& quantity : quantities(scene_)) {
+      const Extreme& of = (*result_.samples.back().extremes)[quantity.number];
+      found[quantity.name] = {of.least, of.at_least, of.largest, of.at_largest};
+    }
+    return found;
+  }
+
   std::vector<double> shape_times() const {
     std::vector<double> times;
     for (const Configuration& shape : result_.configurations) times.push_back(shape.t);
@@ -167,9 +181,9 @@ class Run {
     if (points < 1) throw InvalidInput("points", std::to_string(points), "it must be 1 or more");
     const std::vector<ShapePoint> along = points_along(scene_, result_.configurations.at(i), points);
     const auto n = static_cast<py::ssize_t>(along.size());
-    const auto numbers = [&](double ShapePoint::*member) {
+    const auto numbers = [&](const auto& of) {
       std::vector<double> values;
-      for (const ShapePoint& point : along) values.push_back(point.*member);
+      for (const ShapePoint& point : along) values.push_back(std::invoke(of, point));
       return array_of(std::move(values), {n});
     };
     const auto vectors = [&](Point ShapePoint::*member) {
@@ -188,6 +202,9 @@ class Run {
     found["strain"] = numbers(&ShapePoint::strain);
     found["tension"] = numbers(&ShapePoint::tension);
     found["curvature"] = numbers(&ShapePoint::curvature);
+    found["shear"] = numbers([](const ShapePoint& point) { return point.force.shear; });
+    found["moment"] = numbers([](const ShapePoint& point) { return point.force.moment; });
+    found["torque"] = numbers([](const ShapePoint& point) { return point.force.torque; });
     return found;
   }
 
@@ -280,6 +297,7 @@ PYBIND11_MODULE(_vlbeam, module) {
       .def("samples", &Run::samples)
       .def("column", &Run::column)
       .def("columns", &Run::columns)
+      .def("extremes", &Run::extremes)
       .def("shape_times", &Run::shape_times)
       .def("shape", &Run::shape);
   module.def("converge", &converge_text);

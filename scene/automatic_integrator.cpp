@@ -30,10 +30,9 @@ constexpr double steps_an_element = 5;    // while something that is driven pass
 constexpr double steps_of_fading = 10;    // while friction passes through where it fades
 constexpr double steps_of_a_wave = 0.01;  // along the beam, where nothing drives it
 
-// Tolerances of a step over the accuracy asked: errors of many steps add up.
-constexpr double implicit_share = 0.05, explicit_share = 0.05;
-constexpr double share_with_events =
-    0.028;  // where joints pass freely from element to element: a whip multiplies errors
+// Tolerances of a step over the accuracy asked: errors of many steps add up, along a wave, or where a whip multiplies
+// them.
+constexpr double implicit_share = 0.028, explicit_share = 0.05;
 constexpr double largest_explicit_tolerance = 1e-7;  // small motions included
 // What Newton's iteration leaves of a step has one sign: it turns stiff rods, and pushes what slides along a curve.
 constexpr double newton_share = 1e-4, relative_share = 1e-3;
@@ -143,11 +142,7 @@ IntegratorSpec implicit_method(const Scene& scene, double accuracy) {
   spec.rho_inf = automatic_rho_inf;
   spec.newton_tolerance = two_digits(std::clamp(newton_share * accuracy, least_newton_tolerance, 1e-2));
   // what errors of steps add up to falls with the power 2/3 of their tolerance
-  const auto joints = sliding_joints(scene);
-  const bool events = scene.length_control.enabled &&
-                      std::ranges::any_of(joints, [](const SlidingJointSpec& joint) { return !joint.x; });
-  const double share =
-      (events ? share_with_events : implicit_share) * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
+  const double share = implicit_share * std::min(1.0, portable::pow(accuracy / usual_accuracy, 0.75));
   const double length = whole_length(scene), allowed = std::max(share * accuracy, least_tolerance) * length;
   // next to nothing, for positions have no size of their own: it keeps its ratio where tolerances are refined
   spec.rtol = two_digits(std::max(relative_share * allowed / length, least_rtol));

@@ -6,6 +6,7 @@ namespace vlbeam {
 
 /// The accuracy of a run that says none, for which numbers of steps are given.
 constexpr double usual_accuracy = 1e-4;
+constexpr double finest_accuracy = 1e-10, coarsest_accuracy = 1e-2;  ///< that may be asked
 
 /// Longest step of "generalized-alpha" at an accuracy of 1e-4 [s]. It is the least of these times, each over the number
 /// of steps that automatic_integrator.cpp states for it: a swing under gravity over the beam's length; the time in

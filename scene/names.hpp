@@ -83,6 +83,9 @@ constexpr auto names(LoadPlace) {
   using enum LoadPlace;
   return std::to_array<Named<LoadPlace>>({{node, "node"}, {point, "point"}, {beam, "beam"}});
 }
+constexpr auto names(BeamEnd) {
+  return std::to_array<Named<BeamEnd>>({{BeamEnd::start, "start"}, {BeamEnd::end, "end"}});
+}
 constexpr auto names(Winding) {
   return std::to_array<Named<Winding>>({{Winding::stretched, "stretched"}, {Winding::unstretched, "unstretched"}});
 }

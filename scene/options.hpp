@@ -105,6 +105,10 @@ concept OptionalEnum = requires {
 }
 &&NamedEnum<typename T::value_type>&& std::same_as<T, std::optional<typename T::value_type>>;
 
+/// An option that takes a number, or is left out.
+template <class T>
+concept OptionalNumber = std::same_as<T, std::optional<double>> || std::same_as<T, std::optional<int>>;
+
 /// What an option may be, in words: "a number > 0 [m]".
 template <class T>
 std::string allowed_text(const Option& option) {
@@ -115,7 +119,7 @@ std::string allowed_text(const Option& option) {
       if (option.allows(entry.name)) text += (text.empty() ? "\"" : ", \"") + std::string(entry.name) + "\"";
     }
     return (names(T{}).size() > 1 ? "one of " : "") + text;
-  } else if constexpr (OptionalEnum<T>) {
+  } else if constexpr (OptionalEnum<T> || OptionalNumber<T>) {
     return allowed_text<typename T::value_type>(option);
   } else if constexpr (std::same_as<T, bool>) {
     return "true or false";
@@ -134,7 +138,7 @@ std::string allowed_text(const Option& option) {
   } else if constexpr (std::same_as<T, std::vector<Point>>) {
     return "an array of arrays of " + std::to_string(option.components) + " numbers" + unit;
   } else {
-    static_assert(std::same_as<T, double> || std::same_as<T, std::optional<double>>);
+    static_assert(std::same_as<T, double>);
     return "a number" + option.range.text() + unit;
   }
 }

@@ -78,6 +78,44 @@ struct WinchSample {
   double power;    ///< of its push, without the energy that the beam brings along [W]
 };
 
+/// What a cross-section bears. In the plane moment and shear have a sign: a beam that is drawn from left to right sags
+/// under a positive moment, and the shear is the moment's growth along the beam. In space both are magnitudes.
+struct SectionForce {
+  double axial = 0;   ///< along the axis, tension positive [N]
+  double shear = 0;   ///< across it [N]
+  double moment = 0;  ///< of bending [N m]
+  double torque = 0;  ///< about the axis [N m]; of sections that have frames
+  double stress = 0;  ///< largest magnitude by axial force and bending [Pa]; of a section with sizes
+};
+
+/// Least and largest of one of these along the beam, and where [m].
+struct AlongBeam {
+  double least, largest, at_least, at_largest;
+};
+
+/// A place of the scene.
+struct PlaceSample {
+  Point position{};  ///< [m]
+  Point velocity{};  ///< of what is there: the material point, or the joint [m/s]
+  double angle = 0;  ///< see beam_angle() [degrees]
+  SectionForce force;
+};
+
+/// How the sections of a beam are loaded and turned.
+struct SectionSample {
+  std::optional<AlongBeam> axial, moment;          ///< of a beam that bends
+  std::optional<AlongBeam> shear, torque;          ///< without frames; with them
+  std::optional<AlongBeam> stress;                 ///< of a section with sizes
+  std::array<double, 2> angles{};                  ///< of the beam at its start and its end, see beam_angle() [degrees]
+  std::array<std::optional<double>, 2> tension;    ///< there, by what holds it [N]; empty where an end is free
+  std::vector<std::optional<PlaceSample>> places;  ///< of the scene, empty where they are not on the beam
+};
+
+/// The largest and the least value of a quantity until a sample, and when they were [s].
+struct Extreme {
+  double largest, at_largest, least, at_least;
+};
+
 /// The observed quantities at one instant.
 struct Sample {
   double t = 0;                          ///< in statics the number of the equilibrium, from 0
@@ -99,6 +137,8 @@ struct Sample {
   std::vector<SlidingSample> joints;  ///< all of them, where there are several
   std::shared_ptr<const FlowSample> flow;
   std::optional<StaticSample> equilibrium;
+  std::shared_ptr<const SectionSample> sections;
+  std::shared_ptr<const std::vector<Extreme>> extremes;  ///< one a number of this sample, where the scene asks for them
 };
 
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
@@ -137,6 +177,15 @@ struct Configuration {
     std::vector<double> spins;  ///< rates of the angles [rad/s]; with spin
   };
   Rates rates;
+  /// What acts on the beam at one material point: there the moment has a kink, or the shear jumps.
+  struct Action {
+    double x;       ///< material coordinate [m]
+    Point force{};  ///< [N]; matters inside an element
+  };
+  std::vector<Action> actions = {};
+  /// Of sections with frames, at the two Gauss points of an element: moments about the axes y and z of the section, and
+  /// the torque [N m].
+  std::vector<std::array<Point, 2>> moments = {};
 };
 
 /// A length-control event, located in time, with what it cost.

@@ -384,11 +384,24 @@ struct IntegratorSpec {
   std::string reason = {};  ///< why it was chosen
 };
 
+/// An end of the beam.
+enum class BeamEnd { start, end };
+
+/// A place on the beam whose motion and section forces the samples have; one of what says where.
+struct PlaceSpec {
+  std::string name = {};
+  std::optional<double> x = {};        ///< material coordinate [m]
+  std::optional<BeamEnd> end = {};     ///< the node there, wherever a winch moves it to
+  std::optional<int> joint = {};       ///< of /sliding_joints, from 0; the sliding mass is 0
+  std::optional<int> point_mass = {};  ///< of /point_masses, from 0
+};
+
 /// What is recorded.
 struct OutputSpec {
   double interval = 0.005;             ///< [s]
   std::vector<double> configurations;  ///< times [s] at which the whole shape is kept
-  int points = 0;  ///< intervals an element at whose ends the report has the axis of each such shape; 0: none
+  int points = 0;         ///< intervals an element at whose ends the report has the axis of each such shape; 0: none
+  bool extremes = false;  ///< of each quantity of the samples over all steps, and when
 };
 
 /// What is computed of a scene.
@@ -442,6 +455,7 @@ struct Scene {
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};
   std::vector<PointMassSpec> point_masses = {};
+  std::vector<PlaceSpec> places = {};
   std::optional<InitialVelocitySpec> initial_velocity;
   std::optional<DragSpec> drag = {};
   std::optional<FluidSpec> fluid = {};

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/automatic_integrator.hpp"
 #include "scene/beam_options.hpp"
 #include "scene/joint_options.hpp"
 #include "scene/option_lines.hpp"
@@ -25,6 +26,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     flow();
     loads();
     point_masses();
+    places();
     initial_velocity();
     drag();
     fluid();
@@ -152,6 +154,24 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
       choice(follows, "whether a moment in space turns with the section; else its axis stays as it is", load.follows,
              {.when = is_moment});
       time_function(at + "/turn", "rad", load.turn, is_force);
+    }
+  }
+
+  void places() {
+    list("/places", "places on the beam whose motion and section forces the samples have, by their names",
+         scene.places);
+    for (std::size_t i = 0; i < scene.places.size(); ++i) {
+      auto& place = scene.places[i];
+      const std::string at = "/places/" + std::to_string(i);
+      choice(at + "/name", "letters, digits and underscores, another one for each place", place.name,
+             {.required = true});
+      number(at + "/x", "m", Range::non_negative(),
+             "material coordinate; or one of the keys below. Where something acts the forces are those just before it",
+             place.x);
+      choice(at + "/end", "an end of the beam", place.end);
+      number(at + "/joint", "-", Range::non_negative(), "number of a sliding joint, from 0; the sliding mass is 0",
+             place.joint);
+      number(at + "/point_mass", "-", Range::non_negative(), "number of a point mass, from 0", place.point_mass);
     }
   }
 
@@ -315,7 +335,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
 
   void integrator() {
     const std::string_view integrator_type = "/integrator/type";
-    number("/integrator/accuracy", "-", Range::closed(1e-10, 1e-2),
+    number("/integrator/accuracy", "-", Range::closed(finest_accuracy, coarsest_accuracy),
            "of positions in time, over the beam's length; what moves by less than a tenth of that is followed in "
            "proportion, down to 1e-6 of the length; what else the integrator needs is chosen for it; excludes all "
            "other keys",
@@ -392,6 +412,10 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
            "intervals an element: the report then has, for each shape that is kept, points along the axis with "
            "velocity, strain, curvature and tension; 0 for none",
            scene.output.points);
+    choice("/output/extremes",
+           "whether the largest and the least value of each quantity of the samples is looked for at every step, with "
+           "its time",
+           scene.output.extremes, in_motion());
   }
 };
 

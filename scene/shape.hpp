@@ -17,6 +17,7 @@ struct ShapePoint {
   double strain = 0;     ///< axial [-]
   double tension = 0;    ///< axial force, damping included [N]
   double curvature = 0;  ///< magnitude [1/m]
+  SectionForce force;    ///< as samples have it: better than what the element says of one of its points
 };
 
 /// The axis of a beam in one of its configurations: `per_element` + 1 points on each element, equally spaced between

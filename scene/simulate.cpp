@@ -10,11 +10,13 @@
 #include "scene/build.hpp"
 #include "scene/build_winch.hpp"
 #include "scene/energy_ledger.hpp"
+#include "scene/extremes.hpp"
 #include "scene/friction_watch.hpp"
 #include "scene/initial_equilibrium.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/plausibility.hpp"
 #include "scene/run_support.hpp"
+#include "scene/section_sample.hpp"
 #include "scene/stiffness.hpp"
 #include "scene/validate.hpp"
 
@@ -77,15 +79,20 @@ class Run {
         output_(output),
         stops_(scene),
         system_(build_model<D>(scene), chain),
-        friction_(system_.model()) {
+        friction_(system_.model()),
+        places_(resolved_places(scene)) {
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_.on_step = [this](double t) {
       ++steps_;
       return !progress_ || progress_(t);
     };
     system_.on_event = [this](const EventRecord<D>& record) { event(record); };
-    if (friction_.watches()) {
-      system_.on_state = [this](const Eigen::VectorXd& y, double t) { friction_.step(system_, y, t); };
+    if (scene.output.extremes) extremes_.emplace(scene);
+    if (friction_.watches() || extremes_) {
+      system_.on_state = [this](const Eigen::VectorXd& y, double t) {
+        if (friction_.watches()) friction_.step(system_, y, t);
+        if (extremes_) extremes_->add(seen(y, t).sample);
+      };
     }
   }
 
@@ -108,17 +115,17 @@ class Run {
 
  private:
   void keep_shape(const Eigen::VectorXd& y, double t) {
-    const ChainState<D> chain = system_.chain(y, t);
-    Configuration shape = configuration_of(chain, t, weight_transport(scene_));
+    Configuration shape = shape_of(scene_, system_, y, t, system_.forces(y, t));
     const Spin* const spin = spin_of(system_);
-    for (int k = 0; spin != nullptr && k <= chain.mesh.last(); ++k) {
+    for (std::size_t k = 0; spin != nullptr && k < shape.x.size(); ++k) {
       const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
       if (system_.marks() != nullptr) {
-        shape.angles.push_back(angles[spin->angle(k)]);
-        shape.rates.spins.push_back(rates[spin->angle(k)]);
+        const Eigen::Index angle = spin->angle(static_cast<int>(k));
+        shape.angles.push_back(angles[angle]);
+        shape.rates.spins.push_back(rates[angle]);
         continue;
       }
-      const auto section = spin->section(angles, rates, chain.mesh.x[static_cast<std::size_t>(k)]).at;
+      const auto section = spin->section(angles, rates, shape.x[k]).at;
       shape.angles.push_back(section.angle);
       shape.rates.spins.push_back(section.spin);
     }
@@ -129,28 +136,19 @@ class Run {
     const auto started = std::chrono::steady_clock::now();
     if (stops_.keeps_shape_at(t)) keep_shape(y, t);
     if (stops_.samples_at(t)) {
-      const Observation<D> seen = system_.observe(y, t, ledger_points, true);
-      const Observation<D> own = system_.observe(y, t, own_points);
-      Sample sample;
-      sample.t = t;
-      sample.end = point_of<D>(position<D>(y.data(), system_.mesh().last()));
-      sample.beam_length = seen.beam_length;
-      sample.beam_length_rate = seen.beam_length_rate;
-      sample.energy = seen.energy;
-      sample.discrete_total = own.energy.total();
-      sample.momentum = point_of<D>(seen.momentum);
-      sample.angular_momentum = point_of<3>(seen.angular_momentum);
-      sample.strains = strain_sample(*seen.extremes);
-      const OuterForces<D> forces = system_.forces(y, t);
-      if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
-      for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
-      look_at_mass(y, forces, sample);
+      auto [sample, supplied] = seen(y, t);
+      if (extremes_) {
+        extremes_->add(sample);
+        sample.extremes = std::make_shared<const std::vector<Extreme>>(extremes_->all());
+      }
+      const ConstraintResidual slopes = system_.slope_residual(y);
+      result_.slopes.position = std::max(result_.slopes.position, slopes.position);
+      result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
       if (result_.samples.empty()) {
         first_total_ = sample.discrete_total;
         sample.equilibrium = start_;
       }
-      result_.max_kinetic = std::max(result_.max_kinetic, seen.energy.kinetic);
-      const double supplied = sample.energy.supplied + seen.load_work + seen.end_work + seen.mesh_work;
+      result_.max_kinetic = std::max(result_.max_kinetic, sample.energy.kinetic);
       const double gain = sample.discrete_total - supplied - first_total_ - jumps_;
       result_.max_energy_drift = std::max(result_.max_energy_drift, std::abs(gain));
       result_.samples.push_back(std::move(sample));
@@ -158,6 +156,33 @@ class Run {
       if (steps_ >= steps_unjudged) check_source_of_energy(scene_, most_energy_, gain, t);
     }
     observing_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  /// A sample of a state, and what was supplied to the beam until then [J].
+  struct Seen {
+    Sample sample;
+    double supplied;
+  };
+  Seen seen(const Eigen::VectorXd& y, double t) {
+    const Observation<D> seen = system_.observe(y, t, ledger_points, true);
+    const Observation<D> own = system_.observe(y, t, own_points);
+    Sample sample;
+    sample.t = t;
+    sample.end = point_of<D>(position<D>(y.data(), system_.mesh().last()));
+    sample.beam_length = seen.beam_length;
+    sample.beam_length_rate = seen.beam_length_rate;
+    sample.energy = seen.energy;
+    sample.discrete_total = own.energy.total();
+    sample.momentum = point_of<D>(seen.momentum);
+    sample.angular_momentum = point_of<3>(seen.angular_momentum);
+    sample.strains = strain_sample(*seen.extremes);
+    const OuterForces<D> forces = system_.forces(y, t);
+    if (has_flow_sample(scene_)) sample.flow = flow_sample(y, t, seen, forces);
+    for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+    look_at_mass(y, forces, sample);
+    sample.sections =
+        section_sample(scene_, places_, system_, y, shape_of(scene_, system_, y, t, forces), forces, sample.winches);
+    return {std::move(sample), seen.energy.supplied + seen.load_work + seen.end_work + seen.mesh_work};
   }
 
   void look_at_mass(const Eigen::VectorXd& y, const OuterForces<D>& forces, Sample& sample) {
@@ -187,9 +212,6 @@ class Run {
     };
     if (scene_.start.pays_out()) sample.winches[0] = winch(true);
     if (scene_.end.pays_out()) sample.winches[1] = winch(false);
-    const ConstraintResidual slopes = system_.slope_residual(y);
-    result_.slopes.position = std::max(result_.slopes.position, slopes.position);
-    result_.slopes.velocity = std::max(result_.slopes.velocity, slopes.velocity);
   }
 
   std::shared_ptr<const FlowSample> flow_sample(const Eigen::VectorXd& y, double t, const Observation<D>& seen,
@@ -275,6 +297,8 @@ class Run {
   Stops stops_;
   BeamSystem<D> system_;
   FrictionWatch<D> friction_;
+  std::vector<PlaceSpec> places_;
+  std::optional<Extremes> extremes_;
   RunResult result_;
   std::optional<StaticSample> start_;
   int steps_ = 0;
@@ -316,6 +340,9 @@ RunResult simulate(const Scene& scene, const ProgressCallback& progress, const C
   validate(scene);
   if (checkpoints != nullptr && scene.analysis == Analysis::statics) {
     refuse("/analysis", "\"statics\" with checkpoints", "they are of runs in time");
+  }
+  if (checkpoints != nullptr && scene.output.extremes) {
+    refuse("/output/extremes", "true with checkpoints", "no checkpoint holds them: leave out one of the two");
   }
   RunResult result = of_scene([&] {
     return scene.dimension == 2 ? simulate_in<2>(scene, progress, checkpoints, output)

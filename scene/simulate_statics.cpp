@@ -5,12 +5,14 @@
 #include "scene/build.hpp"
 #include "scene/initial_equilibrium.hpp"
 #include "scene/run_support.hpp"
+#include "scene/section_sample.hpp"
 
 namespace vlbeam {
 namespace {
 
 template <int D>
-Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number, const Scene& scene) {
+Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number, const Scene& scene,
+                     const std::vector<PlaceSpec>& places, const OuterForces<D>& forces, const Configuration& shape) {
   const std::size_t joints = sliding_joints(scene).size();
   const auto seen = system.observe(at.y, at.factor, ledger_points, true);
   const ChainState<D> chain = system.chain(at.y, number);
@@ -22,8 +24,8 @@ Sample static_sample(BeamSystem<D>& system, const Equilibrium& at, double number
   sample.energy = seen.energy;
   sample.discrete_total = system.observe(at.y, at.factor, own_points).energy.total();
   sample.strains = strain_sample(*seen.extremes);
-  const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
   for (std::size_t i = 0; i < 2; ++i) sample.reactions[i] = reaction_of<D>(forces.supports[i]);
+  sample.sections = section_sample(scene, places, system, at.y, shape, forces, {});
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const auto& joint = chain.joints[i];
     const auto index = static_cast<std::size_t>(joint.index);
@@ -57,13 +59,17 @@ template <int D>
 RunResult simulate_statics(const Scene& scene, const std::function<bool(double t)>& progress, const RunOutput& output) {
   BeamSystem<D> system(build_model<D>(scene), build_chain<D>(scene));
   const StaticsSpec& statics = scene.statics;
+  const std::vector<PlaceSpec> places = resolved_places(scene);
   RunResult result;
   std::optional<Equilibrium> last;
   const auto started = std::chrono::steady_clock::now();
   const auto on_point = [&](const Equilibrium& at) {
     const auto number = static_cast<double>(result.samples.size());
-    result.samples.push_back(static_sample(system, at, number, scene));
-    output.add(configuration_of(system.chain(at.y, number), number, weight_transport(scene)), result);
+    const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
+    Configuration shape = shape_of(scene, system, at.y, at.factor, forces);
+    shape.t = number;
+    result.samples.push_back(static_sample(system, at, number, scene, places, forces, shape));
+    output.add(std::move(shape), result);
     last = at;
     const bool goes_on = !progress || progress(at.factor);
     if (!goes_on) result.status = RunStatus::interrupted;

@@ -1,6 +1,7 @@
 #include "scene/validate.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -62,7 +63,7 @@ class RangeCheck {
   static void check(const Option& option, const Part& part, const std::string& field) {
     if constexpr (std::same_as<Part, double> || std::same_as<Part, int>) {
       if (!option.range.contains(part)) refuse(field, number_text(part), "it must be " + allowed_text<T>(option));
-    } else if constexpr (std::same_as<Part, std::optional<double>>) {
+    } else if constexpr (OptionalNumber<Part>) {
       if (part) check<T>(option, *part, field);
     } else if constexpr (!NamedEnum<Part> && !OptionalEnum<Part> && !std::same_as<Part, bool> &&
                          !std::same_as<Part, std::string>) {
@@ -444,6 +445,37 @@ void check_output(const Scene& scene) {
   }
 }
 
+void check_places(const Scene& scene) {
+  const auto joints = static_cast<int>(sliding_joints(scene).size());
+  const auto masses = static_cast<int>(scene.point_masses.size());
+  for (std::size_t i = 0; i < scene.places.size(); ++i) {
+    const PlaceSpec& place = scene.places[i];
+    const std::string at = "/places/" + std::to_string(i);
+    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    if (place.name.empty() || !std::ranges::all_of(place.name, letter)) {
+      refuse(at + "/name", "\"" + place.name + "\"", "it must be letters, digits and underscores");
+    }
+    const auto first = std::ranges::find(scene.places, place.name, &PlaceSpec::name) - scene.places.begin();
+    if (first != static_cast<std::ptrdiff_t>(i)) {
+      refuse(at + "/name", "\"" + place.name + "\"", "place " + std::to_string(first) + " has that name");
+    }
+    const int given = (place.x ? 1 : 0) + (place.end ? 1 : 0) + (place.joint ? 1 : 0) + (place.point_mass ? 1 : 0);
+    if (given != 1) {
+      refuse(at, std::to_string(given) + " keys that say where", "it must have one of x, end, joint and point_mass");
+    }
+    const auto of_list = [&](const std::optional<int>& number, const char* key, int count, const char* what) {
+      if (!number || *number < count) return;
+      refuse(at + "/" + key, std::to_string(*number),
+             "the scene has " + std::to_string(count) + " " + what + ", numbered from 0");
+    };
+    of_list(place.joint, "joint", joints, "sliding joints");
+    of_list(place.point_mass, "point_mass", masses, "point masses");
+    if (place.x && !fed(scene) && !scene.flow && *place.x > beam_length(scene)) {
+      refuse(at + "/x", number_text(*place.x), "the beam ends at " + number_text(beam_length(scene)) + " m");
+    }
+  }
+}
+
 void check_all(const Scene& scene) {
   visit_options(RangeCheck{}, scene);
   check_plane(scene);
@@ -460,6 +492,7 @@ void check_all(const Scene& scene) {
   validate_surroundings(scene);
   validate_feeds(scene);
   check_output(scene);
+  check_places(scene);
   validate_loads(scene);
   scene.dimension == 2 ? check_initial_velocity<2>(scene) : check_initial_velocity<3>(scene);
   check_equilibrium(scene);

@@ -126,14 +126,10 @@ class FrameElement {
   FrameForce<Real> force(const Real& inner) const;
   /// The derivative of a strain: of y, z and torsion at the first point of the table, then at the second.
   FrameForce<Real> derivative(std::size_t strain, const Real& inner) const;
-  /// The largest curvature of both points, from the rest shape [1/m].
-  double bent(double inner) const {
-    double largest = 0;
-    for (std::size_t g = 0; g < 2; ++g) {
-      const FrameStrain<double> at = strain(g, inner), &rest = table_.points[g].rest;
-      largest = std::max(largest, portable::hypot(at.y - rest.y, at.z - rest.z));
-    }
-    return largest;
+  /// At a point of the table, from the rest shape [1/m].
+  FrameStrain<double> from_rest(std::size_t g, double inner) const {
+    const FrameStrain<double> at = strain(g, inner), &rest = table_.points[g].rest;
+    return {at.y - rest.y, at.z - rest.z, at.torsion - rest.torsion};
   }
 
  private:

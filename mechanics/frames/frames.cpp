@@ -391,9 +391,33 @@ Frames::Seen Frames::observe(const double* q, const double* rate) const {
     const auto energy = element.energy(inner);
     seen.bending += energy[0];
     seen.torsion += energy[1];
-    seen.curvature = std::max(seen.curvature, element.bent(inner));
+    for (std::size_t g = 0; g < 2; ++g) seen.add(element.from_rest(g, inner));
   }
   return seen;
+}
+
+std::vector<std::array<FrameStrain<double>, 2>> Frames::moments(const double* q) const {
+  look(q);
+  std::vector<std::array<FrameStrain<double>, 2>> all(static_cast<std::size_t>(elements()));
+  for (int k = 0; k < elements(); ++k) {
+    if (slides(k)) continue;
+    const auto i = static_cast<std::size_t>(k);
+    const FrameElement<double> element(tables_[i], model_.section, frame_ends(nodes_[i], nodes_[i + 1], turned(q, k)));
+    const double inner = element.inner();
+    all[i] = {element.from_rest(0, inner), element.from_rest(1, inner)};
+  }
+  for (const Sliding& sliding : sliding_) {
+    all[static_cast<std::size_t>(sliding.element)] = element_at(sliding, q).from_rest();
+  }
+  const FrameSection& section = model_.section;
+  for (auto& element : all) {
+    for (auto& [y, z, torsion] : element) {
+      y *= section.EI_y;
+      z *= section.EI_z;
+      torsion *= section.GIp;
+    }
+  }
+  return all;
 }
 
 }  // namespace vlbeam

@@ -98,8 +98,13 @@ class Frames final : public Part<3> {
     double kinetic = 0, bending = 0, torsion = 0;      ///< [J]
     Vec<double, 3> momentum = Vec<double, 3>::Zero();  ///< angular [kg m^2/s]
     double curvature = 0;                              ///< largest, from the rest shape [1/m]
+
+    void add(const FrameStrain<double>& bent) { curvature = std::max(curvature, portable::hypot(bent.y, bent.z)); }
   };
   Seen observe(const double* q, const double* rate) const;
+  /// Moments about the section's axes y and z and about the tangent, of each element at its two Gauss points, without
+  /// damping [N m].
+  std::vector<std::array<FrameStrain<double>, 2>> moments(const double* q) const;
 
  private:
   FrameNode node(const double* q, int k) const;

@@ -326,7 +326,7 @@ void Frames::observe_sliding(const double* q, const double* rate, Seen& seen) co
     const auto energy = element.energy();
     seen.bending += energy[0];
     seen.torsion += energy[1];
-    seen.curvature = std::max(seen.curvature, element.curvature());
+    for (const FrameStrain<double>& bent : element.from_rest()) seen.add(bent);
     const MovingFrameSpin<double> spin = spin_of(sliding, q, rate);
     seen.kinetic += spin.kinetic;
     seen.momentum +=

@@ -217,10 +217,14 @@ std::array<double, 2> MovingFrame::energy() const {
   return {scale() * of_unit[0], scale() * of_unit[1]};
 }
 
-double MovingFrame::curvature() const {
+std::array<FrameStrain<double>, 2> MovingFrame::from_rest() const {
   const FrameElement<double> element(table_, section_, ends_);
-  const double largest = element.bent(element.inner());
-  return exponent() > 0 ? largest : largest / l_;
+  const double inner = element.inner(), per_length = exponent() > 0 ? 1 : l_;
+  const auto at = [&](std::size_t g) -> FrameStrain<double> {
+    const FrameStrain<double> strain = element.from_rest(g, inner);
+    return {strain.y / per_length, strain.z / per_length, strain.torsion / per_length};
+  };
+  return {at(0), at(1)};
 }
 
 std::array<double, 2> MovingFrame::angles() const {

@@ -48,8 +48,8 @@ class MovingFrame {
   MovingFrameMatrix tangent() const;
   /// [J], of bending and of torsion.
   std::array<double, 2> energy() const;
-  /// Largest curvature, from the rest shape [1/m].
-  double curvature() const;
+  /// At both points of its table, from the rest shape [1/m].
+  std::array<FrameStrain<double>, 2> from_rest() const;
 
  private:
   /// Power of l in the energy.

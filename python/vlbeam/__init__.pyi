@@ -42,6 +42,16 @@ class Extremes:
     min: Array
     max: Array
 
+class Along:
+    min: Array
+    max: Array
+    x_min: Array
+    x_max: Array
+
+class Ends:
+    start: Array
+    end: Array
+
 class Result:
     t: Array
     joint_position: Array
@@ -57,6 +67,13 @@ class Result:
     axial_strain: Extremes
     axial_force: Extremes
     curvature: Extremes
+    bending_moment: Along
+    shear_force: Along
+    torque: Along
+    stress: Along
+    angles: Ends
+    tension: Ends
+    places: Any
     reactions: Any
     flow: Any
     units: dict[str, str]
@@ -75,6 +92,8 @@ class Result:
     def warnings(self) -> list[Record]: ...
     @property
     def events(self) -> list[Record]: ...
+    @property
+    def extremes(self) -> dict[str, Record]: ...
     @property
     def shape_times(self) -> list[float]: ...
     def shape(self, index: int, points: int = 8) -> Record: ...

@@ -131,6 +131,14 @@ class Result(_Group):
         return [name for name, _ in self._run.columns()]
 
     @property
+    def extremes(self):
+        """Least and largest of each number over all steps, by name: a record with `least`, `least_at` [s], `largest` and
+        `largest_at` [s]. Empty unless the scene asks for them: `scene.output.extremes = True`.
+        """
+        keys = ("least", "least_at", "largest", "largest_at")
+        return {name: Record(zip(keys, values)) for name, values in self._run.extremes().items()}
+
+    @property
     def shape_times(self):
         """Times [s] at which the whole shape was kept: those of /output/configurations."""
         return self._run.shape_times()
@@ -139,7 +147,8 @@ class Result(_Group):
         """One shape that was kept, as points along the axis, `points` intervals an element.
 
         Gives a record with t [s] and arrays over the n points: x [m], the material coordinate, shape (n,); r [m], r_x [-]
-        and v [m/s], shape (n, dimension); strain [-], tension [N] and curvature [1/m], shape (n,).
+        and v [m/s], shape (n, dimension); strain [-], tension [N], curvature [1/m], shear [N], moment [N m] and torque [N m], shape
+        (n,).
         """
         times = self._run.shape_times()
         if not -len(times) <= index < len(times):

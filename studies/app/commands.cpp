@@ -111,6 +111,8 @@ int run_command(const RunArguments& arguments) {
   if (!arguments.vtk.empty()) check_vtk_folder("--vtk", arguments.vtk);
   Scene scene = read_scene(arguments.scene);
   const bool in_time = scene.analysis == Analysis::dynamics;
+  if (arguments.extremes && !in_time) refuse("--extremes", "of a scene in statics", "they are over time: leave it out");
+  scene.output.extremes = scene.output.extremes || arguments.extremes;
   if (arguments.frames > 0) {
     if (!in_time) refuse("--frames", std::to_string(arguments.frames), "statics keep every equilibrium: leave it out");
     add_frames(scene, arguments.frames);

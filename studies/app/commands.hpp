@@ -29,6 +29,7 @@ struct RunArguments {
   int frames = 0;                   ///< shapes to keep besides those of the scene, evenly in time
   int threads = 0;                  ///< at work on a long beam; 0: one a processor, four at most
   std::optional<bool> check;        ///< run companions that tell its error; else where the integrator is automatic
+  bool extremes = false;            ///< of all quantities over all steps, whatever the scene says
   bool force = false;               ///< a run that did not end well may replace an earlier result
   bool quiet = false;               ///< no summary on standard error
 };

@@ -72,6 +72,8 @@ int dispatch(int argc, char** argv) {
   run->add_option("--frames", run_arguments.frames,
                   "Keep this many more shapes, evenly in time: for animations and fields")
       ->check(CLI::Range(2, 10000));
+  run->add_flag("--extremes", run_arguments.extremes,
+                "Largest and least value of each quantity over all steps, and when: in the summary and the report");
   CLI::Option* checkpoint = run->add_option("--checkpoint", run_arguments.checkpoint,
                                             "Write here what the run can go on from: when it is stopped, and --every");
   run->add_option("--every", run_arguments.every, "Simulated time between checkpoints [s]")
@@ -171,8 +173,8 @@ int dispatch(int argc, char** argv) {
   CLI::App* plot = app.add_subcommand("plot", "Draw the report of a run or of converge, with gnuplot");
   plot->add_option("report", plot_arguments.report, "Report file")->required();
   plot->add_option("--what", plot_arguments.what,
-                   "shape (default), energy, tip, joint, strain, tension, curvature; strain-field, tension-field, "
-                   "curvature-field, over the beam and time; or animation");
+                   "shape (default), energy, tip, joint; along the beam strain, tension, curvature, moment, shear and "
+                   "torque; these with -field over the beam and time, with -envelope least and largest; or animation");
   plot->add_option("--quantity", plot_arguments.quantities, "Draw quantities of one unit against time instead");
   plot->add_option("-o,--out", plot_arguments.figure,
                    "Figure: a name ending in .svg, .png or .pdf; an animation .gif or .mp4")

@@ -96,12 +96,13 @@ bool possible(const Scene& scene) {
   }
 }
 
-/// The scene with its integrator as one that somebody wrote, so that nothing is chosen anew.
-Scene as_chosen(const Scene& scene) {
-  Scene chosen = scene;
-  chosen.integrator.automatic = false;
-  chosen.output.configurations.clear();
-  return chosen;
+/// The scene without what is kept of it for its user. An automatic integrator stays one: by it steps follow turns and
+/// ramps, in companions, too.
+Scene unseen(const Scene& scene) {
+  Scene same = scene;
+  same.output.configurations.clear();
+  same.output.extremes = false;
+  return same;
 }
 
 bool refines_tolerance(const Scene& scene) {
@@ -125,9 +126,9 @@ using Companions = std::vector<std::unique_ptr<Seen>>;
 Companions in_time(const Scene& scene) {
   Companions list;
   if (scene.analysis == Analysis::statics) return list;
-  const Scene chosen = as_chosen(scene);
+  const Scene same = unseen(scene);
   for (const double ratio : {step_ratio, step_ratio * step_ratio}) {
-    const Scene coarser = longer_steps(chosen, ratio);
+    const Scene coarser = longer_steps(same, ratio);
     if (!possible(coarser)) break;
     list.push_back(std::make_unique<Seen>(Seen{coarser, step_ratio}));
   }
@@ -138,13 +139,13 @@ Companions of_mesh(const Scene& scene) {
   Companions list;
   // along a path by arc length no two meshes have equilibria of equal load
   if (scene.analysis == Analysis::statics && scene.statics.control == LoadControl::arc_length) return list;
-  const Scene chosen = as_chosen(scene);
+  const Scene same = unseen(scene);
   const int n = scene.beam.elements, points = quadrature_points(scene);
   int before = n;
   const auto add = [&](int elements) {
     if (elements >= before || elements < fewest_elements || list.size() == 2) return;
     try {
-      const Scene coarser = on_mesh(chosen, elements, points);
+      const Scene coarser = on_mesh(same, elements, points);
       validate(coarser);
       list.push_back(std::make_unique<Seen>(Seen{coarser, static_cast<double>(before) / elements}));
       before = elements;

@@ -54,7 +54,9 @@ double coarser(const Scene& scene, double accuracy) { return accuracy * (has_ste
 class Converger {
  public:
   Converger(const Scene& scene, const ConvergeOptions& options)
-      : options_(options), scene_(scene), quantity_(find_quantity(scene, options.quantity)) {
+      : options_(options),
+        scene_(keeping(scene, options.quantity)),
+        quantity_(find_quantity(scene_, options.quantity)) {
     if (scene.analysis == Analysis::statics) {
       throw InvalidInput("/analysis", "\"statics\"",
                          "converge refines motions: refine the mesh of an equilibrium with vlbeam sweep, over "

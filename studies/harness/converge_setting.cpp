@@ -78,6 +78,10 @@ Scene with_tolerance(const Scene& scene, double share) {
   IntegratorSpec& integrator = changed.integrator;
   // where the longest step allowed holds, the tolerance alone would refine nothing
   if (integrator.adaptive) integrator.step = std::min(integrator.step * portable::cbrt(share), scene.duration);
+  if (integrator.automatic) {  // by it steps follow turns and ramps
+    integrator.accuracy =
+        std::clamp(integrator.accuracy * portable::pow(share, 2.0 / 3), finest_accuracy, coarsest_accuracy);
+  }
   integrator.rtol = std::max(integrator.rtol * share, least_rtol);
   integrator.atol *= share;
   if (auto& atol = integrator.atol_by_kind) {

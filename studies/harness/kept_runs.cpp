@@ -33,10 +33,12 @@ fs::path file_of(const Scene& scene) {
   return current->folder / (std::string(name.data()) + ".checkpoint");
 }
 
-/// Beside the scene goes what its options do not say: who has chosen the integrator.
+/// Beside the scene goes what its options do not say: who has chosen the integrator, for which accuracy.
 RunResult simulate_apart(const Scene& scene, const ProgressCallback& progress) {
-  const Json asked{
-      {"scene", scene_to_json(scene)}, {"automatic", scene.integrator.automatic}, {"assumed", scene.assumed}};
+  const Json asked{{"scene", scene_to_json(scene)},
+                   {"automatic", scene.integrator.automatic},
+                   {"accuracy", scene.integrator.accuracy},
+                   {"assumed", scene.assumed}};
   const ProcessResult process = run_process(
       {current->program, "kept-run", current->folder.string()}, [&progress] { return progress && !progress(0); },
       asked.dump());
@@ -89,6 +91,7 @@ std::string answer_of_kept_run(const fs::path& folder, const std::string& asked,
     const Json json = parse_json(asked);
     Scene scene = scene_from_json(json.at("scene"));
     scene.integrator.automatic = json.at("automatic");
+    scene.integrator.accuracy = json.at("accuracy");
     scene.assumed = json.at("assumed");
     return simulate_kept(scene, progress);
   }));

@@ -161,7 +161,7 @@ SweepPlan plan_from(Json file, const fs::path& folder) {
     if (i == 0) {
       plan.quantities = plan.file.value("quantities", default_quantities(scene));
     }
-    for (const std::string& name : plan.quantities) find_quantity(scene, name, "/quantities");
+    for (const std::string& name : plan.quantities) find_quantity(keeping(scene, name), name, "/quantities");
     plan.cases.push_back(std::move(item));
   }
   return plan;
@@ -233,7 +233,8 @@ Json run_sweep_case(const SweepPlan& plan, std::size_t i) {
   const SweepCase& item = plan.cases.at(i);
   Json json = {{"case", i}, {"options", item.options}};
   try {
-    const Scene scene = scene_from_json(item.scene);
+    Scene scene = scene_from_json(item.scene);
+    for (const std::string& name : plan.quantities) scene = keeping(scene, name);
     const RunResult result = simulate(scene, [](double) { return !interrupted(); });
     if (result.status == RunStatus::interrupted) return {};
     json["status"] = to_string(result.status);
@@ -283,7 +284,8 @@ std::size_t SweepFolder::collect() const {
   const Scene first = scene_from_json(plan_.cases.front().scene);
   for (const auto& item : plan_.cases.front().options.items()) table += "," + cell(item.key());
   table += ",status,t [s]";
-  for (const std::string& name : plan_.quantities) table += "," + name + " [" + find_quantity(first, name).unit + "]";
+  for (const std::string& name : plan_.quantities)
+    table += "," + name + " [" + find_quantity(keeping(first, name), name).unit + "]";
   table += ",events,rhs_evaluations\n";
   std::size_t unwell = 0;
   for (std::size_t i = 0; i < plan_.cases.size(); ++i) {

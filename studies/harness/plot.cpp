@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -172,8 +173,26 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
   return diagram;
 }
 
+/// What stands along a shape.
+using AlongShape = std::function<double(const ShapePoint&)>;
+struct AlongKind {
+  const char* name;
+  const char* label;
+  AlongShape of;
+};
+const std::vector<AlongKind>& along_kinds() {
+  static const std::vector<AlongKind> kinds{
+      {"strain", "axial strain (-)", &ShapePoint::strain},
+      {"tension", "axial force (N)", &ShapePoint::tension},
+      {"curvature", "curvature from the rest shape (1/m)", &ShapePoint::curvature},
+      {"moment", "bending moment (N m)", [](const ShapePoint& point) { return point.force.moment; }},
+      {"shear", "shear force (N)", [](const ShapePoint& point) { return point.force.shear; }},
+      {"torque", "torque (N m)", [](const ShapePoint& point) { return point.force.torque; }}};
+  return kinds;
+}
+
 /// A quantity along the beam, at the times kept.
-Diagram along_diagram(const RunFile& run, double ShapePoint::*member, const std::string& label) {
+Diagram along_diagram(const RunFile& run, const AlongShape& member, const std::string& label) {
   Diagram diagram{.title = title_of(run),
                   .x_label = "material coordinate (m)",
                   .y_label = label,
@@ -187,7 +206,7 @@ Diagram along_diagram(const RunFile& run, double ShapePoint::*member, const std:
     series.title = time.data();
     for (const ShapePoint& point : points_along(run.scene, shape, intervals(run))) {
       series.x.push_back(point.x);
-      series.y.push_back(point.*member);
+      series.y.push_back(member(point));
     }
     diagram.series.push_back(std::move(series));
   }
@@ -237,7 +256,7 @@ Diagram history_diagram(const RunFile& run, const std::vector<std::string>& name
 }
 
 /// A quantity along the beam and over time, by the shapes that were kept.
-Diagram field_diagram(const RunFile& run, double ShapePoint::*member, const std::string& label) {
+Diagram field_diagram(const RunFile& run, const AlongShape& member, const std::string& label) {
   constexpr std::size_t points = 120;
   const auto shapes = shapes_of(run);
   if (shapes.size() < 2) {
@@ -256,7 +275,7 @@ Diagram field_diagram(const RunFile& run, double ShapePoint::*member, const std:
       while (k + 2 < along.size() && along[k + 1].x < xs[i]) ++k;
       const double step = along[k + 1].x - along[k].x;
       const double u = step > 0 ? std::clamp((xs[i] - along[k].x) / step, 0.0, 1.0) : 0;
-      values[i] = (1 - u) * along[k].*member + u * along[k + 1].*member;
+      values[i] = (1 - u) * member(along[k]) + u * member(along[k + 1]);
     }
     diagram.field.x.push_back(shape.t);
     diagram.field.y.push_back(std::move(xs));
@@ -265,11 +284,42 @@ Diagram field_diagram(const RunFile& run, double ShapePoint::*member, const std:
   return diagram;
 }
 
+/// The least and the largest at each material coordinate, of the shapes that were kept.
+Diagram envelope_diagram(const RunFile& run, const AlongShape& member, const std::string& label) {
+  const Diagram all = field_diagram(run, member, label);
+  Series least{"least", {}, {}}, largest{"largest", {}, {}};
+  for (std::size_t i = 0; i < all.field.y.front().size(); ++i) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& values : all.field.values) {
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+    for (Series* const series : {&least, &largest}) series->x.push_back(all.field.y.back()[i]);
+    least.y.push_back(low);
+    largest.y.push_back(high);
+  }
+  return {.title = title_of(run) + ", envelope of " + std::to_string(all.field.x.size()) + " shapes",
+          .x_label = "material coordinate (m)",
+          .y_label = label,
+          .series = {largest, least}};
+}
+
+/// The kind of this name and suffix, or null.
+const AlongKind* kind_of(const std::string& what, const std::string& suffix) {
+  const auto found =
+      std::ranges::find_if(along_kinds(), [&](const AlongKind& kind) { return kind.name + suffix == what; });
+  return found == along_kinds().end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::vector<std::string> plot_kinds() {
-  return {"shape",     "energy",       "tip",           "joint",           "strain",   "tension",
-          "curvature", "strain-field", "tension-field", "curvature-field", "animation"};
+  std::vector<std::string> kinds{"shape", "energy", "tip", "joint"};
+  for (const char* const suffix : {"", "-field", "-envelope"}) {
+    for (const AlongKind& kind : along_kinds()) kinds.push_back(kind.name + std::string(suffix));
+  }
+  kinds.emplace_back("animation");
+  return kinds;
 }
 
 void plot_run(const RunFile& run, const std::string& what, const std::vector<std::string>& names, const Look& look,
@@ -297,19 +347,12 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
     if (count == 1) marks = {"joint_position"};
     diagram =
         history_diagram(run, marks, count == 1 ? "material coordinate of the mass (m)" : "material coordinates (m)");
-  } else if (what == "strain") {
-    diagram = along_diagram(run, &ShapePoint::strain, "axial strain (-)");
-  } else if (what == "tension") {
-    diagram = along_diagram(run, &ShapePoint::tension, "axial force (N)");
-  } else if (what == "curvature") {
-    diagram = along_diagram(run, &ShapePoint::curvature, "curvature from the rest shape (1/m)");
-  } else if (what == "strain-field") {
-    return draw_diagram(field_diagram(run, &ShapePoint::strain, "axial strain (-)"), look, figure);
-  } else if (what == "tension-field") {
-    return draw_diagram(field_diagram(run, &ShapePoint::tension, "axial force (N)"), look, figure);
-  } else if (what == "curvature-field") {
-    return draw_diagram(field_diagram(run, &ShapePoint::curvature, "curvature from the rest shape (1/m)"), look,
-                        figure);
+  } else if (const AlongKind* const kind = kind_of(what, "-field")) {
+    return draw_diagram(field_diagram(run, kind->of, kind->label), look, figure);
+  } else if (const AlongKind* const enveloped = kind_of(what, "-envelope")) {
+    diagram = envelope_diagram(run, enveloped->of, enveloped->label);
+  } else if (const AlongKind* const along = kind_of(what, "")) {
+    diagram = along_diagram(run, along->of, along->label);
   } else {
     throw InvalidInput(
         "--what", "\"" + what + "\"",

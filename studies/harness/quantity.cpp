@@ -1,6 +1,8 @@
 #include "studies/harness/quantity.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 
 #include "core/error.hpp"
@@ -8,14 +10,42 @@
 #include "studies/harness/nearest.hpp"
 
 namespace vlbeam {
-namespace {}  // namespace
+namespace {
+
+struct Suffix {
+  const char* text;
+  double Extreme::*member;
+  bool is_time;
+};
+constexpr std::array<Suffix, 4> suffixes{{{".largest", &Extreme::largest, false},
+                                          {".least", &Extreme::least, false},
+                                          {".largest_at", &Extreme::at_largest, true},
+                                          {".least_at", &Extreme::at_least, true}}};
+
+const Suffix* suffix_of(const std::string& name) {
+  const auto found = std::ranges::find_if(suffixes, [&](const Suffix& suffix) { return name.ends_with(suffix.text); });
+  return found == suffixes.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool is_extreme(const std::string& name) { return suffix_of(name) != nullptr; }
+
+Scene keeping(Scene scene, const std::string& name) {
+  if (is_extreme(name)) scene.output.extremes = true;
+  return scene;
+}
 
 double Quantity::of(const Sample& sample) const {
+  if (extreme != nullptr) return sample.extremes ? (*sample.extremes)[number].*extreme : nan;
   std::vector<double> components(sampled.columns.size());
   return sampled.values(sample, components.data()) ? components[component] : nan;
 }
 
 std::vector<double> Quantity::of(const Json& samples) const {
+  if (extreme != nullptr) {
+    throw InvalidInput(name, "over time", "samples have values; extremes over time stand in the report's /extremes");
+  }
   const Json::json_pointer where("/" + sampled.path);
   if (!samples.contains(where))
     throw InvalidInput("/samples/" + sampled.path, InvalidInput::missing, "the report lacks it");
@@ -50,13 +80,24 @@ std::vector<Quantity> quantities(const Scene& scene) {
       } else if (sampled.shape == SampleShape::vector && column.size() > 2 && column[column.size() - 2] == '_') {
         name = path + "." + column.back();
       }
-      all.push_back({name, column, sampled.unit, sampled, i});
+      all.push_back({name, column, sampled.unit, sampled, i, nullptr, all.size()});
     }
   }
   return all;
 }
 
 Quantity find_quantity(const Scene& scene, const std::string& name, const std::string& option) {
+  if (const Suffix* const suffix = suffix_of(name)) {
+    Quantity quantity = find_quantity(scene, name.substr(0, name.size() - std::strlen(suffix->text)), option);
+    if (!scene.output.extremes) {
+      throw InvalidInput(option, "\"" + name + "\"", "extremes over time need \"extremes\": true in /output");
+    }
+    quantity.extreme = suffix->member;
+    quantity.name += suffix->text;
+    quantity.column += "_" + std::string(suffix->text).substr(1);
+    if (suffix->is_time) quantity.unit = "s";
+    return quantity;
+  }
   const std::vector<Quantity> all = quantities(scene);
   std::vector<std::string> known;
   for (const Quantity& quantity : all) {

@@ -6,7 +6,7 @@
 
 #include "scene/build.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/sample_quantities.hpp"
+#include "scene/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/schema.hpp"
 #include "studies/harness/schema_parts.hpp"
@@ -45,6 +45,13 @@ std::string part_description(const std::string& part) {
       {"contact", "between the sliding mass and the beam, by the accelerations that belong to the state"},
       {"axial_strain", "over the whole beam, at 25 points an element and its ends"},
       {"axial_force", "over the whole beam, along the axis"},
+      {"bending_moment", "over the whole beam, without torsion"},
+      {"shear_force", "over the whole beam, across the axis"},
+      {"torque", "over the whole beam, of sections with frames"},
+      {"stress", "over the whole beam, of a section with sizes"},
+      {"angles", "of the beam at its ends"},
+      {"tension", "at the ends that something holds"},
+      {"places", "places of the scene, by their names; null where they are not on the beam"},
       {"curvature", "over the whole beam"},
       {"reactions", "of the supports, by the accelerations that belong to the state"},
       {"flow", "what else there is to see of a beam that spins, flows or bears loads"},
@@ -60,29 +67,40 @@ Json described(const Json& schema, const std::string& description, const std::st
   return result;
 }
 
-/// A scene with everything that adds to the samples of a run.
-Scene scene_with_every_quantity() {
-  Scene scene = scene_with_every_part();
-  scene.gravity_ramp = 1;
-  scene.start.type = scene.end.type = SupportType::clamp;
-  scene.flow->nodes.front() = {.node = 1, .x = {}, .support = SupportType::slide};
-  return scene;
+/// Scenes with everything that adds to the samples of a run.
+std::vector<Scene> scenes_with_every_quantity() {
+  Scene moving = scene_with_every_part();
+  moving.gravity_ramp = 1;
+  moving.start.type = moving.end.type = SupportType::clamp;
+  moving.flow->nodes.front() = {.node = 1, .x = {}, .support = SupportType::slide};
+  Scene several = moving;
+  several.sliding_joints.push_back(several.sliding_joints.front());
+  Scene at_rest;
+  at_rest.analysis = Analysis::statics;
+  at_rest.sliding_mass.emplace();
+  Scene with_frames;
+  with_frames.dimension = 3;
+  with_frames.beam.section = {.type = Section::Type::rectangle, .width = 1, .height = 2};
+  with_frames.places = moving.places;
+  return {moving, several, at_rest, with_frames};
 }
 
 /// The samples of a run as columns, out of the table of quantities: those that every scene has are required.
 Json samples_schema() {
-  const auto needed = sample_quantities(Scene{});
+  Scene rope;  // it does not bend, and nothing holds it
+  rope.beam.section.type = Section::Type::stiffness;
+  const auto needed = sample_quantities(rope);
   const auto is_needed = [&needed](const std::string& path) {
     return std::ranges::any_of(needed, [&path](const SampleQuantity& quantity) {
       return quantity.path == path || quantity.path.starts_with(path + "/");
     });
   };
   Json root = record(Json::object());
-  Scene at_rest;
-  at_rest.analysis = Analysis::statics;
-  std::vector<SampleQuantity> all = sample_quantities(scene_with_every_quantity());
-  for (SampleQuantity& quantity : sample_quantities(at_rest)) {
-    if (std::ranges::find(all, quantity.path, &SampleQuantity::path) == all.end()) all.push_back(std::move(quantity));
+  std::vector<SampleQuantity> all;
+  for (const Scene& scene : scenes_with_every_quantity()) {
+    for (SampleQuantity& quantity : sample_quantities(scene)) {
+      if (std::ranges::find(all, quantity.path, &SampleQuantity::path) == all.end()) all.push_back(std::move(quantity));
+    }
   }
   for (const SampleQuantity& quantity : all) {
     Json* object = &root;
@@ -90,15 +108,18 @@ Json samples_schema() {
     const auto parts = segments("/" + quantity.path);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       path += (path.empty() ? "" : "/") + parts[i];
-      const bool numbered = parts[i].starts_with("node_");
-      Json& entry = (*object)[numbered ? "patternProperties" : "properties"][numbered ? "^node_[0-9]+$" : parts[i]];
+      const bool numbered = parts[i].starts_with("node_"), named = i == 1 && parts[0] == "places";
+      const std::string pattern = numbered ? "^node_[0-9]+$" : named ? "^[A-Za-z0-9_]+$" : "";
+      Json& entry = pattern.empty() ? (*object)["properties"][parts[i]] : (*object)["patternProperties"][pattern];
       if (is_needed(path)) {
         Json& required = (*object)["required"];
         if (std::find(required.begin(), required.end(), parts[i]) == required.end()) required.push_back(parts[i]);
       }
       const bool leaf = i + 1 == parts.size() && !quantity.columns.empty();
       if (!leaf) {
-        if (entry.is_null()) entry = described(record(Json::object()), part_description(parts[i]));
+        if (entry.is_null()) {
+          entry = described(record(Json::object()), named ? "a place of the scene" : part_description(parts[i]));
+        }
         object = &entry;
         continue;
       }
@@ -149,7 +170,12 @@ Json run_schema() {
                             {"v", described(array_of(any_point), "velocity of the material point", "m/s")},
                             {"strain", described(array_of(any_number), "axial strain, from the rest shape", "-")},
                             {"curvature", described(array_of(any_number), "magnitude of the curvature", "1/m")},
-                            {"tension", described(array_of(any_number), "axial force, damping included", "N")}});
+                            {"tension", described(array_of(any_number), "axial force, damping included", "N")},
+                            {"shear", described(array_of(any_number), "shear force; 0 with frames", "N")},
+                            {"moment", described(array_of(any_number), "bending moment", "N m")},
+                            {"torque", described(array_of(any_number), "about the axis, with frames", "N m")}});
+  const Json action = record({{"x", described(any_number, "material coordinate", "m")},
+                              {"force", described(any_point, "force, as far as it acts inside an element", "N")}});
   const Json configuration = record(
       {{"t", described(any_number, "time", "s")},
        {"x", described(array_of(any_number), "material coordinates of the nodes", "m")},
@@ -169,8 +195,13 @@ Json run_schema() {
                           "where it is not a straight beam")},
        {"kink", described(kink, "where the beam may be kinked, at the sliding mass")},
        {"kinks", described(array_of(kink), "the same where there are several, at sliding joints")},
+       {"actions", described(array_of(action), "where something acts on the beam: moment and shear have a kink there")},
+       {"moments", described(array_of(array_of(array_of(any_number))),
+                             "at two Gauss points of each element: about the section's axes y and z, and about the "
+                             "tangent; with frames",
+                             "N m")},
        {"axis", described(axis, "points along the axis, those at nodes once for each element; with output.points")}},
-      {"kink", "kinks", "rest", "angles", "spins", "axis"});
+      {"kink", "kinks", "rest", "angles", "spins", "actions", "moments", "axis"});
   const Json jumps = record(
       {{"kinetic", described(nullable_number, "of kinetic energy", "J")},
        {"axial", described(nullable_number, "of the strain energy of stretching", "J")},
@@ -253,6 +284,11 @@ Json run_schema() {
   const Json warning = record({{"kind", described(choice_of<WarningKind>(), "what it is about")},
                                {"message", described(any_text, "what has happened, with numbers")},
                                {"remedy", described(any_text, "what to try")}});
+  const Json extreme = record({{"largest", nullable_number},
+                               {"largest_at", described(nullable_number, "when", "s")},
+                               {"least", nullable_number},
+                               {"least_at", described(nullable_number, "when", "s")},
+                               {"unit", any_text}});
   Json scene = scene_schema();
   scene.erase("$schema");
   return with_head(
@@ -272,6 +308,9 @@ Json run_schema() {
            {"scene", described(scene, "as understood, every default filled in")},
            {"law", described(any_text, "how the axial force follows from the stretch, in words")},
            {"samples", samples_schema()},
+           {"extremes",
+            described({{"type", "object"}, {"additionalProperties", extreme}},
+                      "of each number of the samples over all steps, by its name; where /output/extremes asks for it")},
            {"configurations", described(array_of(configuration), "the whole shape at the times asked for")},
            {"events", described(array_of(event), "changes of the mesh, located in time")},
            {"energy_ledger", described(ledger,
@@ -293,7 +332,7 @@ Json run_schema() {
                       "of a run whose scene leaves the integrator to the program")},
            {"provenance", described(any_object, "program, commit, compiler, flags, host and date")},
            {"timing", described(any_object, "wall times: motion, length_control [s]")}},
-          {"failure", "error", "law", "frequencies", "initial_equilibrium", "integrator_choice"}));
+          {"failure", "error", "law", "extremes", "frequencies", "initial_equilibrium", "integrator_choice"}));
 }
 
 Json study_schema() {

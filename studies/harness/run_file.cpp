@@ -39,6 +39,12 @@ Configuration configuration_from(const Json& json) {
   if (json.contains("kinks")) {
     for (const Json& kink : json.at("kinks")) add_kink(kink);
   }
+  if (json.contains("actions")) {
+    for (const Json& action : json.at("actions")) {
+      shape.actions.push_back({action.at("x").get<double>(), point_from(action.at("force"))});
+    }
+  }
+  if (json.contains("moments")) shape.moments = json.at("moments").get<std::vector<std::array<Point, 2>>>();
   return shape;
 }
 

@@ -23,11 +23,15 @@ auto members(Is<FlowSample> auto& of) {
   auto& [mass, end_angles, spin_momentum, loads, supports, torques, ledger] = of;
   return std::tie(mass, end_angles, spin_momentum, loads, supports, torques, ledger);
 }
+auto members(Is<SectionSample> auto& of) {
+  auto& [axial, moment, shear, torque, stress, angles, tension, places] = of;
+  return std::tie(axial, moment, shear, torque, stress, angles, tension, places);
+}
 auto members(Is<Sample> auto& of) {
   auto& [t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,
-         momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium] = of;
+         momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium, sections, extremes] = of;
   return std::tie(t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,
-                  momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium);
+                  momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium, sections, extremes);
 }
 auto members(Is<Configuration::Rest> auto& of) {
   auto& [r, r_x] = of;
@@ -38,8 +42,8 @@ auto members(Is<Configuration::Rates> auto& of) {
   return std::tie(x, v, r_x, spins);
 }
 auto members(Is<Configuration> auto& of) {
-  auto& [t, x, r, r_x, angles, weights, rest, kinks, rates] = of;
-  return std::tie(t, x, r, r_x, angles, weights, rest, kinks, rates);
+  auto& [t, x, r, r_x, angles, weights, rest, kinks, rates, actions, moments] = of;
+  return std::tie(t, x, r, r_x, angles, weights, rest, kinks, rates, actions, moments);
 }
 auto members(Is<Event> auto& of) {
   auto& [t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump, relaxation,

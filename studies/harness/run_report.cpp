@@ -12,9 +12,10 @@
 #include "scene/energy_ledger.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
+#include "scene/sample_quantities.hpp"
 #include "scene/shape.hpp"
 #include "studies/harness/messages.hpp"
-#include "studies/harness/sample_quantities.hpp"
+#include "studies/harness/quantity.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/text_writer.hpp"
 
@@ -119,7 +120,8 @@ Json components(const Point& point, int dimension) {
 /// Points along the axis, column by column.
 Json axis(const std::vector<ShapePoint>& points, int d) {
   Json json;
-  for (const char* column : {"element", "x", "r", "v", "strain", "curvature", "tension"}) json[column] = Json::array();
+  for (const char* column : {"element", "x", "r", "v", "strain", "curvature", "tension", "shear", "moment", "torque"})
+    json[column] = Json::array();
   for (const ShapePoint& point : points) {
     json["element"].push_back(point.element);
     json["x"].push_back(point.x);
@@ -128,6 +130,9 @@ Json axis(const std::vector<ShapePoint>& points, int d) {
     json["strain"].push_back(point.strain);
     json["curvature"].push_back(point.curvature);
     json["tension"].push_back(point.tension);
+    json["shear"].push_back(point.force.shear);
+    json["moment"].push_back(point.force.moment);
+    json["torque"].push_back(point.force.torque);
   }
   return json;
 }
@@ -154,6 +159,10 @@ Json configuration(const Configuration& shape, const Scene& scene) {
   }
   if (kinks.size() == 1) json["kink"] = kinks.front();
   if (kinks.size() > 1) json["kinks"] = kinks;
+  for (const Configuration::Action& action : shape.actions) {
+    json["actions"].push_back({{"x", action.x}, {"force", components(action.force, d)}});
+  }
+  if (!shape.moments.empty()) json["moments"] = shape.moments;
   if (scene.output.points > 0) json["axis"] = axis(points_along(scene, shape, scene.output.points), d);
   return json;
 }
@@ -174,6 +183,20 @@ Json event(const Event& e) {
           {"momentum_jumps", e.momentum_jump},
           {"relaxation", e.relaxation},
           {"energy_restored", e.restored}};
+}
+
+/// Of each number of the samples, by its column in the CSV file.
+Json extremes_json(const Scene& scene, const std::vector<Extreme>& extremes) {
+  Json json = Json::object();
+  for (const Quantity& quantity : quantities(scene)) {
+    const Extreme& of = extremes[quantity.number];
+    json[quantity.name] = {{"largest", number_or_null(of.largest)},
+                           {"largest_at", number_or_null(of.at_largest)},
+                           {"least", number_or_null(of.least)},
+                           {"least_at", number_or_null(of.at_least)},
+                           {"unit", quantity.unit}};
+  }
+  return json;
 }
 
 Json ledger_json(const EnergyLedger& ledger) {
@@ -267,6 +290,9 @@ void write_run_report(const Scene& scene, const RunResult& result, const Shapes&
   value("law", law_in_words(scene));
   key("samples");
   write_samples(sample_quantities(scene), result.samples, out);
+  if (!result.samples.empty() && result.samples.back().extremes) {
+    value("extremes", extremes_json(scene, *result.samples.back().extremes));
+  }
   list("configurations",
        [&](const auto& entry) { shapes([&](const Configuration& shape) { entry(configuration(shape, scene)); }); });
   list("events", [&](const auto& entry) {

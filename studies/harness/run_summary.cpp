@@ -12,6 +12,7 @@
 #include "scene/options.hpp"
 #include "scene/slack.hpp"
 #include "studies/harness/messages.hpp"
+#include "studies/harness/quantity.hpp"
 #include "studies/harness/run_report.hpp"
 
 namespace vlbeam {
@@ -189,6 +190,42 @@ std::string error_text(const Scene& scene, const RunResult& result) {
   return text + "; trusted until " + in_digits(error.trusted_until, 4) + " s";
 }
 
+/// What the places of a scene bear at a sample.
+template <class Line>
+void place_lines(const Scene& scene, const Sample& last, const Line& line) {
+  for (std::size_t i = 0; i < scene.places.size(); ++i) {
+    const std::optional<PlaceSample>& place = last.sections->places[i];
+    const std::string name = scene.places[i].name + ": ";
+    if (!place) {
+      line(i == 0 ? "places" : "", name + "off the beam");
+      continue;
+    }
+    std::string text = name + point_text(place->position, scene.dimension) + ", axial force " +
+                       in_digits(place->force.axial, 6) + " N";
+    if (last.sections->moment) text += ", moment " + in_digits(place->force.moment, 6) + " N m";
+    if (last.sections->shear) text += ", shear " + in_digits(place->force.shear, 6) + " N";
+    if (last.sections->torque) text += ", torque " + in_digits(place->force.torque, 6) + " N m";
+    line(i == 0 ? "places" : "", text);
+  }
+}
+
+/// Of the forces that people ask for: the least and the largest over all steps.
+template <class Line>
+void extreme_lines(const Scene& scene, const Sample& last, const Line& line) {
+  if (!last.extremes) return;
+  const char* label = "least, largest";
+  for (const Quantity& quantity : quantities(scene)) {
+    const std::string part = quantity.name.substr(0, quantity.name.find('.'));
+    const bool along = (part == "bending_moment" || part == "axial_force" || part == "stress") &&
+                       (quantity.name.ends_with(".min") || quantity.name.ends_with(".max"));
+    if (!along && part != "tension" && part != "angles") continue;
+    const Extreme& of = (*last.extremes)[quantity.number];
+    line(label, quantity.name + " " + in_digits(of.least, 5) + " at " + in_digits(of.at_least, 4) + " s, " +
+                    in_digits(of.largest, 5) + " " + quantity.unit + " at " + in_digits(of.at_largest, 4) + " s");
+    label = "";
+  }
+}
+
 template <class Line>
 void warning_lines(const RunResult& result, const Line& line) {
   for (const Warning& warning : result.warnings) {
@@ -222,6 +259,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
            "at " + in_digits(*last.joint_position, 10) + " m along the beam" +
                (holding == 0 ? ", free" : (guided ? ", guided by " : ", held by ") + in_digits(holding, 8) + " N"));
     }
+    place_lines(scene, last, line);
     line("energy", in_digits(last.energy.total(), 8) + " J");
   }
   for (const double frequency : result.frequencies) line("frequency", in_digits(frequency, 8) + " Hz");
@@ -280,6 +318,8 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
     line("time reached", in_digits(last.t, 8) + " s of " + in_digits(scene.duration, 8) + " s");
     line("end of beam", point_text(last.end, scene.dimension));
     joint_lines(scene, last, line);
+    place_lines(scene, last, line);
+    extreme_lines(scene, last, line);
     const double size = largest_energy(result);
     line("total energy", energy_text(last.energy.total(), size, 8) + ", at the start " +
                              energy_text(result.samples.front().energy.total(), size, 8) + ", kinetic up to " +

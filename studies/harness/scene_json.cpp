@@ -250,7 +250,7 @@ class Reader {
       const bool known = choice && option.allows(to_string(*choice));
       if (known) member = *choice;
       return known;
-    } else if constexpr (OptionalEnum<T>) {
+    } else if constexpr (OptionalEnum<T> || OptionalNumber<T>) {
       return read(value, option, member.emplace());
     } else if constexpr (std::same_as<T, bool>) {
       if (value.is_boolean()) member = value.get<bool>();
@@ -307,7 +307,7 @@ class Writer {
  public:
   template <class T>
   void operator()(const Option& option, const T& member) {
-    if constexpr (std::same_as<T, std::optional<double>> || OptionalEnum<T>) {
+    if constexpr (OptionalNumber<T> || OptionalEnum<T>) {
       if (!member) return;
     }
     if (option.when.holds) json_[pointer(option.pointer)] = value(option, member);
@@ -342,7 +342,7 @@ class Writer {
       Json array = Json::array();
       for (const Point& item : member) array.push_back(value(option, item));
       return array;
-    } else if constexpr (std::same_as<T, std::optional<double>>) {
+    } else if constexpr (OptionalNumber<T>) {
       return member ? Json(*member) : Json();
     } else {
       return member;
@@ -399,6 +399,9 @@ Scene scene_with_every_part() {
   scene.loads.emplace_back();
   scene.contact.emplace().joints = AtSupport::rebound;
   scene.point_masses.emplace_back();
+  PlaceSpec& place = scene.places.emplace_back();
+  place.name = "here";
+  place.end.emplace();
   scene.initial_velocity.emplace();
   scene.drag.emplace();
   scene.fluid.emplace();

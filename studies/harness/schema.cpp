@@ -10,8 +10,8 @@
 
 #include "scene/build.hpp"
 #include "scene/options.hpp"
+#include "scene/sample_quantities.hpp"
 #include "scene/scene_options.hpp"
-#include "studies/harness/sample_quantities.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/schema_parts.hpp"
 
@@ -37,7 +37,7 @@ Json value_of(const T& member) {
     return to_string(member);
   } else if constexpr (OptionalEnum<T>) {
     return member ? Json(to_string(*member)) : Json();
-  } else if constexpr (std::same_as<T, std::optional<double>>) {
+  } else if constexpr (OptionalNumber<T>) {
     return member ? Json(*member) : Json();
   } else {
     return {};
@@ -93,7 +93,7 @@ class SceneSchemaBuilder {
     } else if constexpr (std::same_as<T, Point>) {
       schema["default"] = Json::array();
       for (int i = 0; i < option.components; ++i) schema["default"].push_back(member[static_cast<std::size_t>(i)]);
-    } else if constexpr (!std::same_as<T, std::optional<double>> && !OptionalEnum<T>) {
+    } else if constexpr (!OptionalNumber<T> && !OptionalEnum<T>) {
       if (!option.required) schema["default"] = member;
     }
     if (!option.when.pointer.empty()) {
@@ -173,7 +173,7 @@ class SceneSchemaBuilder {
         if (option.allows(entry.name)) choices.push_back(entry.name);
       }
       return {{"enum", choices}};
-    } else if constexpr (OptionalEnum<T>) {
+    } else if constexpr (OptionalEnum<T> || OptionalNumber<T>) {
       return type<typename T::value_type>(option);
     } else if constexpr (std::same_as<T, bool>) {
       return {{"type", "boolean"}};

@@ -1,6 +1,7 @@
 #include "studies/harness/vtk.hpp"
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,10 @@ constexpr const char* head = "<?xml version=\"1.0\"?>\n";
 
 TextWriter& operator<<(TextWriter& out, const Point& v) { return out << v[0] << " " << v[1] << " " << v[2]; }
 
-template <class T>
-void data_array(const std::string& attributes, const Points& points, T ShapePoint::*member, TextWriter& out) {
+template <class Of>
+void data_array(const std::string& attributes, const Points& points, const Of& of, TextWriter& out) {
   out << "        <DataArray " << attributes << " format=\"ascii\">\n";
-  for (const ShapePoint& point : points) out << "          " << point.*member << "\n";
+  for (const ShapePoint& point : points) out << "          " << std::invoke(of, point) << "\n";
   out << "        </DataArray>\n";
 }
 
@@ -50,6 +51,10 @@ void write_grid(const Points& points, std::size_t elements, int per_element, Tex
   scalar("axial_strain", &ShapePoint::strain);
   scalar("curvature", &ShapePoint::curvature);
   scalar("tension", &ShapePoint::tension);
+  data_array(
+      "type=\"Float64\" Name=\"shear\"", points, [](const ShapePoint& p) { return p.force.shear; }, out);
+  data_array(
+      "type=\"Float64\" Name=\"moment\"", points, [](const ShapePoint& p) { return p.force.moment; }, out);
   data_array("type=\"Float64\" Name=\"velocity\" NumberOfComponents=\"3\"", points, &ShapePoint::v, out);
   out << "      </PointData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
 }
@@ -96,13 +101,14 @@ void write_shapes_csv(const Scene& scene, const Shapes& shapes, int per_element,
     out << "t [s],element [-],x [m]";
     for (std::size_t i = 0; i < d; ++i) out << ",r_" << axes[i] << " [m]";
     for (std::size_t i = 0; i < d; ++i) out << ",v_" << axes[i] << " [m/s]";
-    out << ",axial_strain [-],curvature [1/m],tension [N]\n";
+    out << ",axial_strain [-],curvature [1/m],tension [N],shear [N],moment [N m],torque [N m]\n";
     shapes([&](const Configuration& shape) {
       for (const ShapePoint& point : points_along(scene, shape, per_element)) {
         out << shape.t << "," << std::to_string(point.element) << "," << point.x;
         for (std::size_t i = 0; i < d; ++i) out << "," << point.r[i];
         for (std::size_t i = 0; i < d; ++i) out << "," << point.v[i];
-        out << "," << point.strain << "," << point.curvature << "," << point.tension << "\n";
+        out << "," << point.strain << "," << point.curvature << "," << point.tension << "," << point.force.shear << ","
+            << point.force.moment << "," << point.force.torque << "\n";
       }
     });
     out.flush();

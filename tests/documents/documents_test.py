@@ -97,6 +97,10 @@ class Documents(unittest.TestCase):
         told = subprocess.run([sys.executable, SOURCES / "docs/scene_keys.py", PROGRAM, "-"], capture_output=True, text=True, check=True)
         self.assertEqual(told.stdout, (SOURCES / "docs/scene_keys.md").read_text(encoding="utf-8"), "docs/scene_keys.py makes it anew")
 
+    def test_quantities_are_the_programs(self):
+        told = subprocess.run([sys.executable, SOURCES / "docs/what_comes_out.py", PROGRAM, "-"], capture_output=True, text=True, check=True)
+        self.assertEqual(told.stdout, (SOURCES / "docs/what_comes_out.md").read_text(encoding="utf-8"), "docs/what_comes_out.py makes it anew")
+
     def test_targets_of_make_exist(self):
         makefile = (SOURCES / "Makefile.studies").read_text(encoding="utf-8")
         known = set(re.search(r"^\.PHONY: (.*)$", makefile, re.M)[1].split())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <set>
 
 #include "core/error.hpp"
 #include "scene/simulate.hpp"
@@ -116,6 +117,36 @@ TEST(Quantities, HaveNamesWithPointsAndOfColumns) {
     EXPECT_EQ(error.field, "--quantity");
     EXPECT_NE(error.allowed.find("is \"joint_position\""), std::string::npos) << error.what();
   }
+}
+
+TEST(Quantities, HaveEachANameOfTheirOwn) {
+  for (const LibraryScene& listed : library_scenes(source / "scenes")) {
+    const std::string& name = listed.name;
+    std::set<std::string> names;
+    for (const Quantity& quantity : quantities(read_scene(source / "scenes" / (name + ".json")))) {
+      EXPECT_TRUE(names.insert(quantity.column).second) << name << ": " << quantity.column;
+      if (quantity.name != quantity.column) {
+        EXPECT_TRUE(names.insert(quantity.name).second) << name << ": " << quantity.name;
+      }
+    }
+  }
+}
+
+TEST(Quantities, HaveExtremesOverTimeWhereTheSceneKeepsThem) {
+  Scene scene = read_scene(source / "scenes" / "pendulum.json");
+  EXPECT_THROW(find_quantity(scene, "end.y.least"), InvalidInput);
+  scene = keeping(scene, "end.y.least");
+  EXPECT_TRUE(scene.output.extremes);
+  scene.duration = 0.2;
+  scene.output = {.interval = 0.1, .configurations = {}, .extremes = true};
+  const RunResult result = simulate(scene);
+  const Quantity least = find_quantity(scene, "end.y.least"), when = find_quantity(scene, "end.y.least_at");
+  const Sample& last = result.samples.back();
+  EXPECT_EQ(when.unit, "s");
+  EXPECT_EQ(when.of(last), 0.2) << "it falls";
+  EXPECT_EQ(least.of(last), find_quantity(scene, "end.y").of(last));
+  EXPECT_EQ(find_quantity(scene, "end.y.largest_at").of(last), 0);
+  EXPECT_THROW(find_quantity(scene, "end.w.least"), InvalidInput);
 }
 
 TEST(Quantities, ReadBackFromAReport) {

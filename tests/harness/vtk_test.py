@@ -50,7 +50,7 @@ with tempfile.TemporaryDirectory() as folder:
         mesh = meshio.read(path)
         assert mesh.points.shape == (points, 3)
         assert [block.type for block in mesh.cells] == ["line"] and len(mesh.cells[0].data) == cells
-        assert sorted(mesh.point_data) == ["axial_strain", "curvature", "material_coordinate", "tension", "velocity"]
+        assert sorted(mesh.point_data) == ["axial_strain", "curvature", "material_coordinate", "moment", "shear", "tension", "velocity"]
         for k, r in enumerate(shapes[i]["r"]):  # nodes stand at the elements' ends
             point = mesh.points[min(6 * k, points - 1)]
             assert abs(point[0] - r[0]) < 1e-14 and abs(point[1] - r[1]) < 1e-14 and point[2] == 0

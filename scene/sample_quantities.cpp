@@ -1,4 +1,4 @@
-#include "studies/harness/sample_quantities.hpp"
+#include "scene/sample_quantities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,15 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/build.hpp"
 #include "scene/derived.hpp"
-#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {
 
 using Columns = std::vector<std::string>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Collects the quantities of one scene.
 class Quantities {
@@ -126,14 +128,15 @@ void add_joint(Quantities& q, bool guided) {
              Joint joint = s.joint;
              return joint ? std::optional(joint->force) : std::nullopt;
            });
-  number("contact/tangential", "contact_tangential", "N",
-         "of it: along the beam, towards its end (at a kink, between both tangents); without friction what the mesh "
-         "leaves of it",
-         &JointSample::tangential);
-  number("contact/normal", "contact_normal", "N", "of it: across the beam, its magnitude", &JointSample::normal);
+  number(
+      "contact/tangential", "contact_tangential", "N",
+      "part of that force along the beam, towards its end (at a kink between both tangents); without friction what the "
+      "mesh leaves",
+      &JointSample::tangential);
+  number("contact/normal", "contact_normal", "N", "magnitude of its part across the beam", &JointSample::normal);
   if (guided)
-    number("contact/guiding", "contact_guiding", "N", "of what guides it: its power over joint_velocity",
-           &JointSample::guiding);
+    number("contact/guiding", "contact_guiding", "N",
+           "force of what guides the mass along the beam: its power over joint_velocity", &JointSample::guiding);
 }
 
 /// Lists in the order of the scene, with no number for what is not there.
@@ -171,17 +174,20 @@ void add_joints(Quantities& q, std::size_t count, bool guided) {
     return [member](const SlidingSample& joint) { return joint.on_beam ? (*joint.on_beam).*member : nan; };
   };
   q.part("sliding_joints");
-  numbers("position", "m", "material coordinates, null of one that has left the beam",
+  numbers("position", "m", "material coordinates of all joints; null of one that has left the beam",
           [](const SlidingSample& joint) { return joint.position.value_or(nan); });
-  numbers("velocity", "m/s", "their rates", of_contact(&JointSample::velocity));
-  vectors("mass_position", "m", "where they are", [](const SlidingSample& joint) { return joint.mass_position; });
+  numbers("velocity", "m/s", "rates of their material coordinates", of_contact(&JointSample::velocity));
+  vectors("mass_position", "m", "positions of their masses, rings and sleeves",
+          [](const SlidingSample& joint) { return joint.mass_position; });
   vectors("force", "N", "forces of the beam on them, while they are on it", [](const SlidingSample& joint) {
     return joint.on_beam ? std::optional(joint.on_beam->force) : std::nullopt;
   });
-  numbers("tangential", "N", "of these: along the beam, towards its end", of_contact(&JointSample::tangential));
-  numbers("normal", "N", "of these: across the beam, the magnitudes", of_contact(&JointSample::normal));
+  numbers("tangential", "N", "parts of these forces along the beam, towards its end",
+          of_contact(&JointSample::tangential));
+  numbers("normal", "N", "magnitudes of their parts across the beam", of_contact(&JointSample::normal));
   if (guided)
-    numbers("guiding", "N", "of what guides them: their power over velocity", of_contact(&JointSample::guiding));
+    numbers("guiding", "N", "forces of what guides them along the beam: their power over velocity",
+            of_contact(&JointSample::guiding));
 }
 
 void add_strains(Quantities& q) {
@@ -193,12 +199,110 @@ void add_strains(Quantities& q) {
          [](const StrainSample& s) { return s.axial_strain[0]; });
   number("axial_strain/max", "axial_strain_max", "-", "largest axial strain",
          [](const StrainSample& s) { return s.axial_strain[1]; });
-  number("axial_force/min", "axial_force_min", "N", "least axial force, damping included; tension is positive",
-         [](const StrainSample& s) { return s.axial_force[0]; });
-  number("axial_force/max", "axial_force_max", "N", "largest axial force",
-         [](const StrainSample& s) { return s.axial_force[1]; });
+  const auto force = [&q](const char* path, const char* column, const char* description, std::size_t i,
+                          double AlongBeam::*member) {
+    q.number(path, column, "N", description, [i, member](const Sample& s) {
+      return s.sections && s.sections->axial ? (*s.sections->axial).*member : s.strains.axial_force[i];
+    });
+  };
+  force("axial_force/min", "axial_force_min", "least axial force, damping included; tension is positive", 0,
+        &AlongBeam::least);
+  force("axial_force/max", "axial_force_max", "largest axial force", 1, &AlongBeam::largest);
   number("curvature/max", "curvature_max", "1/m", "largest magnitude of curvature, from the rest shape",
          [](const StrainSample& s) { return s.curvature; });
+}
+
+/// What sections bear, least and largest along the beam, and where.
+void add_section_forces(Quantities& q, const Scene& scene) {
+  using Of = std::optional<AlongBeam> SectionSample::*;
+  const auto number = [&q](const std::string& name, const char* key, const char* unit, const std::string& description,
+                           Of of, double AlongBeam::*member) {
+    q.number(name + "/" + key, name + "_" + key, unit, description, [of, member](const Sample& s) {
+      return s.sections && (*s.sections.*of) ? std::optional((*s.sections.*of).value().*member) : std::nullopt;
+    });
+  };
+  const auto both = [&number](const std::string& name, const char* unit, const std::string& what, Of of) {
+    number(name, "min", unit, "least " + what, of, &AlongBeam::least);
+    number(name, "max", unit, "largest " + what, of, &AlongBeam::largest);
+    number(name, "x_min", "m", "material coordinate of the least", of, &AlongBeam::at_least);
+    number(name, "x_max", "m", "material coordinate of the largest", of, &AlongBeam::at_largest);
+  };
+  if (build_section(scene).bends() || has_frames(scene)) {
+    both("bending_moment", "N m",
+         scene.dimension == 2 ? "bending moment along the beam; a beam drawn from left to right sags where it is > 0"
+                              : "magnitude of the bending moment along the beam",
+         &SectionSample::moment);
+    if (!has_frames(scene)) {
+      both("shear_force", "N",
+           scene.dimension == 2 ? "shear force along the beam: growth of the bending moment with arc length"
+                                : "magnitude of the shear force along the beam",
+           &SectionSample::shear);
+    }
+  }
+  if (has_frames(scene)) {
+    both("torque", "N m", "torque along the beam, about its axis, right-handed", &SectionSample::torque);
+  }
+  if (scene.beam.section.type == Section::Type::stiffness) return;
+  number("stress", "max", "Pa", "largest stress along the beam, its magnitude: of axial force and bending",
+         &SectionSample::stress, &AlongBeam::largest);
+  number("stress", "x_max", "m", "material coordinate of the largest", &SectionSample::stress, &AlongBeam::at_largest);
+}
+
+void add_ends(Quantities& q, const Scene& scene) {
+  const std::string angle = scene.dimension == 2
+                                ? "direction of the beam, from the first axis towards the second, -180 to 180"
+                                : "direction of the beam above the horizontal, -90 to 90";
+  for (const std::size_t end : {0U, 1U}) {
+    const std::string name = end == 0 ? "start" : "end";
+    q.number("angles/" + name, "angles_" + name, "degrees", angle,
+             [end](const Sample& s) { return s.sections ? std::optional(s.sections->angles[end]) : std::nullopt; });
+  }
+  for (const std::size_t end : {0U, 1U}) {
+    const SupportSpec& support = end == 0 ? scene.start : scene.end;
+    const bool held = support.type == SupportType::clamp || support.type == SupportType::pin;
+    if (!held && !support.pays_out()) continue;
+    const std::string name = end == 0 ? "start" : "end";
+    q.number("tension/" + name, "tension_" + name, "N",
+             "with which the beam pulls at what holds it there, along its direction; a mass at that node counts",
+             [end](const Sample& s) { return s.sections ? s.sections->tension[end] : std::nullopt; });
+  }
+}
+
+void add_places(Quantities& q, const Scene& scene) {
+  if (scene.places.empty()) return;
+  q.part("places");
+  const bool bends = build_section(scene).bends() || has_frames(scene);
+  for (std::size_t i = 0; i < scene.places.size(); ++i) {
+    const std::string path = "places/" + scene.places[i].name + "/", stem = "place_" + scene.places[i].name + "_";
+    const auto of = [i](const Sample& s) -> const std::optional<PlaceSample>& { return s.sections->places[i]; };
+    const auto point = [&](const std::string& name, const char* unit, const char* description,
+                           Point PlaceSample::*member) {
+      q.vector(path + name, stem + name, unit, description, [of, member](const Sample& s) {
+        const std::optional<PlaceSample>& place = of(s);
+        return place ? std::optional((*place).*member) : std::nullopt;
+      });
+    };
+    const auto force = [&](const std::string& name, const char* unit, const char* description,
+                           double SectionForce::*member) {
+      q.number(path + name, stem + name, unit, description, [of, member](const Sample& s) {
+        const std::optional<PlaceSample>& place = of(s);
+        return place ? std::optional(place->force.*member) : std::nullopt;
+      });
+    };
+    point("position", "m", "where it is", &PlaceSample::position);
+    point("velocity", "m/s", "velocity of the material point, or of the joint", &PlaceSample::velocity);
+    q.number(path + "angle", stem + "angle", "degrees", "direction of the beam, as of angles", [of](const Sample& s) {
+      const std::optional<PlaceSample>& place = of(s);
+      return place ? std::optional(place->angle) : std::nullopt;
+    });
+    force("axial_force", "N", "along the axis, tension positive", &SectionForce::axial);
+    if (bends && !has_frames(scene)) force("shear_force", "N", "as along the beam", &SectionForce::shear);
+    if (bends) force("bending_moment", "N m", "as along the beam", &SectionForce::moment);
+    if (has_frames(scene)) force("torque", "N m", "about the axis, right-handed", &SectionForce::torque);
+    if (scene.beam.section.type != Section::Type::stiffness) {
+      force("stress", "Pa", "largest magnitude in the section, of axial force and bending", &SectionForce::stress);
+    }
+  }
 }
 
 void add_reactions(Quantities& q, const Scene& scene) {
@@ -286,20 +390,21 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
   q.vector("end", "end", "m", "position of the beam's last node", [](const Sample& s) -> Point { return s.end; });
   q.number("beam_length", "beam_length", "m", "arc length of the deformed beam",
            [](const Sample& s) { return s.beam_length; });
-  q.number("beam_length_rate", "beam_length_rate", "m/s", "its rate",
+  q.number("beam_length_rate", "beam_length_rate", "m/s", "rate of that length",
            [](const Sample& s) { return s.beam_length_rate; });
   add_energy(q, scene);
   for (const std::size_t end : {0U, 1U}) {
     if (!(end == 0 ? scene.start : scene.end).pays_out()) continue;
     const std::string name = end == 0 ? "start" : "end";
-    q.number("winches/" + name + "_length", "winch_" + name + "_length", "m", "beam that the winch there has paid out",
+    q.number("winches/" + name + "_length", "winch_" + name + "_length", "m",
+             "length of beam that the winch there has paid out since t = 0",
              [end](const Sample& s) { return s.winches[end]->length; });
-    q.number("winches/" + name + "_rate", "winch_" + name + "_rate", "m/s", "its rate",
+    q.number("winches/" + name + "_rate", "winch_" + name + "_rate", "m/s", "rate of that length",
              [end](const Sample& s) { return s.winches[end]->rate; });
-    q.number("winches/" + name + "_tension", "winch_" + name + "_tension", "N", "of the beam at its outlet",
-             [end](const Sample& s) { return s.winches[end]->tension; });
+    q.number("winches/" + name + "_tension", "winch_" + name + "_tension", "N",
+             "tension of the beam at the winch's outlet", [end](const Sample& s) { return s.winches[end]->tension; });
     q.number("winches/" + name + "_power", "winch_" + name + "_power", "W",
-             "of its push on the beam, without the energy that the beam brings along",
+             "power of the winch's push on the beam, without the energy that the beam brings along",
              [end](const Sample& s) { return s.winches[end]->power; });
   }
   q.vector("momentum", "momentum", "kg m/s", "linear momentum of beam and mass",
@@ -317,7 +422,10 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
   if (sliding_joint(scene)) add_joint(q, guided(scene));
   if (scene.sliding_joints.size() > 1) add_joints(q, scene.sliding_joints.size(), guided(scene));
   add_strains(q);
+  add_section_forces(q, scene);
+  add_ends(q, scene);
   add_reactions(q, scene);
+  add_places(q, scene);
   if (has_flow_sample(scene)) add_flow(q, scene);
   return q.take();
 }
