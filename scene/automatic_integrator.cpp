@@ -101,7 +101,7 @@ double longest_driven_step(const Scene& scene) {
     at_most(element / std::abs(joint.velocity) / steps_an_element);
     if (joint.friction) at_most(joint.friction->velocity / (joint.friction->coefficient * g) / steps_of_fading);
     if (joint.x) passing(*joint.x);
-    if (joint.motion) driven(joint.motion->displacement);
+    if (joint.motion) joint.motion->each_way([&](const char*, const TimeSpec& way) { driven(way); });
   }
   for (const LoadSpec& load : scene.loads) {
     driven(load.magnitude);
@@ -112,7 +112,7 @@ double longest_driven_step(const Scene& scene) {
   for (const SupportSpec* support : {&scene.start, &scene.end}) {
     if (support->feed) passing(*support->feed);
     if (!support->motion) continue;
-    driven(support->motion->displacement);
+    support->motion->each_way([&](const char*, const TimeSpec& way) { driven(way); });
     if (support->motion->angle) driven(*support->motion->angle);
   }
   if (scene.spin) {

@@ -56,43 +56,64 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
   void cross_section() {
     auto& beam = scene.beam;
     choice(section_type, "how the section is given", beam.section.type);
-    const Condition circle = only_if(section_type, beam.section.type, Section::Type::circle);
-    const Condition rectangle = only_if(section_type, beam.section.type, Section::Type::rectangle);
-    const Condition stiffness = only_if(section_type, beam.section.type, Section::Type::stiffness);
-    number("/beam/section/radius", "m", Range::positive(), "radius of the full circular section", beam.section.radius,
-           {.source = example1, .when = circle});
-    number("/beam/section/width", "m", Range::positive(), "of a full rectangle, along the section's axis y",
-           beam.section.width, {.when = rectangle, .required = true});
+    const auto is = [&](auto... types) { return only_if(section_type, beam.section.type, types...); };
+    using enum Section::Type;
+    const Condition given = is(stiffness);
+    number("/beam/section/radius", "m", Range::positive(),
+           "radius of the full circular section; outer radius of a tube", beam.section.radius,
+           {.source = example1, .when = is(circle, tube)});
+    number("/beam/section/width", "m", Range::positive(),
+           "of a rectangle, a box or a profile, along the section's axis y", beam.section.width,
+           {.when = is(rectangle, box, profile), .required = true});
     number("/beam/section/height", "m", Range::positive(),
-           "of a full rectangle, along the section's axis z; in the plane it lies in it", beam.section.height,
-           {.when = rectangle, .required = true});
+           "of a rectangle, a box or a profile, along the section's axis z; in the plane it lies in it",
+           beam.section.height, {.when = is(rectangle, box, profile), .required = true});
+    number("/beam/section/wall", "m", Range::positive(), "thickness of the wall of a tube or a box", beam.section.wall,
+           {.when = is(tube, box), .required = true});
+    number("/beam/section/web", "m", Range::positive(), "thickness of the web of a profile", beam.section.web,
+           {.when = is(profile), .required = true});
+    number("/beam/section/flange", "m", Range::positive(), "thickness of the flanges of a profile", beam.section.flange,
+           {.when = is(profile), .required = true});
+    number("/beam/section/diameter", "m", Range::positive(),
+           "nominal diameter of a rope; of the bar of a chain's links", beam.section.diameter,
+           {.when = is(rope, chain), .required = true});
+    choice("/beam/section/construction", "of a rope, by which its stiffness and mass follow from the diameter",
+           beam.section.construction, {.source = "OrcaFlex documentation, line type wizard", .when = is(rope)});
+    choice("/beam/section/links", "of a chain, by which its stiffness and mass follow from the diameter",
+           beam.section.links, {.source = "OrcaFlex documentation, line type wizard", .when = is(chain)});
     number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
-           {.when = stiffness, .required = true});
+           {.when = given, .required = true});
     number("/beam/section/EI_y", "N m^2", Range::positive(),
            "in place of EI, together with EI_z: resists bending about the section's axis y", beam.section.EI_y,
-           {.when = stiffness});
+           {.when = given});
     number("/beam/section/EI_z", "N m^2", Range::positive(), "resists bending about the section's axis z",
-           beam.section.EI_z, {.when = stiffness});
+           beam.section.EI_z, {.when = given});
     number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
-           {.when = stiffness, .required = !beam.section.EI_y, .instead = "EI_y"});
+           {.when = given, .required = !beam.section.EI_y, .instead = "EI_y"});
     number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
-           {.when = stiffness, .required = true});
+           {.when = given, .required = true});
     number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin and by frames",
-           beam.section.GIp, {.when = stiffness});
+           beam.section.GIp, {.when = given});
     number("/beam/section/rhoIp", "kg m", Range::non_negative(),
            "moment of inertia per length about the axis, needed by spin and by frames that move", beam.section.rhoIp,
-           {.when = stiffness});
+           {.when = given});
     vector("/beam/section/orientation", "-",
            "a direction that is the section's axis y, as far as it is across the beam, all along it; needed where the "
            "two bending stiffnesses differ",
-           beam.section.orientation,
-           {.components = 3,
-            .when = only_if(section_type, beam.section.type, Section::Type::stiffness, Section::Type::rectangle)});
+           beam.section.orientation, {.components = 3, .when = is(stiffness, rectangle, box, profile)});
   }
 
   void material() {
     auto& beam = scene.beam;
-    const Condition solid = only_if(section_type, beam.section.type, Section::Type::circle, Section::Type::rectangle);
+    using enum Section::Type;
+    const Condition sized = only_if(section_type, beam.section.type, circle, rectangle, tube, box, profile);
+    const std::string_view name = "/beam/material/name";
+    choice(name,
+           "steel (7850 kg/m^3, 2.1e11 Pa, 0.3), aluminium (2700, 7e10, 0.33) or timber (420, 1.1e10 along the grain, "
+           "0.3); own is what the next keys say",
+           beam.material.name, {.when = sized});
+    const Condition solid =
+        beam.material.name == MaterialName::own ? sized : only_if(name, beam.material.name, MaterialName::own);
     number("/beam/material/density", "kg/m^3", Range::positive(), "density", beam.material.density,
            {.source = example1, .when = solid});
     number("/beam/material/youngs_modulus", "Pa", Range::positive(), "Young's modulus", beam.material.youngs_modulus,

@@ -284,8 +284,12 @@ BeamModel<D> build_model(const Scene& scene) {
   model.end = build_support<D>(scene.end, axis.tangent(axis.length()));
   const auto motion_of = [&scene](const std::optional<SupportMotionSpec>& spec) -> SupportMotion<D> {
     if (!spec) return {};
-    const auto& [direction, displacement, angle] = *spec;
+    const auto& [direction, displacement, angle, x, y, z] = *spec;
     SupportMotion<D> motion;
+    const std::array<const std::optional<TimeSpec>*, 3> axes{&x, &y, &z};
+    for (std::size_t c = 0; c < D; ++c) {
+      if (*axes[c]) motion.along[c] = acting(**axes[c], scene.analysis);
+    }
     if (angle) motion.angle = acting(*angle, scene.analysis);
     if (direction == Point{}) return motion;
     motion.direction = vector_of<D>(direction).normalized();

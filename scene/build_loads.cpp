@@ -5,6 +5,7 @@
 
 #include "core/geometry/elementary.hpp"
 #include "scene/build.hpp"
+#include "scene/section_data.hpp"
 #include "scene/time_function.hpp"
 
 namespace vlbeam {
@@ -77,8 +78,7 @@ template <int D>
 BeamLoads<D> build_loads(const Scene& scene) {
   BeamLoads<D> result;
   if (scene.fluid && scene.fluid->density > 0) {
-    const Section& section = scene.beam.section;
-    const double area = scene.fluid->area.value_or(std::numbers::pi * section.radius * section.radius);
+    const double area = scene.fluid->area.value_or(displaced_area(scene.beam.section));
     const Vec<double, D> lift = -scene.fluid->density * area * vector_of<D>(scene.gravity);
     const TimeFunction share = acting({.value = 1, .ramp = scene.gravity_ramp}, scene.analysis);
     result.loads.line_force = [share, lift](double t) -> Vec<double, D> { return share(t).value * lift; };

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "scene/build.hpp"
+#include "scene/section_data.hpp"
 
 namespace vlbeam {
 namespace {
@@ -65,7 +66,8 @@ Axis<D> draw(const CurveSpec& curve) {
 }  // namespace
 
 bool is_rope(const BeamSpec& beam) {
-  return beam.section.type == Section::Type::stiffness && beam.section.EI_y.value_or(beam.section.EI) == 0;
+  const Section section = with_stiffness(beam.section);
+  return section.type == Section::Type::stiffness && section.EI_y.value_or(section.EI) == 0;
 }
 
 template <int D>

@@ -20,10 +20,28 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
   using Lines::scene, Lines::number, Lines::vector, Lines::choice, Lines::section, Lines::present, Lines::list,
       Lines::time_function, Lines::example1;
 
+  template <class Way>
+  void along(const std::string& axis, Way& way) {
+    if (present(axis, "displacement along this axis, beside the others", way)) time_function(axis, "m", *way);
+  }
+  /// How something is displaced: along the axes, and along one direction.
+  template <class Motion>
+  void ways(const std::string& motion, Motion& of, bool turns) {
+    along(motion + "/x", of.x);
+    along(motion + "/y", of.y);
+    if (scene.dimension == 3) along(motion + "/z", of.z);
+    const bool other = turns || of.along_axes();
+    vector(motion + "/direction", "-",
+           "of one displacement more, which stands beside it; it need not have unit length; needed without an angle "
+           "and displacements along axes",
+           of.direction, {.required = !other, .instead = "angle x y z"});
+    time_function(motion, "m", of.displacement);
+  }
+
   template <class Support>
   void support(const std::string& entry, Support& at) {
     const std::string type = entry + "/type", clamp = entry + "/clamp", motion = entry + "/motion",
-                      direction = motion + "/direction", angle = motion + "/angle";
+                      angle = motion + "/angle";
     choice(type,
            "how the end is held: clamp, position and slope; pin, position; slide, all of the position but along the "
            "axis's tangent at t = 0; or free",
@@ -40,9 +58,7 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
                                  "in space with frames",
                                  at.motion->angle);
       if (turns) time_function(angle, "rad", *at.motion->angle);
-      vector(direction, "-", "of the displacement; it need not have unit length; needed without an angle",
-             at.motion->direction, {.required = !turns, .instead = "angle"});
-      time_function(motion, "m", at.motion->displacement);
+      ways(motion, *at.motion, turns);
     }
     const std::string feed = entry + "/feed";
     if (present(feed,
@@ -162,13 +178,11 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
              "free, with a mass; pin: a ring, held where the beam is at t = 0; clamp: a sleeve, which holds the beam's "
              "direction, too",
              joint.support, {.without = "slide", .standard = "free"});
-      const std::string motion = at + "/motion", direction = motion + "/direction";
+      const std::string motion = at + "/motion";
       if (present(motion,
                   "displacement of a ring or a sleeve as a function of time, from where it is at t = 0 and from rest",
                   joint.motion)) {
-        vector(direction, "-", "of the displacement; it need not have unit length", joint.motion->direction,
-               {.required = true});
-        time_function(motion, "m", joint.motion->displacement);
+        ways(motion, *joint.motion, false);
       }
       const bool guided = present(at + "/x",
                                   "its way along the beam as a function of time, counted from where it is at t = 0: "

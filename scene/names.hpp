@@ -144,7 +144,30 @@ constexpr auto names(NewtonKind) {
 }
 constexpr auto names(Section::Type) {
   using enum Section::Type;
-  return std::to_array<Named<Section::Type>>({{circle, "circle"}, {rectangle, "rectangle"}, {stiffness, "stiffness"}});
+  return std::to_array<Named<Section::Type>>({{circle, "circle"},
+                                              {rectangle, "rectangle"},
+                                              {stiffness, "stiffness"},
+                                              {tube, "tube"},
+                                              {box, "box"},
+                                              {profile, "profile"},
+                                              {rope, "rope"},
+                                              {chain, "chain"}});
+}
+constexpr auto names(RopeConstruction) {
+  using enum RopeConstruction;
+  return std::to_array<Named<RopeConstruction>>({{wire_fibre_core, "wire-fibre-core"},
+                                                 {wire_wire_core, "wire-wire-core"},
+                                                 {nylon, "nylon"},
+                                                 {polyester, "polyester"},
+                                                 {polypropylene, "polypropylene"}});
+}
+constexpr auto names(ChainLinks) {
+  return std::to_array<Named<ChainLinks>>({{ChainLinks::studless, "studless"}, {ChainLinks::studlink, "studlink"}});
+}
+constexpr auto names(MaterialName) {
+  using enum MaterialName;
+  return std::to_array<Named<MaterialName>>(
+      {{own, "own"}, {steel, "steel"}, {aluminium, "aluminium"}, {timber, "timber"}});
 }
 constexpr auto names(Formulation) {
   using enum Formulation;

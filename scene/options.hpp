@@ -91,7 +91,7 @@ struct Option {
   int components = 0;  ///< length of a Point as written: the scene's dimension
   Condition when = {};
   bool required = false;           ///< where its parent is given
-  std::string_view instead = "";   ///< a key beside it with which it is not required
+  std::string_view instead = "";   ///< keys beside it, with one of which it is not required; spaces between them
   std::string_view without = "";   ///< of the names there are one that means nothing here
   std::string_view standard = "";  ///< the name that is the default, where it is not that of the scene at hand
 

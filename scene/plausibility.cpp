@@ -8,6 +8,7 @@
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
+#include "scene/section_data.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {
@@ -50,11 +51,12 @@ void check_strain(const Scene& scene, const RunResult& result, std::vector<Warni
     return;
   }
   const Section::Type type = scene.beam.section.type;
-  warnings.push_back(
-      {WarningKind::large_strain, message,
-       type == Section::Type::circle      ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
-       : type == Section::Type::rectangle ? "is /beam/material/youngs_modulus in Pa, and /beam/section in m?"
-                                          : "is /beam/section/EA in N?"});
+  warnings.push_back({WarningKind::large_strain, message,
+                      type == Section::Type::circle
+                          ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
+                      : type == Section::Type::stiffness ? "is /beam/section/EA in N?"
+                      : has_sizes(type) ? "is /beam/material/youngs_modulus in Pa, and /beam/section in m?"
+                                        : "is /beam/section/diameter in m?"});
 }
 
 void check_material(const Scene& scene, std::vector<Warning>& warnings) {
@@ -75,7 +77,7 @@ void check_section(const Scene& scene, std::vector<Warning>& warnings) {
          text_of("the section's radius, ", radius, " m, is larger than the elements' length, ", length, " m"),
          "is /beam/section/radius in m? else fewer elements"});
   }
-  const double density = scene.beam.material.density;
+  const double density = named(scene.beam.material).density;
   if (density < lightest) {
     warnings.push_back(
         {WarningKind::light_material,

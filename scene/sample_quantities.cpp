@@ -9,6 +9,7 @@
 
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
+#include "scene/section_data.hpp"
 
 namespace vlbeam {
 namespace {
@@ -242,7 +243,7 @@ void add_section_forces(Quantities& q, const Scene& scene) {
   if (has_frames(scene)) {
     both("torque", "N m", "torque along the beam, about its axis, right-handed", &SectionSample::torque);
   }
-  if (scene.beam.section.type == Section::Type::stiffness) return;
+  if (!has_sizes(scene.beam.section.type)) return;
   number("stress", "max", "Pa", "largest stress along the beam, its magnitude: of axial force and bending",
          &SectionSample::stress, &AlongBeam::largest);
   number("stress", "x_max", "m", "material coordinate of the largest", &SectionSample::stress, &AlongBeam::at_largest);
@@ -299,7 +300,7 @@ void add_places(Quantities& q, const Scene& scene) {
     if (bends && !has_frames(scene)) force("shear_force", "N", "as along the beam", &SectionForce::shear);
     if (bends) force("bending_moment", "N m", "as along the beam", &SectionForce::moment);
     if (has_frames(scene)) force("torque", "N m", "about the axis, right-handed", &SectionForce::torque);
-    if (scene.beam.section.type != Section::Type::stiffness) {
+    if (has_sizes(scene.beam.section.type)) {
       force("stress", "Pa", "largest magnitude in the section, of axial force and bending", &SectionForce::stress);
     }
   }

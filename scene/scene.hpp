@@ -74,29 +74,45 @@ struct CurveSpec {
   bool operator==(const CurveSpec&) const = default;
 };
 
-/// The cross-section: a solid circle or rectangle of the beam's material, or stiffnesses and masses per length.
+/// What a rope is made of.
+enum class RopeConstruction { wire_fibre_core, wire_wire_core, nylon, polyester, polypropylene };
+enum class ChainLinks { studless, studlink };
+
+/// The cross-section: full or hollow, of the beam's material; a rope or a chain by its diameter; or stiffnesses and
+/// masses per length.
 struct Section {
-  enum class Type { circle, rectangle, stiffness } type = Type::circle;
-  double radius = 0.01;             ///< circle [m]
-  double EA = 0;                    ///< stiffness [N]
-  double EI = 0;                    ///< stiffness [N m^2]; 0 is a cable
-  double rhoA = 0;                  ///< stiffness [kg/m]
-  double GIp = 0;                   ///< stiffness [N m^2], used with spin and with frames
-  double rhoIp = 0;                 ///< stiffness, moment of inertia per length about the axis [kg m]
-  double width = 0, height = 0;     ///< rectangle, along the section's axes y and z [m]; in the plane height lies in it
+  /// A profile has two flanges and a web between them.
+  enum class Type { circle, rectangle, stiffness, tube, box, profile, rope, chain } type = Type::circle;
+  double radius = 0.01;  ///< circle; tube: the outer one [m]
+  double EA = 0;         ///< stiffness [N]
+  double EI = 0;         ///< stiffness [N m^2]; 0 is a cable
+  double rhoA = 0;       ///< stiffness [kg/m]
+  double GIp = 0;        ///< stiffness [N m^2], used with spin and with frames
+  double rhoIp = 0;      ///< stiffness, moment of inertia per length about the axis [kg m]
+  double width = 0,
+         height = 0;  ///< rectangle, box, profile: along its axes y and z [m]; in the plane height lies in it
   std::optional<double> EI_y = {};  ///< stiffness, in place of EI: bending about the section's axis y [N m^2]
   std::optional<double> EI_z = {};  ///< stiffness, in place of EI: bending about the section's axis z [N m^2]
   Point orientation{};              ///< of the section's axis y, as far as it is across the beam; zero: not given
+  double wall = 0;                  ///< tube, box: thickness [m]
+  double web = 0, flange = 0;       ///< profile: thicknesses [m]
+  double diameter = 0;              ///< rope; chain: of the bar of its links [m]
+  RopeConstruction construction = RopeConstruction::wire_wire_core;
+  ChainLinks links = ChainLinks::studless;
 };
+
+/// Materials with their usual data.
+enum class MaterialName { own, steel, aluminium, timber };
 
 /// Properties of the material.
 struct Material {
-  double density = 7200;                ///< [kg/m^3], used with a circle or a rectangle
-  double youngs_modulus = 2e7;          ///< [Pa], used with a circle or a rectangle
-  double poisson_ratio = 0.3;           ///< used with a circle or rectangle that twists
-  double damping = 0;                   ///< Kelvin-Voigt time c [s]
-  double mass_damping = 0;              ///< alpha [1/s]: forces -alpha rhoA v per length
-  double curvature_regularization = 0;  ///< kappa_reg [1/m], needed by bending damping in 3D
+  double density = 7200;                  ///< [kg/m^3], used with a circle or a rectangle
+  double youngs_modulus = 2e7;            ///< [Pa], used with a circle or a rectangle
+  double poisson_ratio = 0.3;             ///< used with a circle or rectangle that twists
+  double damping = 0;                     ///< Kelvin-Voigt time c [s]
+  double mass_damping = 0;                ///< alpha [1/s]: forces -alpha rhoA v per length
+  double curvature_regularization = 0;    ///< kappa_reg [1/m], needed by bending damping in 3D
+  MaterialName name = MaterialName::own;  ///< any other stands for density, youngs_modulus and poisson_ratio
 };
 
 /// A quantity as a function of time:
@@ -161,9 +177,20 @@ struct BeamSpec {
 
 /// How a clamp or a pin moves as a function of time, counted from where it is at t = 0.
 struct SupportMotionSpec {
-  Point direction{};                   ///< of the displacement; need not have unit length
-  TimeSpec displacement;               ///< [m]
-  std::optional<TimeSpec> angle = {};  ///< [rad], of a clamp in the plane, about its point
+  Point direction{};                               ///< of the displacement; need not have unit length
+  TimeSpec displacement;                           ///< [m]
+  std::optional<TimeSpec> angle = {};              ///< [rad], of a clamp in the plane, about its point
+  std::optional<TimeSpec> x = {}, y = {}, z = {};  ///< along the axes, beside `displacement` [m]
+
+  /// Calls f(key, function) for each displacement that there is.
+  template <class F>
+  void each_way(const F& f) const {
+    if (direction != Point{}) f("", displacement);
+    if (x) f("/x", *x);
+    if (y) f("/y", *y);
+    if (z) f("/z", *z);
+  }
+  bool along_axes() const { return x || y || z; }
 };
 
 /// A drum that a motor turns: the length of beam that it pays out is an unknown.

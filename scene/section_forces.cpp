@@ -7,6 +7,7 @@
 
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
+#include "scene/section_data.hpp"
 
 namespace vlbeam {
 namespace {
@@ -46,13 +47,9 @@ SectionForces<D>::SectionForces(const Scene& scene, const Configuration& shape)
       axial_(elements_.count()),
       broken_(shape.x.size(), false),
       loaded_(elements_.count(), false) {
-  const Section& section = scene.beam.section;
-  if (section.type == Section::Type::circle) {
-    area_ = std::numbers::pi * section.radius * section.radius;
-    modulus_.fill(area_ * section.radius / 4);
-  } else if (section.type == Section::Type::rectangle) {
-    area_ = section.width * section.height;
-    modulus_ = {area_ * section.height / 6, area_ * section.width / 6};
+  if (const auto sizes = sizes_of(scene.beam.section)) {
+    area_ = sizes->area;
+    modulus_ = {area_ * sizes->i2_y / sizes->half_z, area_ * sizes->i2_z / sizes->half_y};
   }
   broken_.front() = broken_.back() = true;
   for (const Configuration::Action& action : shape.actions) {

@@ -129,6 +129,7 @@ Configuration shape_of(const Scene& scene, const BeamSystem<D>& system, const Ei
   const ChainView<D> beam = system.view(y.data(), y.data() + system.coordinates());
   for (const PointLoad<D>& load : system.model().loads.points) {
     const double x = load.place(beam, t);
+    if (!load.acts_at(x, beam)) continue;
     const auto at = point_at<double, D>(beam.kinematics(beam.element_at(x)), x);
     shape.actions.push_back({x, point_of<D>(load.force_on(at.r_x, t))});
   }

@@ -1,12 +1,16 @@
 #include "scene/timetable.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
 #include "scene/automatic_integrator.hpp"
+#include "scene/derived.hpp"
 #include "scene/scene_options.hpp"
+#include "scene/time_function.hpp"
 
 namespace vlbeam {
 namespace {
@@ -31,6 +35,7 @@ class Course {
     visit_options(*this, scene);
     add(0, scene.gravity_ramp);
     for (const LoadSpec& load : scene.loads) {
+      if (load.at == LoadPlace::point && scene.analysis == Analysis::dynamics) add_arrivals(scene, load);
       if (load.turn.rate != 0) swings.push_back({Timetable::never, 2 * std::numbers::pi / std::abs(load.turn.rate)});
     }
   }
@@ -64,6 +69,25 @@ class Course {
   std::vector<Swing> swings;
 
  private:
+  /// When a load that travels comes onto the beam, and when it leaves.
+  void add_arrivals(const Scene& scene, const LoadSpec& load) {
+    constexpr int instants = 2000;
+    const TimeFunction x = vlbeam::time_function(load.x);
+    for (const double end : {0.0, beam_length(scene)}) {
+      const auto beyond = [&](double t) { return x(t).value - end; };
+      double before = beyond(0);
+      for (int i = 1; i <= instants; ++i) {
+        const double t = scene.duration * i / instants, from = scene.duration * (i - 1) / instants, now = beyond(t);
+        if (before * now < 0) {
+          std::uintmax_t most = 100;
+          const auto at = boost::math::tools::toms748_solve(beyond, from, t, before, now,
+                                                            boost::math::tools::eps_tolerance<double>(), most);
+          add(0, at.second, true);
+        }
+        before = now;
+      }
+    }
+  }
   void add(double from, double to, bool rests = false) {
     if (to > std::max(from, 0.0)) changes.push_back({from, to, rests});
   }

@@ -214,23 +214,25 @@ void check_motion(const Scene& scene, const std::string& at, SupportType type, c
   if (type != SupportType::clamp && type != SupportType::pin) {
     refuse(at, "this key", "only a \"clamp\" or a \"pin\" can be moved, not a " + quoted(type));
   }
-  const TimeSpec& displacement = motion.displacement;
-  if (motion.direction == Point{} && !(motion.angle && is_zero(displacement))) {
+  const bool other = motion.angle || motion.along_axes();
+  if (motion.direction == Point{} && !(other && is_zero(motion.displacement))) {
     refuse(at + "/direction", "a vector of zeros", "it must have a direction");
   }
   const bool in_time = scene.analysis == Analysis::dynamics;
-  if (in_time && is_constant(displacement) && !(motion.angle && is_zero(displacement))) {
-    refuse(
-        at, "a constant displacement",
-        "it counts from t = 0, so that a constant does nothing: give it a ramp > 0 [s], a rate_ramp, an amplitude or a "
-        "table");
-  }
-  const double most = largest_rate(displacement);
-  if (const double rate = time_function(displacement)(0).rate; std::abs(rate) > 1e-12 * most) {
-    refuse(
-        at, "a velocity of " + number_text(rate) + " m/s at t = 0",
-        "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 degrees");
-  }
+  motion.each_way([&](const char* key, const TimeSpec& way) {
+    const bool named = *key != '\0';
+    if (in_time && is_constant(way) && (named || !(other && is_zero(way)))) {
+      refuse(at + key, "a constant displacement",
+             "it counts from t = 0, so that a constant does nothing: give it a ramp > 0 [s], a rate_ramp, an amplitude "
+             "or a table");
+    }
+    const double most = largest_rate(way);
+    if (const double rate = time_function(way)(0).rate; std::abs(rate) > 1e-12 * most) {
+      refuse(at + key, "a velocity of " + number_text(rate) + " m/s at t = 0",
+             "a support starts from rest: give the displacement a ramp > 0 [s], or its oscillation a phase of 90 "
+             "degrees");
+    }
+  });
   if (scene.integrator.type == IntegratorType::energy_momentum) {
     refuse("/integrator/type", quoted(scene.integrator.type),
            "it keeps an energy that moving supports change: take any other integrator");
@@ -406,11 +408,13 @@ void check_statics(const Scene& scene) {
   for (std::size_t i = 0; i < scene.sliding_joints.size(); ++i) {
     const auto& joint = scene.sliding_joints[i];
     if (joint.x) constant(joint_key(scene, i) + "/x", *joint.x);
-    if (joint.motion) constant(joint_key(scene, i) + "/motion", joint.motion->displacement);
+    if (!joint.motion) continue;
+    joint.motion->each_way(
+        [&](const char* key, const TimeSpec& way) { constant(joint_key(scene, i) + "/motion" + key, way); });
   }
   const auto moves = [&](const std::string& at, const SupportSpec& support) {
     if (!support.motion) return;
-    constant(at, support.motion->displacement);
+    support.motion->each_way([&](const char* key, const TimeSpec& way) { constant(at + key, way); });
     if (support.motion->angle) constant(at + "/angle", *support.motion->angle);
   };
   moves("/supports/at=start/motion", scene.start);

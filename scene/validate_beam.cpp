@@ -10,6 +10,7 @@
 #include "scene/corners.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
+#include "scene/section_data.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {
@@ -43,20 +44,40 @@ void check_knots(const Scene& scene) {
 /// Quantities whose squares and products must not leave the range of numbers.
 bool of_usual_size(double value) { return value > 1 / largest_quantity && value < largest_quantity; }
 
+/// Walls that leave something hollow.
+void check_walls(const Section& section) {
+  const auto at_most = [](const char* key, double value, double most, const char* of) {
+    if (value < most) return;
+    refuse(std::string("/beam/section/") + key, number_text(value),
+           "it must be less than " + std::string(of) + ", " + number_text(most) + " m");
+  };
+  if (section.type == Section::Type::tube) at_most("wall", section.wall, section.radius, "the radius");
+  const double smaller = std::min(section.width, section.height) / 2;
+  if (section.type == Section::Type::box) at_most("wall", section.wall, smaller, "half of width and height");
+  if (section.type != Section::Type::profile) return;
+  at_most("flange", section.flange, section.height / 2, "half of the height");
+  at_most("web", section.web, section.width, "the width");
+}
+
 void check_sizes(const Scene& scene) {
   const BeamSpec& beam = scene.beam;
-  const bool solid = beam.section.type != Section::Type::stiffness;
+  check_walls(beam.section);
+  const bool solid = has_sizes(beam.section.type);
   const BeamSection section = build_section(beam);
   const auto check = [&](const char* name, double value) {
     if (of_usual_size(value)) return;
     const std::string bounds = "it must be between 1e-100 and 1e100";
-    if (!solid) refuse(std::string("/beam/section/") + name, number_text(value), bounds);
-    const bool circle = beam.section.type == Section::Type::circle;
+    if (!solid) {
+      const bool given = beam.section.type == Section::Type::stiffness;
+      refuse(given ? std::string("/beam/section/") + name : "/beam/section/diameter",
+             number_text(given ? value : beam.section.diameter), bounds);
+    }
+    const bool circle = beam.section.type == Section::Type::circle || beam.section.type == Section::Type::tube;
+    const Material material = named(beam.material);
     refuse(circle ? "/beam/section/radius" : "/beam/section/height",
            number_text(circle ? beam.section.radius : beam.section.height),
-           "with /beam/material/density = " + number_text(beam.material.density) +
-               " and youngs_modulus = " + number_text(beam.material.youngs_modulus) + " it makes " + name + " = " +
-               number_text(value) + "; " + bounds);
+           "with /beam/material/density = " + number_text(material.density) + " and youngs_modulus = " +
+               number_text(material.youngs_modulus) + " it makes " + name + " = " + number_text(value) + "; " + bounds);
   };
   check("rhoA", section.rhoA);
   check("EA", section.stiffness.EA);

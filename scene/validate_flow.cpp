@@ -11,6 +11,7 @@
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/options.hpp"
+#include "scene/section_data.hpp"
 
 namespace vlbeam {
 namespace {
@@ -29,7 +30,7 @@ void check_parts(const Scene& scene) {
       refuse("/flow/tension", number_text(scene.flow->tension), "of a curved beam it must be 0");
     }
   }
-  const auto& section = scene.beam.section;
+  const Section section = with_stiffness(scene.beam.section);
   const BendingInertia rotary = scene.beam.rotary_inertia;
   if (section.type == Section::Type::stiffness) {
     if (scene.spin && !(section.GIp > 0)) {

@@ -9,6 +9,7 @@
 #include "scene/build_flow.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
+#include "scene/section_data.hpp"
 #include "scene/time_function.hpp"
 #include "scene/validate_feed.hpp"
 
@@ -69,11 +70,40 @@ void check_loads(const Scene& scene) {
   }
 }
 
+/// A load that travels may come onto the beam and leave it; it must be on it at some time.
+void check_that_loads_come(const Scene& scene, double beyond) {
+  constexpr int instants = 2000;
+  const double length = beam_length(scene);
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadSpec& load = scene.loads[i];
+    if (load.at != LoadPlace::point) continue;
+    const bool stays = load.type == LoadType::torque || scene.analysis == Analysis::statics;
+    const TimeFunction x = beside_loads(load.x, scene.analysis);
+    bool comes = false;
+    for (int k = 0; k <= instants; ++k) {
+      const double t = scene.duration * k / instants, at = x(t).value;
+      const bool on = at >= -beyond && at <= length + beyond;
+      comes = comes || on;
+      if (on || !stays) continue;
+      refuse("/loads/" + std::to_string(i) + "/x", number_text(at) + " m at t = " + number_text(t) + " s",
+             "a torque, or a load in statics, must be on the beam, at 0 to " + number_text(length) + " m");
+    }
+    if (comes) continue;
+    refuse("/loads/" + std::to_string(i) + "/x", number_text(x(0).value) + " m at t = 0",
+           "it is never on the beam, at 0 to " + number_text(length) + " m, within /duration");
+  }
+}
+
 /// Of a beam whose nodes rest, or all of which but one do.
 template <int D>
 void check_resting_parts(const Scene& scene) {
   const BeamModel<D> model = build_model<D>(scene);
-  check_places<D>(model.loads.points, scene.duration, 1e-9 * standard_length(scene), beam_ends(scene));
+  const double beyond = 1e-9 * standard_length(scene);
+  if (fed(scene) || scene.spin) {
+    check_places<D>(model.loads.points, scene.duration, beyond, beam_ends(scene));
+  } else {
+    check_that_loads_come(scene, beyond);
+  }
   if (!model.spin) return;
   check_drives(model.spin->drives, scene.beam.elements);
   for (const LoadSpec& load : scene.loads) {
@@ -100,11 +130,10 @@ void check_fluid(const Scene& scene) {
   if (fluid.velocity != Point{} && flows(scene)) {
     refuse("/fluid/velocity", "this key", "it goes together with neither /flow nor rotary inertia");
   }
-  const bool circle = scene.beam.section.type == Section::Type::circle;
-  if (circle && fluid.area) refuse("/fluid/area", "this key", "a circle has its own: leave it out");
-  if (!circle && fluid.density > 0 && !fluid.area) {
-    refuse("/fluid/area", InvalidInput::missing,
-           "with a density and a section of stiffnesses it must be given, > 0 [m^2]");
+  const bool known = displaces(scene.beam.section.type);
+  if (known && fluid.area) refuse("/fluid/area", "this key", "the section has its own: leave it out");
+  if (!known && fluid.density > 0 && !fluid.area) {
+    refuse("/fluid/area", InvalidInput::missing, "with a density and such a section it must be given, > 0 [m^2]");
   }
   if (scene.dimension == 2 && fluid.velocity[2] != 0) {
     refuse("/fluid/velocity/2", number_text(fluid.velocity[2]), "a planar scene has two components");

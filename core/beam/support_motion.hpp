@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "core/beam/support.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/geometry/prescribed.hpp"
@@ -32,15 +35,18 @@ struct DrivenPoint {
   }
 };
 
-/// Displacement of a support's point, `direction` times a function of time, and its angle about this point, both
-/// counted from where it is at t = 0. Without a function the support stands still.
+/// Displacement of a support's point, `direction` times a function of time and one along each axis, and its angle about
+/// this point, all counted from where it is at t = 0. Without a function the support stands still.
 template <int D>
 struct SupportMotion {
   Vec<double, D> direction = Vec<double, D>::Zero();  ///< [-]
   TimeFunction displacement;                          ///< [m]
+  std::array<TimeFunction, D> along = {};             ///< beside it, along each axis [m]
   TimeFunction angle = {};                            ///< [rad], in the plane
 
-  explicit operator bool() const { return displacement || angle; }
+  explicit operator bool() const {
+    return displacement || angle || std::ranges::any_of(along, [](const TimeFunction& f) { return bool(f); });
+  }
   bool turns() const { return static_cast<bool>(angle); }
 
   /// Of the components that `support` fixes; the others it does not drive.
@@ -50,13 +56,17 @@ struct SupportMotion {
       point.angle = angle(t);
       point.angle.value -= angle(0).value;
     }
-    if (!displacement) return point;
-    const Vec<double, D> held =
-        support.out_of_frame((support.into_frame(direction).array() * (1 - support.free_position)).matrix());
-    const Prescribed now = displacement(t);
-    point.value = (now.value - displacement(0).value) * held;
-    point.rate = now.rate * held;
-    point.acceleration = now.acceleration * held;
+    const auto add = [&](const TimeFunction& way, const Vec<double, D>& axis) {
+      if (!way) return;
+      const Vec<double, D> held =
+          support.out_of_frame((support.into_frame(axis).array() * (1 - support.free_position)).matrix());
+      const Prescribed now = way(t);
+      point.value += (now.value - way(0).value) * held;
+      point.rate += now.rate * held;
+      point.acceleration += now.acceleration * held;
+    };
+    add(displacement, direction);
+    for (int c = 0; c < D; ++c) add(along[static_cast<std::size_t>(c)], Vec<double, D>::Unit(c));
     return point;
   }
 };

@@ -120,13 +120,6 @@ void Flow<D>::add_tangent(const Motion<D>& now, const TangentWeights& by, BeamMa
   });
 }
 
-template <int D>
-std::unique_ptr<MeshEquations<D>> MovingMesh<D>::new_equations(CurrentBeam<D>& beam) const {
-  return std::make_unique<Flow<D>>(beam);
-}
-
-template std::unique_ptr<MeshEquations<2>> MovingMesh<2>::new_equations(CurrentBeam<2>&) const;
-template std::unique_ptr<MeshEquations<3>> MovingMesh<3>::new_equations(CurrentBeam<3>&) const;
 template class Flow<2>;
 template class Flow<3>;
 

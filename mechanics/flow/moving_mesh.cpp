@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "mechanics/flow/flow.hpp"
 
 namespace vlbeam {
 namespace {
@@ -281,6 +282,11 @@ void MovingMesh<D>::check_motion(double until) const {
     model_.motion.at(t, nodes);
     return std::pair{nodes.front().value, nodes.back().value};
   });
+}
+
+template <int D>
+std::unique_ptr<MeshEquations<D>> MovingMesh<D>::new_equations(CurrentBeam<D>& beam) const {
+  return std::make_unique<Flow<D>>(beam);
 }
 
 template class MovingMesh<2>;

@@ -47,8 +47,8 @@ void RidingMass<D>::add_tangent(const Motion<D>& now, const TangentWeights& by, 
 }
 
 template <int D>
-std::optional<typename LooseMass<D>::Answer> RidingMass<D>::accelerate(const double* q, const double* rate,
-                                                                       const Vector& gravity, double* a) const {
+auto RidingMass<D>::accelerate(const double* q, const double* rate, const Vector& gravity, double* a) const
+    -> std::optional<Answer> {
   const auto at = motion(q, rate);
   const auto solved = solve_with_rider<D>(mass_, law(), at, nodes(a), at.remainder - gravity, 0, held_, true, a);
   if (!solved) return std::nullopt;

@@ -13,6 +13,7 @@
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
+#include "scene/section_data.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
 #include "studies/harness/converge_setting.hpp"
@@ -396,8 +397,7 @@ class Converger {
 
   void look_for_horizon(const ConvergeLevel& finest) {
     Scene scene = with_setting(scene_, found_.finest);
-    (scene.beam.section.type == Section::Type::circle ? scene.beam.material.density : scene.beam.section.rhoA) *=
-        1 + perturbation;
+    scene.beam = with_mass(scene.beam, 1 + perturbation);
     const RunResult result = simulate(scene, [this](double) { return !interrupted() && !late(); });
     if (result.status == RunStatus::interrupted) return;
     work_ += finest.work;

@@ -10,6 +10,7 @@
 #include "scene/energy_ledger.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
+#include "scene/section_data.hpp"
 #include "scene/slack.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/quantity.hpp"
@@ -243,6 +244,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
   line("status", std::string(to_string(result.status)) +
                      (result.status == RunStatus::failed ? " at load factor " + six_digits(result.failure_time) : ""));
   line("beam", beam_text(scene));
+  if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
   line("law", law_in_words(scene));
   line("equilibria", std::to_string(result.samples.size()) + ", control by " +
                          std::string(to_string(scene.statics.control)) + ", " +
@@ -309,6 +311,7 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
   line("status", std::string(to_string(result.status)) + when_text(result));
   line("beam", beam_text(scene));
+  if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
   line("law", law_in_words(scene));
   line("integrator", integrator_text(scene.integrator));
   if (!scene.integrator.reason.empty()) line("", choice_text(scene));

@@ -373,6 +373,12 @@ class Writer {
   Json json_;
 };
 
+void move_all_ways(SupportMotionSpec& motion) {
+  motion.x.emplace();
+  motion.y.emplace();
+  motion.z.emplace();
+}
+
 }  // namespace
 
 Scene scene_with_every_part() {
@@ -384,10 +390,11 @@ Scene scene_with_every_part() {
   scene.sliding_joints.back().at_corner.emplace();
   scene.sliding_joints.back().x.emplace();
   scene.sliding_joints.back().pitch.emplace();
-  scene.sliding_joints.back().motion.emplace();
+  move_all_ways(scene.sliding_joints.back().motion.emplace());
   scene.sliding_joints.back().pulley.emplace();
   for (SupportSpec* support : {&scene.start, &scene.end}) {
     support->motion.emplace().angle.emplace();
+    move_all_ways(*support->motion);
     support->feed.emplace();
     support->held_tension.emplace();
     support->drum.emplace();
@@ -482,11 +489,12 @@ std::string left_out_of_material(const Json& scene) {
   };
   const Json beam = part(scene, "beam"), section = part(beam, "section"), material = part(beam, "material");
   const Json type = section.value("type", Json("circle"));
-  if (type == "stiffness") return "";
+  if (type == "stiffness" || type == "rope" || type == "chain") return "";
   std::vector<std::string> keys;
-  if (type == "circle" && !section.contains("radius")) keys.emplace_back("/beam/section/radius");
+  const bool round = type == "circle" || type == "tube";
+  if (round && !section.contains("radius")) keys.emplace_back("/beam/section/radius");
   for (const char* key : {"density", "youngs_modulus"}) {
-    if (!material.contains(key)) keys.push_back(std::string("/beam/material/") + key);
+    if (!material.contains(key) && !material.contains("name")) keys.push_back(std::string("/beam/material/") + key);
   }
   std::string text;
   for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -100,7 +101,9 @@ class SceneSchemaBuilder {
       conditional(option, path);
     } else if (!option.instead.empty()) {
       const auto needs = [](const std::string& key) { return Json{{"required", Json::array({key})}}; };
-      parent["anyOf"] = Json::array({needs(path.back()), needs(std::string(option.instead))});
+      Json& any = parent["anyOf"] = Json::array({needs(path.back())});
+      std::istringstream others{std::string(option.instead)};
+      for (std::string key; others >> key;) any.push_back(needs(key));
     } else if (option.required) {
       Json& required = parent["required"];
       if (std::find(required.begin(), required.end(), path.back()) == required.end()) required.push_back(path.back());

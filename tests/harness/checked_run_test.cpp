@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/automatic_integrator.hpp"
+#include "scene/simulate.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/scene_library.hpp"
 #include "tests/folders.hpp"
@@ -112,10 +114,35 @@ TEST(CheckedRun, MeasuresAFedBeamByItsLargestLength) {
   scene.start.drum = DrumSpec{.radius = 0.25, .inertia = 1.84375, .torque = {}};
   scene.duration = 2;
   scene.output.interval = 0.5;
-  scene.integrator.automatic = true;
+  scene.integrator = automatic_integrator(scene);
   const RunResult result = checked(scene);
   ASSERT_TRUE(result.error) << result.failure;
   EXPECT_NEAR(result.error->allowed, scene.integrator.accuracy * 8, 0.01 * scene.integrator.accuracy * 8);
+}
+
+TEST(CheckedRun, TellsAStiffPendulumItsErrorInTime) {
+  // steps of an automatic run follow turns: companions that did not do so told a sixth of this rod's error
+  Scene scene;
+  scene.beam.curve.end = {6.7, -4.8, 0};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 2e12, .EI = 2e10, .rhoA = 3.5};
+  scene.beam.elements = 12;
+  scene.start.type = SupportType::pin;
+  scene.initial_velocity = InitialVelocitySpec{.rotation = -0.7};
+  scene.duration = 5;
+  scene.output.interval = 0.25;
+  scene.integrator = automatic_integrator(scene);
+  const RunResult run = checked(scene);
+  ASSERT_TRUE(run.error && run.error->time) << run.failure;
+  Scene fine = scene;
+  fine.integrator = automatic_integrator(scene, 1e-6);
+  const RunResult truth = simulate(fine);
+  double error = 0;
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    const Point &a = run.samples[i].end, &b = truth.samples[i].end;
+    error = std::max(error, std::hypot(a[0] - b[0], a[1] - b[1]));
+  }
+  EXPECT_GT(*run.error->time, error / 3);
+  EXPECT_LT(*run.error->time, 3 * error);
 }
 
 TEST(CheckedRun, WarnsOfACoarseMesh) {

@@ -1,5 +1,6 @@
 #include "mechanics/motion/parts/loads.hpp"
 
+#include <limits>
 #include <string>
 
 #include "core/error.hpp"
@@ -26,6 +27,7 @@ double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force, d
   double power = 0;
   for (const PointLoad<D>& load : points) {
     const double x = load.place(beam, t);
+    if (!load.acts_at(x, beam)) continue;
     const int k = beam.element_at(x);
     const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), x);
     PointForce<double, D> f{load.force_on(at.r_x, t), Vec<double, D>::Zero()};
@@ -113,6 +115,10 @@ std::vector<Vec<double, D>> Loads<D>::places(const ChainView<D>& beam, double t)
   std::vector<Vec<double, D>> result;
   for (const PointLoad<D>& load : points) {
     const double x = load.place(beam, t);
+    if (!load.acts_at(x, beam)) {
+      result.push_back(Vec<double, D>::Constant(std::numeric_limits<double>::quiet_NaN()));
+      continue;
+    }
     result.push_back(point_at<double, D>(beam.kinematics(beam.element_at(x)), x).r);
   }
   return result;

@@ -21,6 +21,8 @@ struct PointLoad {
 
   /// Its material coordinate on a beam [m].
   double place(const ChainView<D>& beam, double t) const { return x ? x(t) : beam.mark_of(node); }
+  /// Whether that is on the beam: a load that travels comes and goes.
+  bool acts_at(double place, const ChainView<D>& beam) const { return !x || beam.contains(place); }
   /// Of force and follower, where the axis has the slope r_x [N].
   Vec<double, D> force_on(const Vec<double, D>& r_x, double t) const {
     Vec<double, D> sum = Vec<double, D>::Zero();
@@ -69,12 +71,14 @@ struct Loads {
   template <class Add>
   void add_tangent(const ChainView<D>& beam, double t, const TangentWeights& by, const Add& add) const {
     for (const PointLoad<D>& load : points) {
-      const int k = beam.element_at(load.place(beam, t));
+      const double x = load.place(beam, t);
+      if (!load.acts_at(x, beam)) continue;
+      const int k = beam.element_at(x);
       if (load.follower || beam.at_joint(k)) add(k, ElementMatrix(by.q * tangent(load, beam, k, t)));
       if (load.moment) add(k, ElementMatrix(by.q * moment_tangent(load, beam, k, t)));
     }
   }
-  /// Where the concentrated ones are [m].
+  /// Where the concentrated ones are [m]; no numbers while one is not on the beam.
   std::vector<Vec<double, D>> places(const ChainView<D>& beam, double t) const;
 
  private:
