@@ -15,7 +15,7 @@ failed() { echo "FAILED, end $round ($how of $what): $1"; failures=$((failures +
 
 cat > scene.json << 'SCENE'
 {"schema": "vlbeam.scene/1", "supports": [{"at": "start", "type": "clamp"}], "beam": {"elements": 6},
- "duration": 0.05, "output": {"interval": 2e-5}}
+ "duration": 0.05, "output": {"interval": 5e-5}}
 SCENE
 mkdir results others && cp scene.json others/kept.json && echo "a line" > others/kept.csv
 "$vlbeam" run scene.json --report results/r.json --csv results/r.csv 2> /dev/null || exit 1

@@ -30,7 +30,8 @@ sed 's/"configurations":/"points": 4, "configurations":/' scene.json > points.js
 check "the report has the same points" 1 "$(python3 - points.out shape.csv << 'PYTHON'
 import csv, json, sys
 report, table = json.load(open(sys.argv[1])), list(csv.DictReader(open(sys.argv[2])))
-mine = [(shape["t"], a["element"][i], a["x"][i], *a["r"][i], *a["v"][i], a["strain"][i], a["curvature"][i], a["tension"][i])
+mine = [(shape["t"], a["element"][i], a["x"][i], *a["r"][i], *a["v"][i], a["strain"][i], a["curvature"][i], a["tension"][i],
+         a["shear"][i], a["moment"][i], a["torque"][i])
         for shape in report["configurations"] for a in [shape["axis"]] for i in range(len(a["x"]))]
 print(int(mine == [tuple(map(float, row.values())) for row in table]))
 PYTHON
@@ -42,10 +43,10 @@ check "said so" 1 "$(says '/output/configurations')"
 check "nothing written" no "$(there none.csv)"
 "$vlbeam" run without.json --report without.out -q
 if command -v gnuplot > /dev/null; then
-  for what in shape energy tip strain tension curvature; do
+  for what in shape energy tip strain tension curvature moment shear; do
     check "figure $what" 0 "$(exit_of "$vlbeam" plot r.json --what $what -o $what.svg)"
     check "its title" 1 "$(grep -c '>Flexible pendulum<' $what.svg)"
-    check "its unit" 1 "$(grep -Ec '\((m|J|N|-|1/m)\)</' $what.svg | sed 's/[1-9][0-9]*/1/')"
+    check "its unit" 1 "$(grep -Ec '\((m|J|N|N m|-|1/m)\)</' $what.svg | sed 's/[1-9][0-9]*/1/')"
   done
   "$vlbeam" scene falling_beam > mass.json && "$vlbeam" run mass.json --report mass.out --quiet
   check "a shape with its mass" 0 "$(exit_of "$vlbeam" plot mass.out -o mass.svg)"
@@ -56,6 +57,12 @@ if command -v gnuplot > /dev/null; then
   check "a PNG" 0 "$(exit_of "$vlbeam" plot r.json --quantity end.x end.y -o q.png)"
   check "of two units" 2 "$(exit_of "$vlbeam" plot r.json --quantity end.x energy.total -o bad.svg)"
   check "an animation is a GIF" 2 "$(exit_of "$vlbeam" plot r.json --what animation -o bad.svg)"
+  "$vlbeam" run scene.json --report many.out --frames 20 -q
+  check "an envelope" 0 "$(exit_of "$vlbeam" plot many.out --what moment-envelope -o envelope.svg)"
+  check "says of how many shapes" 1 "$(grep -c 'envelope of 2[0-9] shapes' envelope.svg)"
+  check "extremes" 0 "$(exit_of "$vlbeam" run scene.json --extremes --no-check --report most.out)"
+  check "are printed" 1 "$(says 'least, largest')"
+  check "and reported" 1 "$(grep -c '"bending_moment.max": {' most.out)"
   check "no joint" 2 "$(exit_of "$vlbeam" plot r.json --what joint -o bad.svg)"
   check "no shapes" 2 "$(exit_of "$vlbeam" plot without.out -o bad.svg)"
   check "an unknown figure" 2 "$(exit_of "$vlbeam" plot r.json --what shap -o bad.svg)"
