@@ -41,8 +41,8 @@ template <int D>
 struct SupportMotion {
   Vec<double, D> direction = Vec<double, D>::Zero();  ///< [-]
   TimeFunction displacement;                          ///< [m]
-  std::array<TimeFunction, D> along = {};             ///< beside it, along each axis [m]
   TimeFunction angle = {};                            ///< [rad], in the plane
+  std::array<TimeFunction, D> along = {};             ///< beside it, along each axis [m]
 
   explicit operator bool() const {
     return displacement || angle || std::ranges::any_of(along, [](const TimeFunction& f) { return bool(f); });
