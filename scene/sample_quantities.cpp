@@ -349,8 +349,8 @@ void add_flow(Quantities& q, const Scene& scene) {
     for (std::size_t i = 0; i < q.dimension(); ++i) loads.push_back("load" + std::to_string(k) + axes[i]);
   }
   if (concentrated > 0) {
-    q.list("flow/loads", loads, "m", "where the concentrated loads are", SampleShape::vectors,
-           [d = q.dimension()](const Sample& s, double* out) {
+    q.list("flow/loads", loads, "m", "where the concentrated loads are; null while one is not on the beam",
+           SampleShape::vectors, [d = q.dimension()](const Sample& s, double* out) {
              for (const Point& load : s.flow->loads) out = std::copy_n(load.begin(), d, out);
            });
   }

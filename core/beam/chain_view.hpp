@@ -73,10 +73,10 @@ struct ChainView {
     const JointPlace* const joint = joint_at(node);
     return joint != nullptr ? q[joint->mark] : mesh.x[static_cast<std::size_t>(node)];
   }
-  /// Whether a material coordinate is one of the beam, to rounding.
+  /// Whether a material coordinate is one of the beam, to what rounding may be off.
   bool contains(double x) const {
-    constexpr double rounding = 1e-12;
-    const double first = mark_of(0), last = mark_of(mesh.last()), beyond = rounding * (last - first);
+    constexpr double rounding = 1e-9;  // of an element's length, as where scenes are checked
+    const double first = mark_of(0), last = mark_of(mesh.last()), beyond = rounding * (last - first) / mesh.elements();
     return x >= first - beyond && x <= last + beyond;
   }
   /// Rate at which the integral of r along the beam grows because matter comes in through its ends [m^2/s].

@@ -185,7 +185,7 @@ Json event(const Event& e) {
           {"energy_restored", e.restored}};
 }
 
-/// Of each number of the samples, by its column in the CSV file.
+/// Of each number of the samples, by its name.
 Json extremes_json(const Scene& scene, const std::vector<Extreme>& extremes) {
   Json json = Json::object();
   for (const Quantity& quantity : quantities(scene)) {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "scene/sample_quantities.hpp"
 #include "scene/simulate.hpp"
+#include "tests/core/support/scenes.hpp"
 
 namespace vlbeam {
 namespace {
@@ -194,6 +195,34 @@ TEST(SectionForces, ExtremesOverTimeAreThoseOfTheSteps) {
   double seen_seldom = 0;
   for (const Sample& sample : seldom.samples) seen_seldom = std::max(seen_seldom, sample.sections->moment->largest);
   EXPECT_LT(seen_seldom, 0.99 * coarse.largest) << "samples alone would miss it";
+}
+
+TEST(SectionForces, LookingForExtremesChangesNoDigit) {
+  for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
+    Scene scene = test::falling_beam(ElementKind::ale_rancf, 8);  // with events
+    scene.integrator.type = type;
+    scene.sliding_mass->friction = AxialFriction{0.1, 1e-3};
+    scene.places = {{.name = "mass", .joint = 0}};
+    scene.duration = 0.3;
+    const RunResult without = simulate(scene);
+    scene.output.extremes = true;
+    const RunResult with = simulate(scene);
+    ASSERT_EQ(with.samples.size(), without.samples.size());
+    EXPECT_EQ(with.solver.steps, without.solver.steps);
+    for (std::size_t i = 0; i < with.samples.size(); ++i) {
+      EXPECT_EQ(with.samples[i].end, without.samples[i].end) << i;
+      EXPECT_EQ(with.samples[i].joint_position, without.samples[i].joint_position) << i;
+    }
+  }
+}
+
+TEST(SectionForces, ALoadAtAnEndActsThatRoundingPutsBeyondIt) {
+  for (const double beyond : {0.0, 1e-10}) {
+    Scene scene = with_force(girder(8), L + beyond);
+    scene.start = {.type = SupportType::clamp, .clamp = ClampType::full};
+    scene.end = {};
+    EXPECT_NEAR(last(scene).sections->moment->least, -P * L, 1e-4 * P * L) << beyond;
+  }
 }
 
 TEST(SectionForces, PlacesFollowJointsAndMasses) {
