@@ -8,6 +8,7 @@
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
 #include "core/length_control/segmentation.hpp"
+#include "mechanics/rooms.hpp"
 #include "mechanics/ropes/ground.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_frames.hpp"
@@ -334,7 +335,9 @@ BeamModel<D> build_model(const Scene& scene) {
                 {drag.quadratic.normal, drag.quadratic.tangential},
                 model.quadrature_points};
   if (scene.fluid) model.drag.stream = vector_of<D>(scene.fluid->velocity);
-  if (scene.ground) model.parts.push_back(build_ground<D>(scene, model));
+  if constexpr (has_room("ropes")) {
+    if (scene.ground) model.parts.push_back(build_ground<D>(scene, model));
+  }
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);

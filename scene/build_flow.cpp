@@ -4,8 +4,10 @@
 
 #include "core/error.hpp"
 #include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/rooms.hpp"
 #include "mechanics/time/stepper.hpp"
 #include "scene/build.hpp"
+#include "scene/stretch.hpp"
 #include "scene/time_function.hpp"
 
 namespace vlbeam {
@@ -90,8 +92,11 @@ ChainState<D> flowing_chain(const Scene& scene, const BeamModel<D>& model) {
   if (!axis.straight()) return curved_chain(scene, axis, model);
   const Vec<double, D> along = axis.tangent(0).normalized();
   const double stretch = initial_stretch(scene), first = model.motion.first(0).value;
-  ChainState<D> chain =
-      straight_chain<D>(model, axis.position(0) + along * (stretch * first), along, stretch, initial_velocity(scene));
+  ChainState<D> chain;
+  if constexpr (has_room("flow")) {
+    const Vec<double, D> start = axis.position(0) + along * (stretch * first);
+    chain = straight_chain<D>(model, start, along, stretch, initial_velocity(scene));
+  }
   for (WeightFunction& weights : chain.mesh.weights) weights.w = scene.beam.weights;
   if (model.rest) chain.rest = chain.q;
   return chain;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mechanics/frames/frame_element.hpp"
+#include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 
 namespace vlbeam {
@@ -15,11 +16,13 @@ double twist_rate_at(const ChainState<3>& chain, int node) {
     const auto i = static_cast<std::size_t>(k);
     const double l = chain.mesh.x[i + 1] - chain.mesh.x[i];
     const auto e = element_nodes<3>(chain.q.data(), k);
-    const FrameTable table(l, chain.mesh.weights[i].w);
-    const FrameEnds<double> ends{
-        e.r_b - e.r_a,          e.s_a, e.s_b, chain.sections[i].direction, chain.sections[i + 1].direction,
-        chain.sections[i].ahead};
-    sum += FrameElement<double>(table, {}, ends).twist() / l;
+    if constexpr (has_room("frames")) {
+      const FrameTable table(l, chain.mesh.weights[i].w);
+      const FrameEnds<double> ends{
+          e.r_b - e.r_a,          e.s_a, e.s_b, chain.sections[i].direction, chain.sections[i + 1].direction,
+          chain.sections[i].ahead};
+      sum += FrameElement<double>(table, {}, ends).twist() / l;
+    }
     ++sides;
   }
   return sum / sides;

@@ -3,9 +3,9 @@
 #include <limits>
 #include <utility>
 
-#include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/ropes/drum.hpp"
 #include "scene/build.hpp"
+#include "scene/stretch.hpp"
 #include "scene/time_function.hpp"
 
 namespace vlbeam {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
@@ -150,8 +151,8 @@ double end_merge(const Scene& scene) {
   const bool stops = !sliding_joint(scene) || sliding_joint(scene)->at_support == AtSupport::stop;
   const bool held = joint_support(scene) != SupportType::free || guided(scene) || threaded(scene);  // it needs a node
   const bool several = has_several_joints(scene);
-  const double otherwise =
-      !scene.length_control.enabled || (kinked && stops) || held || several ? 0 : default_end_merge;
+  const bool rides = has_room("ride") && scene.length_control.enabled && !(kinked && stops) && !held && !several;
+  const double otherwise = rides ? default_end_merge : 0;
   return scene.length_control.end_merge.value_or(otherwise);
 }
 

@@ -1,6 +1,7 @@
 #include "scene/initial_equilibrium.hpp"
 
 #include "core/error.hpp"
+#include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 
 namespace vlbeam {
@@ -71,7 +72,7 @@ std::optional<InitialEquilibrium<D>> found_by(const Scene& scene, const Equilibr
     last.reset();
     return false;
   };
-  trace_equilibria<D>(system, options, on_point, counters);
+  if constexpr (has_room("statics")) trace_equilibria<D>(system, options, on_point, counters);
   if (!last) return std::nullopt;
   return InitialEquilibrium<D>{system.chain(last->y, 0), static_sample_of(*last)};
 }

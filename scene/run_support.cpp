@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/conserving/energy_momentum.hpp"
+#include "mechanics/rooms.hpp"
 #include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/build.hpp"
@@ -84,8 +85,12 @@ IntegrationOptions integration_options(const Scene& scene, const BeamSection& se
   options.locate_events = integrator.locate_events;
   if (options.tolerances.motion > 0) options.largest_overshoot = largest_overshoot;
   options.step = integrator.step;
-  if (integrator.type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = integrator.step});
-  if (of_sundials(integrator.type)) options.other = method_of_sundials(integrator.type);
+  if constexpr (has_room("conserving")) {
+    if (integrator.type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = integrator.step});
+  }
+  if constexpr (has_room("sundials")) {
+    if (of_sundials(integrator.type)) options.other = method_of_sundials(integrator.type);
+  }
   options.generalized_alpha = {.step = integrator.step,
                                .rho_inf = integrator.rho_inf,
                                .newton = integrator.newton,

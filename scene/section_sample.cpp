@@ -5,6 +5,7 @@
 #include "core/geometry/elementary.hpp"
 #include "mechanics/frames/frame_unknowns.hpp"
 #include "mechanics/motion/parts/material_point.hpp"
+#include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
@@ -108,7 +109,7 @@ template <int D>
 Configuration shape_of(const Scene& scene, const BeamSystem<D>& system, const Eigen::VectorXd& y, double t,
                        const OuterForces<D>& forces) {
   Configuration shape = configuration_of(system.chain(y, t), t, weight_transport(scene));
-  if constexpr (D == 3) {
+  if constexpr (D == 3 && has_room("frames")) {
     if (has_frames(scene)) {
       for (const auto& [a, b] : frames_of(system)->moments(y.data())) {
         shape.moments.push_back({Point{a.y, a.z, a.torsion}, Point{b.y, b.z, b.torsion}});

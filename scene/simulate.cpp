@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/rooms.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 #include "scene/build.hpp"
 #include "scene/build_winch.hpp"
@@ -103,7 +104,9 @@ class Run {
     const auto options = integration_options(scene_, system_.model().section, system_.mesh().shortest());
     const auto initial = [this]() -> Eigen::VectorXd {
       Eigen::VectorXd y = system_.release_initial_state();
-      if (scene_.flow && scene_.flow->steady) return steady_state(system_, y);
+      if constexpr (has_room("flow")) {
+        if (scene_.flow && scene_.flow->steady) return steady_state(system_, y);
+      }
       return y;
     };
     run_to_end(scene_, system_, initial, stops_, options, checkpoints_, result_);
@@ -116,6 +119,12 @@ class Run {
  private:
   void keep_shape(const Eigen::VectorXd& y, double t) {
     Configuration shape = shape_of(scene_, system_, y, t, system_.forces(y, t));
+    if constexpr (has_room("spin")) add_angles(y, shape);
+    output_.add(std::move(shape), result_);
+  }
+
+  /// Of a section that spins, at the nodes.
+  void add_angles(const Eigen::VectorXd& y, Configuration& shape) {
     const Spin* const spin = spin_of(system_);
     for (std::size_t k = 0; spin != nullptr && k < shape.x.size(); ++k) {
       const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
@@ -129,7 +138,6 @@ class Run {
       shape.angles.push_back(section.angle);
       shape.rates.spins.push_back(section.spin);
     }
-    output_.add(std::move(shape), result_);
   }
 
   void sample(const Eigen::VectorXd& y, double t) {
@@ -218,10 +226,12 @@ class Run {
                                                 const OuterForces<D>& forces) const {
     FlowSample flow;
     flow.mass = seen.mass;
-    if (spin_of(system_) != nullptr) {
-      flow.end_angles = {y[angle_of(system_, 0)], y[angle_of(system_, scene_.beam.elements)]};
-      flow.spin_momentum = seen.spin_momentum;
-      flow.torques = forces.drives;
+    if constexpr (has_room("spin")) {
+      if (spin_of(system_) != nullptr) {
+        flow.end_angles = {y[angle_of(system_, 0)], y[angle_of(system_, scene_.beam.elements)]};
+        flow.spin_momentum = seen.spin_momentum;
+        flow.torques = forces.drives;
+      }
     }
     for (const auto& place : system_.load_places(y, t)) flow.loads.push_back(point_of<D>(place));
     for (const auto& force : forces.guides) flow.supports.push_back(reaction_of<D>(force));
@@ -277,8 +287,8 @@ class Run {
     event.energy_jump = record.jump;
     event.discrete_jump = record.discrete_jump;
     event.momentum_jump.assign(record.momentum_jump.begin(), record.momentum_jump.end());
-    event.restored = record.restored;
-    event.relaxation = record.relaxation;
+    event.restored = record.conserved;
+    event.relaxation = record.given_way;
     if (output_.event_shapes) {
       event.before = shape_beside(record.before, record);
       event.after = shape_beside(record.after, record);

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
+#include "mechanics/rooms.hpp"
 #include "mechanics/statics/equilibrium.hpp"
 #include "scene/build.hpp"
 #include "scene/initial_equilibrium.hpp"
@@ -76,8 +77,10 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
     return goes_on;
   };
   try {
-    trace_equilibria<D>(system, equilibrium_options(scene), on_point, result.solver);
-    if (last && statics.frequencies > 0) result.frequencies = natural_frequencies(system, *last, statics.frequencies);
+    if constexpr (has_room("statics")) {
+      trace_equilibria<D>(system, equilibrium_options(scene), on_point, result.solver);
+      if (last && statics.frequencies > 0) result.frequencies = natural_frequencies(system, *last, statics.frequencies);
+    }
   } catch (const ComputationFailed& failure) {
     result.status = RunStatus::failed;
     result.failure = failure.what();

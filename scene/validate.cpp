@@ -6,12 +6,12 @@
 
 #include "core/error.hpp"
 #include "core/geometry/nurbs.hpp"
-#include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/corners.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
+#include "scene/rooms.hpp"
 #include "scene/scene_options.hpp"
 #include "scene/time_function.hpp"
 #include "scene/validate_beam.hpp"
@@ -142,7 +142,7 @@ void check_energy_momentum(const Scene& scene) {
 void check_integrator(const Scene& scene) {
   const IntegratorSpec& integrator = scene.integrator;
   const std::string type = quoted(integrator.type);
-  if (of_sundials(integrator.type) && !have_sundials()) {
+  if (of_sundials(integrator.type) && !knows_sundials()) {
     refuse("/integrator/type", type,
            "this program is built without SUNDIALS: install it (Debian: libsundials-dev) and build with "
            "-DVLBEAM_SUNDIALS=ON, or take another integrator");
@@ -483,6 +483,7 @@ void check_places(const Scene& scene) {
 void check_all(const Scene& scene) {
   visit_options(RangeCheck{}, scene);
   check_plane(scene);
+  refuse_missing_rooms(scene);
   validate_beam(scene);
   validate_frames(scene);
   validate_joints(scene);

@@ -7,11 +7,13 @@
 #include "core/error.hpp"
 #include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/flow/steady_flow.hpp"
-#include "mechanics/sundials/sundials_stepper.hpp"
+#include "mechanics/rooms.hpp"
+#include "mechanics/time/integrator_type.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/options.hpp"
 #include "scene/section_data.hpp"
+#include "scene/stretch.hpp"
 
 namespace vlbeam {
 namespace {
@@ -87,7 +89,7 @@ void check_guides(const Scene& scene) {
 }
 
 /// The curve says how the beam is built: there is none beyond its ends.
-void check_within_curve(const Scene& scene, const MeshMotion& motion) {
+[[maybe_unused]] void check_within_curve(const Scene& scene, const MeshMotion& motion) {
   constexpr int looks = 2000;
   const double length = beam_length(scene), slack = 1e-9 * length;
   std::vector<Prescribed> nodes;
@@ -106,20 +108,23 @@ void check_within_curve(const Scene& scene, const MeshMotion& motion) {
 
 template <int D>
 void check_model(const Scene& scene) {
-  const BeamModel<D> model = build_model<D>(scene);
-  const ChainState<D> chain = flowing_chain(scene, model);
-  const MovingMesh<D> mesh(model, chain.mesh.weights);
-  if (scene.flow) {
-    const double stretch = stretch_under(scene.flow->tension, model.section.stiffness.EA, model.section.stiffness.law);
-    const double length = stretch * chain.mesh.length(), curve = beam_length(scene);
-    if (!(std::abs(length - curve) <= length_tolerance * curve)) {
-      refuse("/flow/nodes", "a stretched length of " + number_text(length) + " m at t = 0",
-             "it must be that of /beam/curve, " + number_text(curve) + " m, within 1 %");
+  if constexpr (has_room("flow")) {
+    const BeamModel<D> model = build_model<D>(scene);
+    const ChainState<D> chain = flowing_chain(scene, model);
+    const MovingMesh<D> mesh(model, chain.mesh.weights);
+    if (scene.flow) {
+      const double stretch =
+          stretch_under(scene.flow->tension, model.section.stiffness.EA, model.section.stiffness.law);
+      const double length = stretch * chain.mesh.length(), curve = beam_length(scene);
+      if (!(std::abs(length - curve) <= length_tolerance * curve)) {
+        refuse("/flow/nodes", "a stretched length of " + number_text(length) + " m at t = 0",
+               "it must be that of /beam/curve, " + number_text(curve) + " m, within 1 %");
+      }
     }
+    if (model.rest && scene.beam.curve.type != CurveType::line) check_within_curve(scene, model.motion);
+    if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
+    mesh.check_motion(scene.duration);
   }
-  if (model.rest && scene.beam.curve.type != CurveType::line) check_within_curve(scene, model.motion);
-  if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
-  mesh.check_motion(scene.duration);
 }
 
 }  // namespace

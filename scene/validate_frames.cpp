@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "mechanics/sundials/sundials_stepper.hpp"
+#include "mechanics/time/integrator_type.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/corners.hpp"
@@ -105,7 +106,7 @@ void check_resting_parts(const Scene& scene) {
     check_that_loads_come(scene, beyond);
   }
   if (!model.spin) return;
-  check_drives(model.spin->drives, scene.beam.elements);
+  if constexpr (has_room("spin")) check_drives(model.spin->drives, scene.beam.elements);
   for (const LoadSpec& load : scene.loads) {
     const auto at_drive = [&load](const DrivenAngle& drive) { return drive.node == load.node; };
     if (load.type != LoadType::torque || load.at != LoadPlace::node) continue;

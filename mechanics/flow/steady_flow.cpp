@@ -1,43 +1,20 @@
 #include "mechanics/flow/steady_flow.hpp"
-#include "mechanics/spin/spin_unknowns.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "mechanics/motion/system/implicit_beam.hpp"
+#include "mechanics/spin/spin_unknowns.hpp"
 
 namespace vlbeam {
 namespace {
 
 constexpr int most_iterations = 50;
-constexpr double converged = 1e-13;   // Newton's correction over the size of the coordinates
-constexpr double oscillating = 1e-6;  // imaginary part over modulus, above which a pair oscillates
+constexpr double converged = 1e-13;  // Newton's correction over the size of the coordinates
 
 }  // namespace
-
-double stretch_under(double force, double EA, StrainLaw law) {
-  const bool green = law == StrainLaw::green;
-  if (!(force > (green ? -EA / (3 * std::numbers::sqrt3) : -EA))) {
-    std::ostringstream text;
-    text << force;
-    throw ModelError("tension", text.str(),
-                     green ? "a force above -EA/(3 sqrt 3) [N]: below, a beam of the green law collapses"
-                           : "a force above -EA [N]: below, nothing of the beam's length is left");
-  }
-  if (!green) return 1 + force / EA;
-  double stretch = 1;
-  for (int i = 0; i < most_iterations; ++i) {
-    stretch -= ((stretch * stretch - 1) * stretch / 2 - force / EA) / (1.5 * stretch * stretch - 0.5);
-  }
-  return stretch;
-}
 
 template <int D>
 ChainState<D> straight_chain(const BeamModel<D>& model, const Vec<double, D>& start, const Vec<double, D>& along,
@@ -78,7 +55,7 @@ namespace {
 /// The matrix of tangents_apart() with weights `by`, of free coordinates.
 template <int D>
 void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                const TangentWeights& by, Eigen::MatrixXd LinearFlow::*which, LinearFlows& flows) {
+                const TangentWeights& by, Eigen::MatrixXd LinearMotion::*which, LinearFlows& flows) {
   ImplicitBeam<D> view(beam.accelerations());
   Eigen::MatrixXd axis, angles;
   view.tangents_apart(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
@@ -132,7 +109,7 @@ Eigen::VectorXd steady_state(BeamSystem<D>& beam, const Eigen::VectorXd& guess, 
   }
   if (!unstable) {
     LinearFlows stiffness;
-    add_matrix(beam, q, v, t, {1, 0, 0}, &LinearFlow::K, stiffness);
+    add_matrix(beam, q, v, t, {1, 0, 0}, &LinearMotion::K, stiffness);
     auto positive = [](const Eigen::MatrixXd& k) {
       return k.size() == 0 || Eigen::LLT<Eigen::MatrixXd>((k + k.transpose()) / 2).info() == Eigen::Success;
     };
@@ -151,48 +128,10 @@ LinearFlows linear_flows(BeamSystem<D>& beam, const Eigen::VectorXd& y, double t
   const Eigen::Index n = beam.coordinates();
   const Eigen::VectorXd q = y.head(n), v = y.segment(n, n);
   LinearFlows flows;
-  add_matrix(beam, q, v, t, {1, 0, 0}, &LinearFlow::K, flows);
-  add_matrix(beam, q, v, t, {0, 1, 0}, &LinearFlow::C, flows);
-  add_matrix(beam, q, v, t, {0, 0, 1}, &LinearFlow::M, flows);
+  add_matrix(beam, q, v, t, {1, 0, 0}, &LinearMotion::K, flows);
+  add_matrix(beam, q, v, t, {0, 1, 0}, &LinearMotion::C, flows);
+  add_matrix(beam, q, v, t, {0, 0, 1}, &LinearMotion::M, flows);
   return flows;
-}
-
-std::vector<std::complex<double>> eigenvalues(const LinearFlow& flow) {
-  const Eigen::Index n = flow.M.rows();
-  std::vector<std::complex<double>> values;
-  if (n == 0) return values;
-  // of nu = 1/lambda, nu^2 K + nu C + M: its large eigenvalues, the slow motions, come out to rounding, whatever the
-  // stiffness of the fast ones
-  const Eigen::PartialPivLU<Eigen::MatrixXd> stiffness(flow.K);
-  const Eigen::MatrixXd mass = stiffness.solve(flow.M), damping = stiffness.solve(flow.C);
-  if (!mass.allFinite() || !damping.allFinite()) {
-    throw ComputationFailed("the linearised flow has a singular stiffness, as at a critical speed or load", 0);
-  }
-  const double time = std::sqrt(mass.norm());  // the unit that makes both halves of the companion matrix alike
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  companion.topRightCorner(n, n).setIdentity();
-  companion.bottomLeftCorner(n, n) = -mass / (time * time);
-  companion.bottomRightCorner(n, n) = -damping / time;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(companion, false);
-  if (solver.info() != Eigen::Success) throw ComputationFailed("the eigenvalue solver does not converge", 0);
-  for (Eigen::Index i = 0; i < 2 * n; ++i) values.push_back(1.0 / (time * solver.eigenvalues()[i]));
-  std::ranges::sort(values, {}, [](const std::complex<double>& z) { return portable::abs(z); });
-  return values;
-}
-
-std::vector<double> frequencies(const std::vector<std::complex<double>>& eigenvalues) {
-  std::vector<double> result;
-  for (const auto& z : eigenvalues) {
-    if (z.imag() > oscillating * portable::abs(z)) result.push_back(z.imag() / (2 * std::numbers::pi));
-  }
-  std::ranges::sort(result);
-  return result;
-}
-
-double growth_rate(const std::vector<std::complex<double>>& eigenvalues) {
-  double largest = -std::numeric_limits<double>::infinity();
-  for (const auto& z : eigenvalues) largest = std::max(largest, z.real());
-  return largest;
 }
 
 template ChainState<2> straight_chain(const BeamModel<2>&, const Vec<double, 2>&, const Vec<double, 2>&, double, double,

@@ -1,16 +1,9 @@
 #pragma once
 
-#include <complex>
-#include <vector>
-
 #include "mechanics/motion/system/beam_system.hpp"
+#include "mechanics/statics/linear_motion.hpp"
 
 namespace vlbeam {
-
-/// Stretch |r_x| of a straight beam of axial stiffness `EA` under the axial force `force` [N]:
-/// F = EA (lambda^2 - 1) lambda/2 (green) or EA (lambda - 1) (engineering). Throws ModelError where there is none: a
-/// green beam bears no compression beyond EA/(3 sqrt 3).
-double stretch_under(double force, double EA, StrainLaw law = StrainLaw::green);
 
 /// The beam of a model whose nodes travel, along a straight line at time t, from `start` in the unit direction `along`,
 /// stretched by `stretch`; its material moves at `velocity` [m/s] along the line. Unit weights.
@@ -31,26 +24,14 @@ Eigen::VectorXd straight_state(const BeamSystem<D>& beam, const Vec<double, D>& 
 template <int D>
 Eigen::VectorXd steady_state(BeamSystem<D>& beam, const Eigen::VectorXd& guess, double t = 0, bool unstable = false);
 
-/// The motion about a steady flow, M x'' + C x' + K x = 0, of the free coordinates. C is gyroscopic where there is no
-/// damping.
-struct LinearFlow {
-  Eigen::MatrixXd M, C, K;
-};
-/// Of the axis and of the angles, which do not couple; the latter are empty without spin.
+/// The small motions about a steady flow, of the axis and of the angles, which do not couple; the latter are empty
+/// without spin.
 struct LinearFlows {
-  LinearFlow axis, angles;
+  LinearMotion axis, angles;
 };
 /// About the state `y` at time t, exactly (no difference quotients).
 template <int D>
 LinearFlows linear_flows(BeamSystem<D>& beam, const Eigen::VectorXd& y, double t = 0);
-
-/// Eigenvalues lambda of lambda^2 M + lambda C + K [1/s], those of least modulus first and to the highest accuracy.
-/// Throws ComputationFailed where K is singular.
-std::vector<std::complex<double>> eigenvalues(const LinearFlow& flow);
-/// Frequencies [Hz], increasing: Im(lambda)/(2 pi) of the eigenvalues that oscillate.
-std::vector<double> frequencies(const std::vector<std::complex<double>>& eigenvalues);
-/// The largest real part [1/s]: positive where the flow diverges or flutters.
-double growth_rate(const std::vector<std::complex<double>>& eigenvalues);
 
 extern template ChainState<2> straight_chain(const BeamModel<2>&, const Vec<double, 2>&, const Vec<double, 2>&, double,
                                              double, double);

@@ -22,7 +22,7 @@ class JointRelease {
     const double unit = system_.model().length_control.standard_length, longest = StaticSearch<D>::longest_slide * unit;
     const double neutral = StaticSearch<D>::slack * system_.model().section.stiffness.EA / search_.length;
     double step = longest;
-    int way = 0;
+    int way = 0, retaken = 0;
     for (int n = 0; n < most_slides; ++n) {
       const double force = search_.holding_force(q, 1);
       const auto slide = slide_at(q);
@@ -36,8 +36,12 @@ class JointRelease {
           on_point(search_.point(q, 1));
           return;
         }
+        // a stiff rope may be slack where an element was merged: it is taken up again while the joint is held
         equations_.hold_joints(true);
-        not_released(q, "length control leaves no equilibrium");
+        if (++retaken > most_retaken || !(search_.newton(q, 1) || search_.newton_with_forces(q, 1))) {
+          not_released(q, "length control leaves no equilibrium");
+        }
+        continue;
       }
       const double room = search_.room(search_.slider, q, way);
       if (room <= shortest_slide * unit) {
@@ -69,7 +73,7 @@ class JointRelease {
 
  private:
   static constexpr double shortest_slide = 1e-6;  // of a joint that is released, over L_std
-  static constexpr int most_slides = 100000;
+  static constexpr int most_slides = 100000, most_retaken = 10;
 
   /// How the state changes with x of a joint at its equilibria, and what that does to the force that holds it.
   struct Slide {

@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/geometry/elementary.hpp"
-#include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/statics/equilibrium.hpp"
+#include "mechanics/statics/linear_motion.hpp"
 
 namespace vlbeam {
 namespace {

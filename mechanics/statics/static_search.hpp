@@ -358,7 +358,12 @@ class StaticSearch {
       q = zero;
       q.head(system.coordinates()) = y.head(system.coordinates());
       q.tail(multipliers.size()) = multipliers;
-      if (!newton(q, factor)) return false;
+      Eigen::VectorXd tried = q;
+      if (newton(tried, factor)) {
+        q = tried;
+      } else if (!newton_with_forces(q, factor) && !hang(q, factor)) {
+        return false;  // q is what the event has left
+      }
     }
     return true;
   }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "core/geometry/elementary.hpp"
@@ -28,6 +29,9 @@ constexpr double turn_margin = 1.1, turn_share = 0.85;                    // of 
 constexpr int calm_steps = 12;          // behind one that was rejected: growing at once, it would be rejected again
 constexpr double least_motion = 1e-5;   // of Tolerances::motion
 constexpr double foreseen_share = 0.1;  // of the longest step that follows the motion: so far it is foreseen
+constexpr double sets_in = 10;          // of a damper: power at the end of a step over that at its start
+constexpr double loss_share = 1e-3;     // of the largest kinetic energy so far, lost where a damper sets in
+constexpr double loss_factor = 0.3;     // to the next shorter step
 constexpr double torn_share = 0.3;      // of it: no step is off so far, in modes that it does not follow either
 
 class GeneralizedAlpha final : public Stepper {
@@ -72,6 +76,8 @@ class GeneralizedAlpha final : public Stepper {
     };
 
     double dissipation = 0;
+    looked_at_loss_ = false;
+    lost_.reset();
     const bool nearby = nearby_;
     predict(t, h);
     bool solved = solve(t + h, h, options_.newton, nearby, dissipation);
@@ -108,6 +114,10 @@ class GeneralizedAlpha final : public Stepper {
       if (calm_ > 0) {
         --calm_;
         factor = std::min(factor, 1.0);
+      }
+      if (h > shortest_share * longest_ && !follows_loss(y, t, h, dissipation)) {
+        dt = usual_ = loss_factor * h;
+        return give_up();
       }
       next = std::min(next, factor > 0.9 && factor < 1.2 ? h : h * factor);  // a kept step keeps the tangent
       if (options_.most_turn > 0) {  // in jumps: a step that is a little shorter each time gains energy
@@ -163,6 +173,7 @@ class GeneralizedAlpha final : public Stepper {
     memory(motion_);
     memory(calm_);
     memory(usual_);
+    memory(energy_);
     memory(turned_);
     memory(turned_until_);
     shorter_.exchange(memory);
@@ -201,6 +212,7 @@ class GeneralizedAlpha final : public Stepper {
       motion_until_event_ = main.motion_until_event_;
       calm_ = main.calm_;
       usual_ = main.usual_;
+      energy_ = main.energy_;
       turned_ = main.turned_;
       turned_until_ = main.turned_until_;
       kept_ = {};
@@ -429,6 +441,30 @@ class GeneralizedAlpha final : public Stepper {
     return options_.most_turn / (std::sqrt(1 + turned_) * std::max(rate, std::numeric_limits<double>::min()));
   }
 
+  /// Whether the step is short enough to tell what it loses. A damper that sets in within it, as where a mass lands,
+  /// may stop the mass within a small part of it: positions are right to the tolerance then, but the power at the end
+  /// of the step says nothing of what it loses, nor does that of the next step's middle. Such a step is to lose no
+  /// more, by its end, than a small share of the largest kinetic energy so far.
+  bool follows_loss(const Eigen::VectorXd& y, double t, double h, double dissipation) {
+    const double before = step_.start.power.dissipated;
+    if (!(dissipation > sets_in * before)) return true;
+    system_.expand(y, r_, other_);
+    for (const Eigen::VectorXd* velocities : {&other_, &step_.v}) {
+      if (!system_.inertia(step_.q, *velocities, t + h, r_)) return true;
+      energy_ = std::max(energy_, 0.5 * std::abs(velocities->dot(r_)));
+    }
+    return 0.5 * h * dissipation <= loss_share * energy_;
+  }
+
+  /// The mean power lost in the step, where the system knows better than by its ends [W].
+  std::optional<double> power_lost(const Eigen::VectorXd& y, double t, double h) {
+    if (looked_at_loss_ || !system_.tallies().dissipated) return lost_;
+    looked_at_loss_ = true;
+    system_.expand(y, r_, other_);
+    lost_ = system_.power_lost_between(r_, step_.q, step_.start.true_acceleration, step_.end.true_acceleration, h, t);
+    return lost_;
+  }
+
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
   void choose_tolerance() {
@@ -503,13 +539,9 @@ class GeneralizedAlpha final : public Stepper {
     end.power.dissipated = dissipation;
     end.h = h;
     Tally given = 0.5 * h * (step_.start.power + end.power);
-    if (system_.tallies().dissipated) {
-      system_.expand(y, r_, other_);
-      const auto lost =
-          system_.power_lost_between(r_, step_.q, step_.start.true_acceleration, end.true_acceleration, h, t);
-      if (lost) given.dissipated = h * *lost;
-    }
+    if (const auto lost = power_lost(y, t, h)) given.dissipated = h * *lost;
     system_.contract(step_.q, step_.v, y);
+    energy_ = std::max(energy_, std::abs(given.dissipated));
     system_.tallies().add(given, y);
     repeats_start_ = false;
     if (counters_) {
@@ -547,6 +579,9 @@ class GeneralizedAlpha final : public Stepper {
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;     ///< where checkpoints are kept
   AlphaStep step_;
+  std::optional<double> lost_;   ///< power in the current step [W], once power_lost() was asked
+  bool looked_at_loss_ = false;  ///< it was
+  double energy_ = 0;           ///< [J], the largest kinetic one so far that follows_loss() has seen, or lost in a step
   bool repeats_start_ = false;  ///< the next step starts where the last one did
   Eigen::VectorXd r_;           ///< residual and correction, then the estimated error of the positions
   Eigen::VectorXd other_;       ///< working memory of one function at a time

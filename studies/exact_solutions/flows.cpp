@@ -6,6 +6,7 @@
 
 #include "core/geometry/elementary.hpp"
 #include "mechanics/flow/steady_flow.hpp"
+#include "scene/stretch.hpp"
 #include "studies/exact_solutions/balance.hpp"
 #include "studies/exact_solutions/motion.hpp"
 #include "studies/moving_string/transverse.hpp"
@@ -87,7 +88,7 @@ struct Shaft {
     GIp = exact.parameter(reference, "G") * J;
     rhoIp = exact.parameter(reference, "density") * J;
   }
-  LinearFlow flow(int elements, const std::string& ends, AngleField field) const {
+  LinearMotion flow(int elements, const std::string& ends, AngleField field) const {
     BeamSection section{.rhoA = 1, .stiffness = {1e6, 1}};
     return torsion::angle_flow(section, {.rhoIp = rhoIp, .GIp = GIp}, length, elements, ends != "free-free",
                                ends == "fixed-fixed", 0, Formulation::variational, field);
@@ -152,7 +153,7 @@ Problems torsional_frequencies(const FamilyData& data) {
   for (const std::string ends : {"fixed-fixed", "fixed-free", "free-free"}) {
     const std::string reference = "torsion, " + ends;
     const auto values = [=](int elements, AngleField field, std::size_t most) {
-      const LinearFlow flow = shaft.flow(elements, ends, field);
+      const LinearMotion flow = shaft.flow(elements, ends, field);
       const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(flow.K, flow.M, Eigen::EigenvaluesOnly);
       std::vector<double> found;
       for (Eigen::Index i = ends == "free-free" ? 1 : 0; found.size() < most; ++i) {

@@ -39,6 +39,9 @@ constexpr double aimed_share = 0.8;   // of what is allowed, when a run is done 
 constexpr double most_growth = 3;     // of the steps of a repetition, over what its ratio would make of them
 constexpr double finest_ratio = 4;    // of steps from one repetition to the next
 constexpr double hopeless_ratio = 8;  // that the order seen asks for: a second repetition would be far from it
+constexpr double least_order =
+    0.5;                         // below, runs differ as much with shorter steps: no repetition brings them together
+constexpr double much_more = 3;  // of what is wrong along the beam, over that of its end, joints and masses
 constexpr const char* too_long = "it takes more work than the run itself";
 
 /// One run and what it is compared by.
@@ -184,7 +187,9 @@ Distances distances(const Track::Row& row, const Seen* first, const Seen* second
 /// What one row may be off, at each of its times.
 struct Told {
   std::vector<double> t, error;
-  double order = 1;  ///< at the end
+  double order = 1;      ///< at the end
+  bool falls = true;     ///< with the steps or elements, as far as three runs tell at the end
+  bool of_axis = false;  ///< of places along the beam
   double last() const { return error.empty() ? 0 : error.back(); }
 };
 
@@ -192,21 +197,40 @@ Told told(const Track::Row& row, const Seen* first, const Seen* second, OrderRan
   const Distances found = distances(row, first, second);
   Told told;
   told.t = found.t;
+  told.of_axis = row.quantity == "shape";
   for (std::size_t i = 0; i < found.first.size(); ++i) {
     const bool both = i < found.second.size();
     const ToldError at = told_error(found.first[i], both ? found.second[i] : -1, first->ratio,
                                     second != nullptr ? second->ratio : 1, orders);
     told.error.push_back(told.error.empty() ? at.error : std::max(at.error, told.error.back()));
     told.order = at.order;
+    told.falls = at.falls;
   }
   return told;
 }
+
+template <class... Parts>
+std::string in_words(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(2);
+  (text << ... << parts);
+  return text.str();
+}
+std::string two_digits(double value) { return in_words(value); }
 
 /// What all the places of a run may be off.
 struct Places {
   std::vector<Told> rows;
   double largest = 0, order = 1;
+  bool falls = true;          ///< the largest one does
+  double beside_axis = 0;     ///< largest of the end, the joints, the masses and the winches
+  bool known_beside = false;  ///< there is one
 
+  /// In words, where places along the beam err much more than what a user looks at first.
+  std::string but_for_axis() const {
+    if (!known_beside || largest < much_more * beside_axis) return {};
+    return " along the beam (" + two_digits(beside_axis) + " m at its end, joints and masses)";
+  }
   double at(double t) const {
     double error = 0;
     for (const Told& row : rows) {
@@ -226,6 +250,11 @@ Places places_of(const Track& track, const Seen* first, const Seen* second, Orde
     if (found.last() >= places.largest) {
       places.largest = found.last();
       places.order = found.order;
+      places.falls = found.falls;
+    }
+    if (!found.of_axis) {
+      places.beside_axis = std::max(places.beside_axis, found.last());
+      places.known_beside = true;
     }
     places.rows.push_back(std::move(found));
   }
@@ -240,14 +269,6 @@ double motion_of(const Track& track) {
     if (!ways.empty()) motion = std::max(motion, ways.back());
   }
   return motion;
-}
-
-template <class... Parts>
-std::string in_words(const Parts&... parts) {
-  std::ostringstream text;
-  text.precision(2);
-  (text << ... << parts);
-  return text.str();
 }
 
 const Seen* at(const Companions& companions, std::size_t i) {
@@ -386,7 +407,8 @@ class Checked {
       error_.time = time_places_.largest;
     };
     estimate();
-    while (scene.integrator.automatic && *error_.time > error_.allowed && error_.repeats < most_repeats) {
+    while (scene.integrator.automatic && *error_.time > error_.allowed && error_.repeats < most_repeats &&
+           !sensitive(*chain[0])) {
       const double order = error_.repeats == 0 ? orders.best : time_places_.order;
       const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / order);
       if (error_.repeats > 0 && wanted > hopeless_ratio) break;
@@ -400,6 +422,14 @@ class Checked {
       error_.quantities[i].time = told(row, chain[1], chain.size() > 2 ? chain[2] : nullptr, orders).last();
     }
     return *chain[0];
+  }
+
+  /// Whether steps follow the motion, and what runs differ by does not fall with them: the motion magnifies it. Where
+  /// the longest step limits most of them, vibrations that no run follows may be behind it, and shorter steps tell.
+  bool sensitive(const Seen& run) const {
+    const SolverCounters& solver = run.result.solver;
+    const std::size_t by_error = solver.limited_by[static_cast<std::size_t>(StepLimit::error)];
+    return !time_places_.falls && 2 * by_error > solver.steps;
   }
 
   /// Runs the finest of a chain again, with steps shorter by the ratio, and sets that before the chain. Not where it
@@ -436,17 +466,21 @@ class Checked {
                           "\"vlbeam converge\", or an /integrator with a type and steps of your own"});
     }
     if (judged_time && *error_.time > error_.allowed) {
-      warnings.push_back({WarningKind::error_in_time,
-                          in_words("the steps may make places wrong by ", *error_.time,
-                                   " m; the accuracy asked allows ", error_.allowed, " m"),
-                          "a finer accuracy: {\"accuracy\": " + six_digits(scene.integrator.accuracy / 10) +
-                              "} for /integrator; or look no further than " + six_digits(error_.trusted_until) + " s"});
+      warnings.push_back(
+          {WarningKind::error_in_time,
+           in_words("the steps may make places wrong by ", *error_.time, " m", time_places_.but_for_axis(),
+                    "; the accuracy asked allows ", error_.allowed, " m",
+                    sensitive(last) ? ", and shorter steps change as much" : ""),
+           (sensitive(last) ? "what calms the motion: damping (/beam/material/damping), a start without a jolt"
+                            : "a finer accuracy: {\"accuracy\": " + six_digits(scene.integrator.accuracy / 10) +
+                                  "} for /integrator") +
+               "; or look no further than " + six_digits(error_.trusted_until) + " s"});
     }
     if (error_.elements_wanted > 0) {
-      warnings.push_back(
-          {WarningKind::error_of_mesh,
-           in_words("the elements may make places wrong by ", *error_.mesh, " m, of a motion of ", error_.motion, " m"),
-           "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
+      warnings.push_back({WarningKind::error_of_mesh,
+                          in_words("the elements may make places wrong by ", *error_.mesh, " m",
+                                   mesh_places_.but_for_axis(), ", of a motion of ", error_.motion, " m"),
+                          "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
     }
     if (const auto warning = sudden_gravity(scene, last.result)) warnings.push_back(*warning);
     last.result.error = std::make_shared<const RunError>(std::move(error_));
@@ -480,7 +514,7 @@ ToldError told_error(double distance, double next, double ratio, double next_rat
     (growth(middle) * distance < next ? low : high) = middle;
   }
   const double order = (low + high) / 2;
-  return {distance / (portable::pow(ratio, order) - 1), order};
+  return {distance / (portable::pow(ratio, order) - 1), order, next >= growth(least_order) * distance};
 }
 
 bool has_automatic_steps(const Scene& scene) {

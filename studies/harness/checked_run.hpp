@@ -13,8 +13,9 @@ bool has_automatic_steps(const Scene& scene);
 /// other, and from that what is left. Of the mesh the order is taken no better than 2, for locking and events lower it.
 ///
 /// If an automatic run errs more in time than its accuracy allows, it is done again, twice at most, with the tolerance
-/// that the order predicts: the result is that of the last run. Gravity that acts at once on an unstrained beam is
-/// compared with what the beam would bear without vibrations. Adds what is to be known as warnings.
+/// that the order predicts: the result is that of the last run. Not where runs differ as much with shorter steps.
+/// Gravity that acts at once on an unstrained beam is compared with what the beam would bear without vibrations. Adds
+/// what is to be known as warnings.
 ///
 /// `jobs` runs go on at a time; digits do not depend on it. Of a run that fails or is interrupted nothing is told.
 /// Shapes are handed on once the last run has ended. Throws as simulate().
@@ -28,6 +29,7 @@ RunResult checked_run(const Scene& scene, const ProgressCallback& progress, cons
 struct ToldError {
   double error = 0;
   double order = 1;
+  bool falls = true;  ///< from run to run; not where the motion magnifies what runs differ by
 };
 /// Orders that an error is taken to have: no lower, and no better.
 struct OrderRange {

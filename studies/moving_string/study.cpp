@@ -8,6 +8,7 @@
 #include <map>
 
 #include "mechanics/spin/circular_shaft.hpp"
+#include "scene/stretch.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/moving_string/transverse.hpp"
 

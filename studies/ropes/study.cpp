@@ -3,18 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/geometry/elementary.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/observed_order.hpp"
 #include "studies/harness/scene_json.hpp"
+#include "studies/ropes/catenaries.hpp"
 #include "studies/ropes/closed_forms.hpp"
 
 namespace vlbeam {
 namespace ropes {
 namespace {
 
-constexpr double rounding = 1e-8;  // of strains, times EA over the pull
+constexpr int fewest_in_ring = 16;  // elements, on both sides of the ring together
+constexpr double rounding = 1e-8;   // of strains, times EA over the pull
 
 struct Case {
   double varied = 0;  ///< by the problem: mass a length, coefficient of friction, length hoisted, step, elements, ...
@@ -39,20 +42,27 @@ class Report {
     hoist();
     tether();
     hanging();
+    catenaries();
     mooring();
-    for (Table* table : {&atwood_, &capstan_, &hoist_, &tether_, &hanging_, &mooring_, &ground_}) {
+    for (Table* table : {&atwood_, &capstan_, &hoist_, &tether_, &hanging_, &catenaries_, &mooring_, &ground_}) {
       report_.tables.push_back(std::move(*table));
     }
-    report_.figures = {{.name = "motions",
-                        .caption = "Ropes beside their closed forms: weights over a guide, friction around it, a "
-                                   "pendulum that is hoisted",
-                        .script = "motions.gp",
-                        .variables = {{"folder", context_.folder.string()}}},
-                       {.name = "errors",
-                        .caption = "Errors of ropes: angular momentum of a deployed tether against the step, pulls of "
-                                   "hanging ropes against the mesh",
-                        .script = "errors.gp",
-                        .variables = {{"folder", context_.folder.string()}}}};
+    report_.figures = {
+        {.name = "motions",
+         .caption = "Ropes beside their closed forms: weights over a guide, friction around it, a "
+                    "pendulum that is hoisted",
+         .script = "motions.gp",
+         .variables = {{"folder", context_.folder.string()}}},
+        {.name = "errors",
+         .caption = "Errors of ropes: angular momentum of a deployed tether against the step, pulls of "
+                    "hanging ropes against the mesh",
+         .script = "errors.gp",
+         .variables = {{"folder", context_.folder.string()}}},
+        {.name = "catenaries",
+         .caption = "Hanging ropes of all stiffnesses against elastic catenaries: largest errors of shape "
+                    "and tension; larger symbols are stiffer ropes",
+         .script = "catenaries.gp",
+         .variables = {{"folder", context_.folder.string()}}}};
     return std::move(report_);
   }
 
@@ -182,6 +192,68 @@ class Report {
     const Pull exact = hanging_rope(scene_from_json(context_.config.at("scenes").at("hanging")));
     fit("hanging", pulls("hanging", "elements", exact, hanging_, set_elements), rounding);
   }
+  /// Shape and tension along ropes of all stiffnesses, on few elements and on many.
+  void catenaries() {
+    struct Cell {
+      std::size_t hanging;
+      double stiffness;
+      int elements;
+    };
+    const Json& sweep = context_.config.at("sweeps").at("catenaries");
+    const auto elements = sweep.at("elements").get<std::vector<int>>();
+    std::vector<Cell> cells;
+    for (std::size_t hanging = 0; hanging < hangings.size(); ++hanging) {
+      for (const double stiffness : sweep.at("stiffness").get<std::vector<double>>()) {
+        for (const int n : elements) cells.push_back({hanging, stiffness, n});
+      }
+    }
+    const auto rope_of = [](const Cell& c) {
+      return HangingRope(static_cast<Hanging>(c.hanging), c.stiffness, c.elements);
+    };
+    const auto runs = context_.sweep(
+        cells, [&](const Cell& cell) { return StudyContext::simulate_to_the_end(rope_of(cell).scene()); });
+    double shape = 0, tension = 0, warned = 0, failed = 0;
+    std::map<std::string, Errors> by_hanging;
+    std::map<int, double> in_ring;  // by elements
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Cell& cell = cells[i];
+      const std::string& name = hangings[cell.hanging];
+      StudyCase& seen = report_.cases.emplace_back();
+      seen.options = {
+          {"problem", "catenaries"}, {"hanging", name}, {"stiffness", cell.stiffness}, {"elements", cell.elements}};
+      if (!runs[i]) {
+        ++failed;
+        seen.results = {{"failure", runs[i].failure}};
+        continue;
+      }
+      const CatenaryError error = rope_of(cell).error_of(*runs[i]);
+      double& worst_shape = cell.hanging == static_cast<std::size_t>(Hanging::ring) ? in_ring[cell.elements] : shape;
+      worst_shape = std::max(worst_shape, error.shape);
+      tension = std::max(tension, error.tension);
+      warned += static_cast<double>(runs[i]->warnings.size());
+      catenaries_.rows.push_back({static_cast<double>(cell.hanging), cell.stiffness, static_cast<double>(cell.elements),
+                                  error.shape, error.tension});
+      seen.results = {{"shape", error.shape}, {"tension", error.tension}};
+      Errors& worst = by_hanging[name];
+      if (worst.varied.empty()) {
+        worst.varied.assign(elements.begin(), elements.end());
+        worst.values.assign(elements.size(), 0);
+      }
+      double& of_mesh = worst.values[i % elements.size()];
+      of_mesh = std::max(of_mesh, error.shape);
+    }
+    report_.measured["catenaries_shape"] = shape;
+    double shape_in_ring = 0;
+    for (const auto& [n, error] : in_ring) {
+      report_.measured["catenaries_shape_in_ring_" + std::to_string(n)] = error;
+      if (n >= fewest_in_ring) shape_in_ring = std::max(shape_in_ring, error);
+    }
+    report_.measured["catenaries_shape_in_ring"] = shape_in_ring;
+    report_.measured["catenaries_tension"] = tension;
+    report_.measured["catenaries_amiss"] = warned + failed;
+    fit("catenaries_held", by_hanging.at("held"), rounding);
+    fit("catenaries_ring", by_hanging.at("ring"), rounding);
+  }
   void mooring() {
     const Pull exact = rope_from_the_ground(scene_from_json(context_.config.at("scenes").at("mooring")));
     pulls("mooring", "elements", exact, mooring_, set_elements);
@@ -205,6 +277,12 @@ class Report {
   Table hanging_{.name = "hanging",
                  .caption = "A rope between two supports: pull [N] and its error, against the mesh",
                  .columns = {"elements", "along", "up", "error"}};
+  Table catenaries_{
+      .name = "catenaries",
+      .caption =
+          "Ropes between two pins (0), with a free end (1), through a ring (2): errors of the shape, over "
+          "the length, and of the tension, over the largest one, by stiffness EA over the weight",
+      .columns = {"hanging", "stiffness", "elements", "shape", "tension"}};
   Table mooring_{.name = "mooring",
                  .caption = "A chain from the ground to a fairlead: pull [N] and its error, against the mesh",
                  .columns = {"elements", "along", "up", "error"}};

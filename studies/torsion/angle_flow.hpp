@@ -5,8 +5,9 @@
 namespace vlbeam::torsion {
 
 /// The motion of the angles of a shaft about its axis, which flows along it at `speed` [m/s]; held where its ends are.
-inline LinearFlow angle_flow(const BeamSection& section, const SpinSection& spin, double length, int elements,
-                             bool start_held, bool end_held, double speed, Formulation formulation, AngleField field) {
+inline LinearMotion angle_flow(const BeamSection& section, const SpinSection& spin, double length, int elements,
+                               bool start_held, bool end_held, double speed, Formulation formulation,
+                               AngleField field) {
   BeamModel<3> model;
   model.section = section;
   model.spin.emplace().section = spin;

@@ -42,7 +42,7 @@ WORDS = {
 
 
 def library_of(path):
-    if path == "mechanics/rooms.cpp":
+    if path.startswith("mechanics/rooms."):
         return "rooms"
     if path.startswith("core/"):
         return next((room for room, pattern in STILL_IN_CORE.items() if re.search(pattern, path)), "elements")

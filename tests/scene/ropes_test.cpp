@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/automatic_integrator.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
+#include "scene/energy_ledger.hpp"
 #include "scene/shape.hpp"
 #include "scene/slack.hpp"
 #include "tests/core/support/scenes.hpp"
@@ -189,6 +191,32 @@ TEST(Ground, BearsAMassAtTheEndOfARope) {
   const RunResult run = simulate(scene);
   ASSERT_EQ(run.status, RunStatus::completed) << run.failure;
   EXPECT_NEAR(run.samples.back().end[1], 0, 1e-4);
+}
+
+// A winch lowers 100 kg at 0.2 m/s; the ground's damper stops them within 0.1 ms, a fraction of a usual step. The
+// ledger knows what the damper has taken: the kinetic energy and the stretch of the wire, not the power of either end
+// of a step.
+TEST(Ground, ALandingLosesWhatTheLoadHad) {
+  Scene scene;
+  scene.gravity = {0, -rope_gravity, 0};
+  scene.initial_shape = InitialShape::equilibrium;
+  scene.beam.curve.start = {0, 5, 0};
+  scene.beam.curve.end = {0, 0.5, 0};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e6, .EI = 0, .rhoA = 0.5};
+  scene.beam.material.damping = 0.01;
+  scene.beam.elements = 10;
+  scene.start.type = SupportType::pin;
+  scene.start.feed = TimeSpec{.table = {{0, 0, 0}, {5, 1, 0}}};
+  scene.point_masses = {{10, 100}};
+  scene.ground = GroundSpec{.height = 0, .stiffness = 1e6, .damping = 1e4};
+  scene.duration = 4;
+  scene.integrator = automatic_integrator(scene);
+  const RunResult run = test::completed(scene);
+  EXPECT_NEAR(run.samples.back().end[1], 0, 1e-4);
+  const EnergyLedger ledger = energy_ledger(run);
+  EXPECT_LE(ledger.largest_unexplained, 0.3) << "of 480 J that the winch has let down";
+  EXPECT_GT(ledger.dissipated, 2 + 2.2) << "in motion and in the wire, while the winch goes on";
+  EXPECT_LT(ledger.dissipated, 10);
 }
 
 TEST(PointMasses, StandAtAPosition) {

@@ -29,11 +29,11 @@ struct EventRecord {
   MergedWeights merged;
   Energy jump;           ///< by a 25-point rule
   double discrete_jump;  ///< of the total, by the model's own rule
-  bool restored;         ///< false: energy and momenta were to be as before, and the energy is not
+  bool conserved;        ///< false: energy and momenta were to be as before, and the energy is not
   Eigen::VectorXd
       momentum_jump;            ///< linear, then angular about the origin, by the model's own rule; not of a separation
   ChainState<D> before, after;  ///< beyond LengthControl::most_whole elements the part around the joint
-  int relaxation = 0;           ///< iterations until nodes had given way
+  int given_way = 0;            ///< iterations until nodes had given way
   double seconds;               ///< wall time spent
 };
 
@@ -161,6 +161,7 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   BeamMass<D> mass_;
   Accelerations<D> accelerations_;
   VelocityProjection<D> velocities_;
+  std::optional<LocalConservation<D>> conservation_ = local_conservation_of_rooms<D>();
   EventSources<D> sources_;
   ChainState<D> spare_chain_;  ///< memory for the next event
   Eigen::VectorXd old_;        ///< the state before the last event

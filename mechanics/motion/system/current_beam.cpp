@@ -52,7 +52,7 @@ CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chai
   unknowns_ = unknowns_of_rooms<D>(*this, chain.mesh.x);
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   if (model_.loads.present()) acting_.push_back(std::make_shared<ActingLoads<D>>(model_.loads));
-  if (model_.drag.present()) acting_.push_back(std::make_shared<ActingDrag<D>>(model_.drag));
+  add_parts_of_rooms(model_, acting_);
   if (model_.masses.present()) acting_.push_back(std::make_shared<ActingPointMasses<D>>(model_.masses));
   acting_.insert(acting_.end(), model_.parts.begin(), model_.parts.end());
   adopt(chain);

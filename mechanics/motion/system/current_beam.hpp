@@ -315,6 +315,10 @@ std::unique_ptr<PrescribedMesh<D>> prescribed_mesh_of_rooms(const CurrentBeam<D>
 template <int D>
 std::unique_ptr<LooseMass<D>> loose_mass_of_rooms(const CurrentBeam<D>& beam, const ChainState<D>& chain);
 
+/// Appends what features of a model do that act on the beam, which it must outlive. Defined in rooms.cpp.
+template <int D>
+void add_parts_of_rooms(const BeamModel<D>& model, std::vector<std::shared_ptr<const Part<D>>>& acting);
+
 extern template class CurrentBeam<2>;
 extern template class CurrentBeam<3>;
 

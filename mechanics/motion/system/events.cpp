@@ -7,12 +7,11 @@
 #include "core/error.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
 #include "mechanics/motion/system/event_limits.hpp"
-#include "mechanics/remesh/restore_beside_joint.hpp"
 
 namespace vlbeam {
 namespace {
 
-constexpr double restored_energy = 1e-9;  // of the energies there are
+constexpr double kept_energy = 1e-9;  // of the energies there are
 
 }  // namespace
 
@@ -57,7 +56,7 @@ std::vector<EventRecord<D>> BeamSystem<D>::records_of(const std::vector<PendingE
     records[i].type = dues[i].type;
     records[i].joint = dues[i].joint;
     records[i].joint_position = dues[i].x;
-    records[i].restored = true;
+    records[i].conserved = true;
   }
   EventRecord<D>& first = records.front();
   first.before = accelerations_.last_event().release();
@@ -100,7 +99,7 @@ typename BeamSystem<D>::EventScope BeamSystem<D>::scope_of(const std::vector<Pen
   scope.changes_nodes_alone = (due.remeshes || due.goes_on) && !scope.observes_all;
   scope.goes_on = due.goes_on;
   scope.is_local = scope.changes_nodes_alone && places().size() == 1 && links_.all().empty() &&
-                   mesh().elements() > control.most_whole && (!scope.conserves || has_free_joint());
+                   mesh().elements() > control.most_whole && (!scope.conserves || (conservation_ && has_free_joint()));
   if (scope.is_local) scope.part = part_around_joint();
   scope.reach = reach_of(dues, scope.part);
   return scope;
@@ -112,7 +111,7 @@ typename BeamSystem<D>::BeforeEvent BeamSystem<D>::look_before(const EventScope&
   BeforeEvent before;
   if (scope.observes_all) before.energy = observe(y, t, ledger_points).energy;
   if (scope.conserves && scope.is_local) {
-    before.own.kinetic = kinetic_energy(*this, mass_, scope.part, y, t);
+    before.own.kinetic = conservation_->kinetic_energy(*this, mass_, scope.part, y, t);
   } else if (scope.observes_all || scope.conserves) {
     before.own = observe(y, t, own_points).energy;
   }
@@ -131,7 +130,7 @@ void BeamSystem<D>::change_chain(EventSource<D>& source, const std::vector<Pendi
   std::vector<Reshaped> where;
   for (const PendingEvent& due : dues) where.push_back(source.reshaped(due, record.after));
   for (const auto& other : sources_) {
-    record.relaxation += other->give_way(where, scope.reach, t, record.before, record.after);
+    record.given_way += other->give_way(where, scope.reach, t, record.before, record.after);
   }
 }
 
@@ -153,9 +152,9 @@ void BeamSystem<D>::change_velocities(const EventScope& scope, const BeforeEvent
     };
     if (scope.is_local) {
       const Eigen::VectorXd lacking = before.momenta - velocities_.momenta(y, t, scope.part);
-      restore_beside_joint<D>(*this, mass_, scope.part, lacking, gained, y, t);
+      conservation_->conserve(*this, mass_, scope.part, lacking, gained, y, t);
     } else {
-      velocities_.restore(before.momenta, gained, y, t);
+      velocities_.conserve(before.momenta, gained, y, t);
     }
   }
   if (scope.transfers || scope.always_transfers) Beam::take_rates(y, record.after);
@@ -176,7 +175,7 @@ void BeamSystem<D>::book_jumps(const EventScope& scope, const BeforeEvent& befor
   if (scope.conserves) {
     const Energy& own = before.own;
     const double size = std::abs(own.kinetic) + own.axial + own.bending + std::abs(own.gravity);
-    record.restored = std::abs(record.discrete_jump) <= restored_energy * size;
+    record.conserved = std::abs(record.discrete_jump) <= kept_energy * size;
   }
   if (model().driven()) {  // what supports do in an impact is no jump
     const double work = layout().tallies.of(y).supports - before.work;

@@ -210,7 +210,8 @@ template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
                                                           double h, double t) {
-  if (!beam_.model().section.damped() || !beam_.move_nodes(t + h / 2)) return std::nullopt;
+  const bool damped = beam_.model().section.damped() || !beam_.model().parts.empty();
+  if (!damped || !beam_.move_nodes(t + h / 2)) return std::nullopt;
   assign_both(middle_q_, 0.5 * (q0 + q1), middle_v_, (q1 - q0) / h);
   assign(a_, 0.5 * (a0 + a1));
   free_.resize(q0.size());

@@ -150,16 +150,16 @@ Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double 
 }
 
 template <int D>
-void VelocityProjection<D>::restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y,
-                                    double t) {
-  restore_axis(momenta, gained, y, t);
+void VelocityProjection<D>::conserve(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y,
+                                     double t) {
+  conserve_axis(momenta, gained, y, t);
   const bool follow = beam_.unknowns() != nullptr && beam_.unknowns()->couples_joints();  // marks, a little
-  if (follow) restore_axis(momenta, gained, y, t);
+  if (follow) conserve_axis(momenta, gained, y, t);
 }
 
 template <int D>
-void VelocityProjection<D>::restore_axis(const Eigen::VectorXd& all, const EnergyGained& gained, Eigen::VectorXd& y,
-                                         double t) {
+void VelocityProjection<D>::conserve_axis(const Eigen::VectorXd& all, const EnergyGained& gained, Eigen::VectorXd& y,
+                                          double t) {
   Eigen::VectorXd momenta;
   momenta = all;
   if constexpr (D == 3) momenta.tail<3>() -= own_momentum(y);

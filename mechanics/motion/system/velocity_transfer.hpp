@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 
 #include "mechanics/motion/system/beam_mass.hpp"
 
@@ -35,7 +36,7 @@ class VelocityProjection {
   Eigen::VectorXd momenta(const Eigen::VectorXd& y, double t, const BeamPart& part = {});
   /// Gives the rates in `y` these momenta, by the least change, and takes the energy that they have `gained`, by
   /// scaling the velocity fluctuation, which carries no momentum: as far as it has energy, and at most doubled.
-  void restore(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
+  void conserve(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
 
  private:
   /// Writes the momentum by which the velocity field of `before` exceeds that of `after`, on elements `first` to
@@ -50,13 +51,26 @@ class VelocityProjection {
     if (beam_.unknowns() == nullptr) return Vec<double, 3>::Zero();
     return beam_.unknowns()->momentum(y.data(), y.data() + beam_.coordinates());
   }
-  /// restore(), once, of the motion of the axis.
-  void restore_axis(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
+  /// conserve(), once, of the motion of the axis.
+  void conserve_axis(const Eigen::VectorXd& momenta, const EnergyGained& gained, Eigen::VectorXd& y, double t);
 
   const CurrentBeam<D>& beam_;
   BeamMass<D>& mass_;
   Eigen::VectorXd momentum_;  ///< an array like q'
 };
+
+/// The same of a long beam with one joint that is free to move, by the velocities around it alone: momenta are what
+/// they lack, and kinetic_energy() is that of a part, 1/2 v . M v [J]. Nothing where no room does it (rooms.cpp).
+template <int D>
+struct LocalConservation {
+  using EnergyGained = typename VelocityProjection<D>::EnergyGained;
+  double (*kinetic_energy)(const CurrentBeam<D>& beam, const BeamMass<D>& mass, const BeamPart& part,
+                           const Eigen::VectorXd& y, double t);
+  void (*conserve)(const CurrentBeam<D>& beam, const BeamMass<D>& mass, const BeamPart& part,
+                   const Eigen::VectorXd& lacking, const EnergyGained& gained, Eigen::VectorXd& y, double t);
+};
+template <int D>
+std::optional<LocalConservation<D>> local_conservation_of_rooms();
 
 extern template class VelocityProjection<2>;
 extern template class VelocityProjection<3>;

@@ -5,6 +5,7 @@
 
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
+#include "scene/stretch.hpp"
 #include "tests/core/support/random.hpp"
 
 namespace vlbeam::test {

@@ -13,7 +13,8 @@ namespace vlbeam {
 template <int D>
 void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) {
   if (of_unknowns_) {
-    throw ModelError("integrator", "\"rosenbrock4\"", "its Jacobian knows no spin: take any other integrator");
+    throw ModelError("integrator", "\"rosenbrock4\"",
+                     "its Jacobian knows no angles of sections: take any other integrator");
   }
   refresh();
   const Eigen::Index n = coordinates();
@@ -52,8 +53,8 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   dfdt.setZero();
   const auto& model = beam_.model();
   const bool rubs = model.rubs();
-  const bool turned = model.frames && model.frames->loaded();
-  if (model.driven() || model.travels() || model.loads.present() || turned || (rubs && t < model.gravity_ramp)) {
+  if (model.driven() || beam_.prescribed_mesh() != nullptr || model.tallies().loads ||
+      (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
   } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that
     weightless_.resize(y.size());
