@@ -39,7 +39,7 @@ constexpr double aimed_share = 0.8;   // of what is allowed, when a run is done 
 constexpr double most_growth = 3;     // of the steps of a repetition, over what its ratio would make of them
 constexpr double finest_ratio = 4;    // of steps from one repetition to the next
 constexpr double hopeless_ratio = 8;  // that the order seen asks for: a second repetition would be far from it
-constexpr double least_order =
+constexpr double least_order_seen =
     0.5;                         // below, runs differ as much with shorter steps: no repetition brings them together
 constexpr double much_more = 3;  // of what is wrong along the beam, over that of its end, joints and masses
 constexpr const char* too_long = "it takes more work than the run itself";
@@ -514,7 +514,7 @@ ToldError told_error(double distance, double next, double ratio, double next_rat
     (growth(middle) * distance < next ? low : high) = middle;
   }
   const double order = (low + high) / 2;
-  return {distance / (portable::pow(ratio, order) - 1), order, next >= growth(least_order) * distance};
+  return {distance / (portable::pow(ratio, order) - 1), order, next >= growth(least_order_seen) * distance};
 }
 
 bool has_automatic_steps(const Scene& scene) {
