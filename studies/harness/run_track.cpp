@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
 #include "scene/shape.hpp"
@@ -83,6 +84,21 @@ std::vector<double> probes(const Scene& scene, const Configuration& shape) {
   return places;
 }
 
+namespace {
+
+/// The same places on the axis as it is drawn.
+std::vector<double> drawn_probes(const Scene& scene) {
+  const Axis<3> axis = build_axis<3>(scene);
+  std::vector<double> places;
+  for (int i = 0; i <= probe_shares; ++i) {
+    const Vec<double, 3> r = axis.position(axis.length() * i / probe_shares);
+    places.insert(places.end(), r.data(), r.data() + scene.dimension);
+  }
+  return places;
+}
+
+}  // namespace
+
 Track track_of(const Scene& scene, const RunResult& result, const std::vector<double>& times,
                const std::vector<std::vector<double>>& shapes) {
   Tracker tracker(scene, result);
@@ -123,7 +139,7 @@ Track track_of(const Scene& scene, const RunResult& result, const std::vector<do
   if (scene.analysis == Analysis::dynamics) {
     track.rows.push_back({"shape", "m", TrackKind::place, times, shapes});
   } else {
-    track.rows.push_back({"shape", "m", TrackKind::place, {0, 1}, {shapes.front(), shapes.back()}});
+    track.rows.push_back({"shape", "m", TrackKind::place, {0, 1}, {drawn_probes(scene), shapes.back()}});
   }
   return track;
 }

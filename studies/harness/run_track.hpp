@@ -29,7 +29,8 @@ std::vector<double> probe_times(const Scene& scene);
 std::vector<double> probes(const Scene& scene, const Configuration& shape);
 
 /// The end, the joints, the masses, what winches have paid out, angles, energies and the largest forces of the samples,
-/// and the shape at `times`, as probes() gives it. Of statics the first and the last equilibrium, as times 0 and 1.
+/// and the shape at `times`, as probes() gives it. Of statics the first and the last equilibrium, as times 0 and 1, and
+/// the shape as it is drawn and at last: a chain may hang in nearly one shape under all of its loads.
 Track track_of(const Scene& scene, const RunResult& result, const std::vector<double>& times,
                const std::vector<std::vector<double>>& shapes);
 

@@ -40,6 +40,8 @@ DOCUMENTS = {
     "docs/own_scene.md": ("A scene of your own", "Print, run, draw; joints, winches, loads; how far a number can be trusted; sweeps."),
     "docs/ropes.md": ("Ropes", "Which law, which strain, slack, corners, winches, starts."),
     "docs/what_comes_out.md": ("What comes out", "Every quantity of a run: name, unit, meaning; places, extremes over time."),
+    "docs/from_moorpy.md": ("From MoorPy and MoorDyn", "Their words and ours, two lines of MoorPy's tests, when to stay."),
+    "docs/from_exudyn.md": ("From EXUDYN", "Its words and ours, a cantilever, when to stay."),
     "docs/scene_keys.md": ("Keys of a scene", "Every key with its values, default, unit and meaning."),
     "docs/use.md": ("Program, library, Python", "Commands, exit codes, make, CMake, pip."),
     "docs/limits.md": ("Limits", "Where answers are wrong or get worse, the most dangerous first."),
