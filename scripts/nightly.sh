@@ -10,7 +10,7 @@ export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 jobs=$(nproc)
 
 sanitizers() {  # all tests of the sanitized programs
-  cmake --preset asan && cmake --build --preset asan --parallel "$jobs" --target vlbeam_sanitized || return 1
+  cmake --preset asan && cmake --build --preset asan --parallel "$jobs" --target vlbeam_sanitized_nightly || return 1
   printf '%s\n' build-asan/tests/*/vlbeam_*_tests |
     xargs -P "$jobs" -I '{}' sh -c 'timeout 5400 "$1" --gtest_brief=1 || { echo "$1: failed ($?)"; exit 1; }' sh '{}'
 }

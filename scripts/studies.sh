@@ -78,13 +78,19 @@ case $action in
         continue
       fi
       code=0
+      before=$SECONDS
       "$vlbeam" study "$study" --profile "$profile" --out "$out" --jobs "$jobs" || code=$?
+      took+=("$((SECONDS - before)) s $study")
       if [[ $code -ge 128 ]]; then exit "$code"; fi  # stopped by the user: the next run carries on
       if [[ $code -ge 1 ]]; then failed=$code; else note_made "$study"; fi
       if [[ $code -eq 0 && -z ${5:-} ]]; then finished_line "$study" >> "$finished"; fi
     done
     rm -f "$finished"
-    if [[ -d build/python/vlbeam ]] && "$python" -c "import matplotlib, pandas" 2> /dev/null; then
+    if [[ -z ${5:-} ]]; then
+      echo "It took $((SECONDS / 60)) minutes; by study:" >&2
+      printf '%s\n' "${took[@]}" | sort -rn | sed 's/^/  /' >&2
+    fi
+    if PYTHONPATH=build/python "$python" -c "import vlbeam, matplotlib, pandas; vlbeam.Scene" 2> /dev/null; then
       PYTHONPATH=build/python "$python" docs/tutorials/run.py --quick
     fi
     "$python" studies/site/build.py "$out"
