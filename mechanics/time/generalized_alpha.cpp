@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 #include "core/geometry/elementary.hpp"
@@ -76,8 +75,6 @@ class GeneralizedAlpha final : public Stepper {
     };
 
     double dissipation = 0;
-    looked_at_loss_ = false;
-    lost_.reset();
     const bool nearby = nearby_;
     predict(t, h);
     bool solved = solve(t + h, h, options_.newton, nearby, dissipation);
@@ -456,15 +453,6 @@ class GeneralizedAlpha final : public Stepper {
     return 0.5 * h * dissipation <= loss_share * energy_;
   }
 
-  /// The mean power lost in the step, where the system knows better than by its ends [W].
-  std::optional<double> power_lost(const Eigen::VectorXd& y, double t, double h) {
-    if (looked_at_loss_ || !system_.tallies().dissipated) return lost_;
-    looked_at_loss_ = true;
-    system_.expand(y, r_, other_);
-    lost_ = system_.power_lost_between(r_, step_.q, step_.start.true_acceleration, step_.end.true_acceleration, h, t);
-    return lost_;
-  }
-
   /// What Newton's iteration may leave in the next step, of its increment: a share of the error that the method itself
   /// makes, as it was in this step.
   void choose_tolerance() {
@@ -539,7 +527,12 @@ class GeneralizedAlpha final : public Stepper {
     end.power.dissipated = dissipation;
     end.h = h;
     Tally given = 0.5 * h * (step_.start.power + end.power);
-    if (const auto lost = power_lost(y, t, h)) given.dissipated = h * *lost;
+    if (system_.tallies().dissipated) {
+      system_.expand(y, r_, other_);
+      const auto lost =
+          system_.power_lost_between(r_, step_.q, step_.start.true_acceleration, end.true_acceleration, h, t);
+      if (lost) given.dissipated = h * *lost;
+    }
     system_.contract(step_.q, step_.v, y);
     energy_ = std::max(energy_, std::abs(given.dissipated));
     system_.tallies().add(given, y);
@@ -579,8 +572,6 @@ class GeneralizedAlpha final : public Stepper {
   double tangent_by_a_ = 0;  ///< what the factored tangent was made for; 0 for none
   TangentPoint tangent_;     ///< where checkpoints are kept
   AlphaStep step_;
-  std::optional<double> lost_;   ///< power in the current step [W], once power_lost() was asked
-  bool looked_at_loss_ = false;  ///< it was
   double energy_ = 0;           ///< [J], the largest kinetic one so far that follows_loss() has seen, or lost in a step
   bool repeats_start_ = false;  ///< the next step starts where the last one did
   Eigen::VectorXd r_;           ///< residual and correction, then the estimated error of the positions

@@ -219,6 +219,40 @@ TEST(Ground, ALandingLosesWhatTheLoadHad) {
   EXPECT_LT(ledger.dissipated, 10);
 }
 
+// A rope that hangs through a ring between two pins, and is to slide in it: 5 N pull on both sides of the ring where
+// 0.45 m are before it. A stiff one is slack behind a merge, and Newton's iteration has no stiffness there.
+TEST(Starts, AStiffRopeFindsItsPlaceInARing) {
+  for (const auto& [stiffness, elements] : {std::pair{1e3, 12}, {1e5, 12}, {1e7, 17}, {1e7, 32}}) {
+    const double EA = stiffness * rope_gravity, before = 0.45, drawn = 0.4;
+    const Catenary up{EA, 3, 4 + (1 - before) * rope_gravity};  // of a rope of 1 m whose first part this is
+    const double down = 4.5, H = std::sqrt(25 - down * down);
+    const Catenary behind{EA, H, rope_gravity - down};
+    const auto first = up.place(before), second = behind.place(1 - before);
+    const auto along = [](const std::array<double, 2>& a, double length) {
+      const double size = std::hypot(a[0], a[1]);
+      return Point{a[0] / size * length, a[1] / size * length, 0};
+    };
+    Scene scene = unit_rope(elements, stiffness);
+    scene.beam.curve.type = CurveType::polyline;
+    const Point start = along(first, -drawn), end = along(second, 1 - drawn);
+    scene.beam.curve.points = {start, {}, end};
+    const auto hold = [](SupportSpec& support, const Point& from, const Point& to) {
+      const Point way{to[0] - from[0], to[1] - from[1], 0};
+      support.type = SupportType::pin;
+      support.motion = SupportMotionSpec{way, {.value = std::hypot(way[0], way[1])}, {}};
+    };
+    hold(scene.start, start, {-first[0], -first[1], 0});
+    hold(scene.end, end, {second[0], second[1], 0});
+    SlidingJointSpec& ring = scene.sliding_joints.emplace_back();
+    ring.support = SupportType::pin;
+    ring.position = drawn;
+    ring.slopes = JointSlopes::free;
+    const RunResult run = simulate(scene);
+    ASSERT_EQ(run.status, RunStatus::completed) << stiffness << ", " << elements << ": " << run.failure;
+    EXPECT_NEAR(*run.samples.back().joint_position, before, 1e-4) << stiffness << ", " << elements;
+  }
+}
+
 TEST(PointMasses, StandAtAPosition) {
   Scene scene = unit_rope(10, 1e6);
   scene.beam.curve.end = {0, -1, 0};
