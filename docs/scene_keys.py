@@ -26,6 +26,8 @@ def cell(text):
 
 def allowed(schema):
     """What a value may be, in words."""
+    if "$ref" in schema:
+        return schema["description"]
     if "enum" in schema:
         return ", ".join(f"`{choice}`" for choice in schema["enum"])
     if "const" in schema:
@@ -83,7 +85,7 @@ class Page:
             inner = of(value)
             listed = inner.get("type") == "array" and "properties" in inner["items"]
             object_ = inner["items"] if listed else inner
-            what, meaning = allowed(value), value.get("description", "")
+            what, meaning = allowed(value), "" if "$ref" in value else value.get("description", "")
             if "properties" in object_:
                 where = f"{pointer}/{key}" + ("/N" if listed else "")
                 if is_time(object_["properties"]):

@@ -195,6 +195,7 @@ class Run {
     };
     py::dict found;
     found["t"] = result_.configurations.at(i).t;
+    if (const std::string& beam = result_.configurations.at(i).beam; !beam.empty()) found["beam"] = beam;
     found["x"] = numbers(&ShapePoint::x);
     found["r"] = vectors(&ShapePoint::r);
     found["r_x"] = vectors(&ShapePoint::r_x);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
+#include "scene/assembly.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 #include "scene/simulate.hpp"
@@ -71,6 +72,11 @@ bool allows(const Scene& scene, const IntegratorSpec& integrator) {
 
 /// The beam's length [m], with what feeds bring in until they stop.
 double whole_length(const Scene& scene) {
+  if (scene.assembly) {
+    double longest = 0;
+    for (const auto& beam : scene.assembly->beams) longest = std::max(longest, whole_length(beam.scene));
+    return longest;
+  }
   double length = beam_length(scene);
   for (const SupportSpec* support : {&scene.start, &scene.end}) {
     if (!support->feed) continue;
@@ -87,6 +93,14 @@ double longest_driven_step(const Scene& scene) {
   const auto at_most = [&step](double time) {
     if (time > 0) step = std::min(step, time);
   };
+  if (scene.assembly) {
+    for (std::size_t i = 0; i < scene.assembly->beams.size(); ++i) at_most(longest_driven_step(beam_scene(scene, i)));
+    for (const BodySpec& body : scene.assembly->bodies) {
+      at_most(turn / Eigen::Map<const Eigen::Vector3d>(body.angular_velocity.data()).norm() / steps_a_swing);
+      for (const BodyLoadSpec& load : body.loads) at_most(1 / std::abs(load.magnitude.frequency) / steps_a_period);
+    }
+    return step;
+  }
   const double L = whole_length(scene), element = standard_length(scene);
   const auto driven = [&](const TimeSpec& f) { at_most(1 / std::abs(f.frequency) / steps_a_period); };
   const auto passing = [&](const TimeSpec& x) {
@@ -192,6 +206,13 @@ double work_until(double until, Scene scene, const IntegratorSpec& integrator, d
 double longest_implicit_step(const Scene& scene) {
   const double driven = longest_driven_step(scene);
   if (std::isfinite(driven)) return driven;
+  if (scene.assembly) {
+    double step = driven;
+    for (std::size_t i = 0; i < scene.assembly->beams.size(); ++i) {
+      step = std::min(step, longest_implicit_step(beam_scene(scene, i)));
+    }
+    return step;
+  }
   const BeamSection section = build_section(scene);
   const double waves = whole_length(scene) * std::sqrt(section.rhoA / section.stiffness.EA) / steps_of_a_wave;
   const double change = shortest_change(scene) / steps_a_ramp;
@@ -208,6 +229,10 @@ IntegratorSpec automatic_integrator(const Scene& scene, double accuracy) {
   tried.integrator = implicit;
   validate(tried);
   implicit = implicit_method(scene, accuracy);
+  if (scene.assembly) {
+    implicit.reason = "links hold at positions with it alone";
+    return implicit;
+  }
   if (!allows(scene, IntegratorSpec{})) {
     implicit.reason = "explicit methods do not know all that the scene has";
     return implicit;

@@ -116,7 +116,10 @@ struct Extreme {
   double largest, at_largest, least, at_least;
 };
 
-/// The observed quantities at one instant.
+struct AssemblySample;
+
+/// The observed quantities at one instant. Of an assembly energies and momenta are those of the whole, and all else is
+/// in `assembly`.
 struct Sample {
   double t = 0;                          ///< in statics the number of the equilibrium, from 0
   std::optional<double> joint_position;  ///< of the first joint: material coordinate x_i [m]; empty once the mass has
@@ -139,11 +142,35 @@ struct Sample {
   std::optional<StaticSample> equilibrium;
   std::shared_ptr<const SectionSample> sections;
   std::shared_ptr<const std::vector<Extreme>> extremes;  ///< one a number of this sample, where the scene asks for them
+  std::shared_ptr<const AssemblySample> assembly = {};
+};
+
+/// Of a rigid body.
+struct BodySample {
+  Point position{};  ///< of its center of mass [m]
+  Point velocity{};  ///< [m/s]
+  Point rotation{};  ///< from the axes of the scene, a rotation vector; in the plane an angle, the last [degrees]
+  Point angular_velocity{};  ///< in space [rad/s]
+};
+
+/// Of a link.
+struct LinkSample {
+  Point force{};       ///< on its first end, of one on the ground on the other [N]
+  double length = 0;   ///< between its ends [m]
+  double tension = 0;  ///< with which it pulls its ends together [N]
+};
+
+/// Of the parts of an assembly, in the order of the scene.
+struct AssemblySample {
+  std::vector<Sample> beams;
+  std::vector<BodySample> bodies;
+  std::vector<LinkSample> links;
 };
 
 /// The beam's whole shape at one instant: one entry a node, one entry of weights an element.
 struct Configuration {
   double t = 0;
+  std::string beam = {};       ///< which of an assembly
   std::vector<double> x;       ///< material coordinates [m]
   std::vector<Point> r;        ///< positions [m]
   std::vector<Point> r_x;      ///< slopes [-]
@@ -192,7 +219,8 @@ struct Configuration {
 struct Event {
   double t = 0;
   EventType type = EventType::segment_merge;
-  int joint = 0;  ///< which of the scene's joints; the ends that feed the beam come behind them
+  std::string beam = {};  ///< which of an assembly
+  int joint = 0;          ///< which of the scene's joints; the ends that feed the beam come behind them
   double joint_position = 0;
   std::array<double, 3> weights{1, 1, 1};  ///< k_0, k_1, k_2 of the merged element (k_3 = 1)
   bool unit_fallback = false;              ///< a k_i <= 0 was found and unit weights taken instead (Eq. 38)
@@ -231,6 +259,7 @@ enum class WarningKind {
   ringing_friction,        ///< the force that friction goes by is that of a vibration
   error_in_time,           ///< the steps err more than the accuracy asked allows
   error_of_mesh,           ///< the elements err by more than 1 % of the motion
+  redundant_links,         ///< links hold what others hold already
   sudden_gravity,          ///< gravity that acts at once on an unstrained beam makes it vibrate
 };
 

@@ -28,6 +28,10 @@ void refuse_missing_rooms(const Scene& scene) {
     if (scene.analysis == Analysis::statics) refuse_room("statics", "/analysis", quoted(scene.analysis));
     if (starts_in_equilibrium(scene)) refuse_room("statics", "/initial_shape", quoted(scene.initial_shape));
   }
+  if constexpr (!has_room("assembly")) {
+    if (scene.assembly) refuse_room("assembly", "/beams", "an array");
+  }
+  if (scene.assembly) return;  // its beams are scenes of their own
   if constexpr (!has_room("frames")) {
     if (has_frames(scene)) refuse_room("frames", "/beam/space_law", quoted(SpaceLaw::frames));
   }

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/assembly_quantities.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/section_data.hpp"
@@ -368,6 +369,7 @@ void add_flow(Quantities& q, const Scene& scene) {
 }  // namespace
 
 std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
+  if (scene.assembly) return assembly_quantities(scene);
   Quantities q(scene.dimension);
   q.number("t", "t", "s", "time; in statics the number of the equilibrium, from 0",
            [](const Sample& s) { return s.t; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -463,8 +464,10 @@ struct StaticsSpec {
   std::optional<StaticJoints> joints = {};  ///< see static_joints()
 };
 
+struct AssemblySpec;
+
 /// One beam, its supports and loads, and what slides on it; or a shaft that spins or flows through its
-/// supports. SI units.
+/// supports; or several beams and bodies. SI units.
 struct Scene {
   std::string title;
   SceneSetting setting = SceneSetting::standard;
@@ -497,6 +500,8 @@ struct Scene {
   IntegratorSpec integrator;
   double duration = 0.5;  ///< [s]
   OutputSpec output;
+  /// Several beams and bodies; `beam` is then the longest of them, by which lengths go, and all else is that of beams.
+  std::shared_ptr<const AssemblySpec> assembly = {};
   std::string assumed = {};  ///< what its file left out of section and material, as pointers in a sentence; no option
 };
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "scene/assembly.hpp"
 #include "scene/run_support.hpp"
 #include "scene/section_forces.hpp"
 
@@ -41,6 +42,7 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
 
 std::vector<ShapePoint> points_along(const Scene& scene, const Configuration& shape, int per_element) {
   if (per_element < 1) throw std::invalid_argument("an element has at least one interval of points");
+  if (scene.assembly && !shape.beam.empty()) return points_along(scene_of_beam(scene, shape.beam), shape, per_element);
   return scene.dimension == 2 ? points_in<2>(scene, shape, per_element) : points_in<3>(scene, shape, per_element);
 }
 

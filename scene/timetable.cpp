@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "scene/assembly.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene_options.hpp"
@@ -32,6 +33,16 @@ struct Swing {
 class Course {
  public:
   explicit Course(const Scene& scene) {
+    if (scene.assembly) {
+      for (std::size_t i = 0; i < scene.assembly->beams.size(); ++i) look_at(beam_scene(scene, i));
+      for (const BodySpec& body : scene.assembly->bodies) {
+        for (const BodyLoadSpec& load : body.loads) time_function("", load.magnitude);
+      }
+    } else {
+      look_at(scene);
+    }
+  }
+  void look_at(const Scene& scene) {
     visit_options(*this, scene);
     add(0, scene.gravity_ramp);
     for (const LoadSpec& load : scene.loads) {

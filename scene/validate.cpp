@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/nurbs.hpp"
+#include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/corners.hpp"
@@ -14,6 +15,7 @@
 #include "scene/rooms.hpp"
 #include "scene/scene_options.hpp"
 #include "scene/time_function.hpp"
+#include "scene/validate_assembly.hpp"
 #include "scene/validate_beam.hpp"
 #include "scene/validate_blocks.hpp"
 #include "scene/validate_feed.hpp"
@@ -510,7 +512,15 @@ void check_all(const Scene& scene) {
 }  // namespace
 
 void validate(const Scene& scene) {
-  of_scene([&scene] { check_all(scene); });
+  of_scene([&scene] {
+    if (scene.assembly) {
+      refuse_missing_rooms(scene);
+      check_output(scene);
+      if constexpr (has_room("assembly")) validate_assembly(scene);
+    } else {
+      check_all(scene);
+    }
+  });
 }
 
 }  // namespace vlbeam

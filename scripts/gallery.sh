@@ -14,6 +14,7 @@ for file in scenes/*.json; do
     drill_stem) what=(--quantity end.x end.y) ;;
     bridge) what=(--quantity mass_position.y) ;;
     rotating_load) what=(--quantity load0_x load0_y) ;;
+    cable_robot) what=(--quantity platform.position.y) ;;
     elevator) what=(--quantity end.y) ;;
     atwood | incline | lead_screw | rope_off_peg | suspended_beam_friction) what=(--what joint) ;;
     hanging_cable) what=(--what tension) ;;

@@ -274,6 +274,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       aim.forget();
       dt = proposed;
     }
+    ode.correct(y, t);
     const bool goes_on = ode.proceed(y, t);
     if (log.due(t, goes_on)) {
       Memory memory;

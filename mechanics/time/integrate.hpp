@@ -25,6 +25,8 @@ class EventedOde : public Ode {
   virtual void handle_event(int index, Eigen::VectorXd& y, double t) = 0;
   /// The solution at a sample time.
   virtual void sample(const Eigen::VectorXd& y, double t) = 0;
+  /// After each step: brings y back onto conditions that the method does not know, as far as steps have left them.
+  virtual void correct(Eigen::VectorXd& /*y*/, double /*t*/) {}
   /// After each step, which ended at (t, y); false interrupts.
   virtual bool proceed(const Eigen::VectorXd& y, double t) = 0;
   /// What moves fastest in a state, in words: where a run is stuck.

@@ -97,7 +97,7 @@ def test_every_key_of_every_example_is_known():
     def keys(part):
         for name, value in part.items():
             assert name in part._keys.values(), (part._pointer, name)
-            if isinstance(value, dict):
+            if isinstance(value, dict) and name != "points":  # those have names of their own
                 keys(getattr(part, name))
             elif isinstance(value, list) and value and isinstance(value[0], dict):
                 for entry in getattr(part, name):

@@ -20,7 +20,9 @@ def label(name):
 
 
 def result(r, names, ax):
-    if not names and not r.shape_times:
+    if not names and not r.shape_times and _several(r):
+        names = [name for name in r.names if name.endswith("end.x") or name.endswith("end.y")]
+    elif not names and not r.shape_times:
         names = ["end." + _AXES[k] for k in range(r.end.shape[1])] if np.isnan(r.joint_position).all() else ["joint_position"]
     if not names:
         return _shapes(r, _axes(ax))
@@ -50,9 +52,17 @@ def _statics(r):
     return "load_factor" in r.names
 
 
-def _joints(r):
-    """Places of all that slides: a list of arrays of shape (samples, dimension)."""
-    axes = _AXES[: r.end.shape[1]]
+def _several(r):
+    """Whether the scene has several beams and bodies."""
+    return "end.x" not in r.names
+
+
+def _joints(r, dimension):
+    """Places of all that slides, and of bodies: a list of arrays of shape (samples, dimension)."""
+    axes = _AXES[:dimension]
+    if _several(r):
+        stems = [name[:-2] for name in r.names if name.endswith(".place.x") or (name.count(".") == 2 and name.endswith(".position.x"))]
+        return [np.column_stack([r[f"{stem}.{axis}"] for axis in axes]) for stem in stems]
     several = [k for k in range(len(r.names)) if f"joint{k}_mass_position_x" in r.names]
     if several:
         return [np.column_stack([r[f"joint{k}_mass_position_{axis}"] for axis in axes]) for k in several]
@@ -62,15 +72,20 @@ def _joints(r):
 def _shapes(r, ax):
     shapes = [r.shape(k) for k in range(len(r.shape_times))]
     across, up, plane = 0, 1, ""
-    if r.end.shape[1] == 3:
+    dimension = shapes[0].r.shape[1]
+    if dimension == 3:
         points = np.concatenate([shape.r for shape in shapes])
         across, up = sorted(np.argsort(np.ptp(points, axis=0), kind="stable")[-2:])
         plane = f", {_AXES[across]}{_AXES[up]} plane"
-    places = _joints(r)
+    places = _joints(r, dimension)
     unit = "" if _statics(r) else " s"
-    colours = needs("matplotlib", "plot").colormaps["viridis"](np.linspace(0, 0.85, len(shapes)))
-    for shape, colour in zip(shapes, colours):
-        ax.plot(shape.r[:, across], shape.r[:, up], color=colour, label=f"{shape.t:.4g}{unit}")
+    times = sorted({shape.t for shape in shapes})  # of several beams there is a shape each
+    colours = needs("matplotlib", "plot").colormaps["viridis"](np.linspace(0, 0.85, len(times)))
+    for k, shape in enumerate(shapes):
+        colour, first = colours[times.index(shape.t)], k == 0 or shapes[k - 1].t != shape.t
+        ax.plot(shape.r[:, across], shape.r[:, up], color=colour, label=f"{shape.t:.4g}{unit}" if first else None)
+        if not first:
+            continue
         sample = np.flatnonzero(np.isclose(r.t, shape.t, rtol=0, atol=1e-9 * r.t[-1]))
         for place in places if sample.size else []:
             ax.plot(place[sample[0], across], place[sample[0], up], "o", color=colour)
@@ -79,7 +94,7 @@ def _shapes(r, ax):
     left, right = ax.get_xlim()
     if 0.05 < (high - low) / (right - left) < 20:  # a small deflection keeps a scale of its own
         ax.set_aspect("equal", adjustable="datalim")
-    if len(shapes) <= 12:
+    if len(times) <= 12:
         ax.legend(fontsize="small")
     return ax
 

@@ -254,8 +254,23 @@ def _restored(pointer, value):
     return scene_class() and _CLASSES[pointer](value)
 
 
+def _resolved(part, whole):
+    """A schema with what it refers to in place of the reference."""
+    if isinstance(part, list):
+        return [_resolved(entry, whole) for entry in part]
+    if not isinstance(part, dict):
+        return part
+    if "$ref" in part:
+        found = whole
+        for key in part["$ref"].removeprefix("#/").split("/"):
+            found = found[key]
+        return _resolved(found, whole)
+    return {key: _resolved(value, whole) for key, value in part.items()}
+
+
 @lru_cache(maxsize=1)
 def scene_class():
     """The class of scenes, made at first use."""
     schema = json.loads(_vlbeam.schema("scene"))
+    schema = _resolved(schema, schema)
     return _class("", schema, (), _conditions(schema))

@@ -79,7 +79,7 @@ void run(Seen& seen, const std::vector<double>& times, const ProgressCallback& p
     all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   const auto shape = [&](const Configuration& configuration) {
-    if (!in_time || std::ranges::binary_search(times, configuration.t)) {
+    if (!scene.assembly && (!in_time || std::ranges::binary_search(times, configuration.t))) {
       seen.times.push_back(configuration.t);
       seen.shapes.push_back(probes(seen.scene, configuration));
     }
@@ -482,7 +482,8 @@ class Checked {
                                    mesh_places_.but_for_axis(), ", of a motion of ", error_.motion, " m"),
                           "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
     }
-    if (const auto warning = sudden_gravity(scene, last.result)) warnings.push_back(*warning);
+    if (const auto warning = scene.assembly ? std::nullopt : sudden_gravity(scene, last.result))
+      warnings.push_back(*warning);
     last.result.error = std::make_shared<const RunError>(std::move(error_));
   }
 

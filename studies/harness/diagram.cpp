@@ -102,12 +102,16 @@ std::string key_of(const Diagram& diagram, const Look& look, std::size_t i) {
   return diagram.series[i].title + (look.column && time ? " s" : "");
 }
 
+/// What is no number is missing; one such row within a line is a gap between two lines: an empty row.
 std::string data_of(const Diagram& diagram) {
   std::string data;
   for (const Series& series : diagram.series) {
+    const auto there = [&series](std::size_t i) {
+      return i < series.x.size() && std::isfinite(series.x[i]) && std::isfinite(series.y[i]);
+    };
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      const bool there = std::isfinite(series.x[i]) && std::isfinite(series.y[i]);
-      data += there ? number_text(series.x[i]) + "," + number_text(series.y[i]) + "\n" : "NaN,NaN\n";
+      const bool gap = series.style == Series::Style::line && i > 0 && there(i - 1) && there(i + 1);
+      data += there(i) ? number_text(series.x[i]) + "," + number_text(series.y[i]) + "\n" : gap ? "\n" : "NaN,NaN\n";
     }
     data += "\n\n";
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "scene/assembly.hpp"
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
 #include "scene/shape.hpp"
@@ -142,6 +143,32 @@ Series point_masses_at(const RunFile& run, const std::vector<Configuration>& sha
   return masses;
 }
 
+/// A body of an assembly at the times of the shapes, as far as there are samples then.
+Series body_at(const RunFile& run, const std::string& name, const std::vector<Configuration>& shapes,
+               std::size_t across, std::size_t up) {
+  Series series{name, {}, {}, Series::Style::points};
+  const char* const axes = "xyz";
+  const auto places = [&](std::size_t axis) {
+    return run.column(find_quantity(run.scene, name + ".position." + axes[axis]));
+  };
+  const std::vector<double> x = places(across), y = places(up);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (i > 0 && shapes[i].t == shapes[i - 1].t) continue;
+    const auto at = static_cast<std::size_t>(std::ranges::find(run.t, shapes[i].t) - run.t.begin());
+    const bool there = at < run.t.size();
+    series.x.push_back(there ? x[at] : std::numeric_limits<double>::quiet_NaN());
+    series.y.push_back(there ? y[at] : std::numeric_limits<double>::quiet_NaN());
+  }
+  return series;
+}
+
+/// At how many times shapes were kept: of several beams there is one each.
+std::size_t times_of(const std::vector<Configuration>& shapes) {
+  std::size_t times = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) times += i == 0 || shapes[i].t != shapes[i - 1].t ? 1 : 0;
+  return times;
+}
+
 Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shapes) {
   const auto [across, up] = axes_of(run, shapes);
   constexpr std::array names{"X (m)", "Y (m)", "Z (m)"};
@@ -154,22 +181,31 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
                   .equal_scales = true,
                   .ordered_colours = true,
                   .key_title = time_label(run)};
-  for (const Configuration& shape : shapes) {
-    Series series;
-    std::array<char, 32> time{};
-    std::snprintf(time.data(), time.size(), "%.4g", shape.t);
-    series.title = time.data();
-    for (const ShapePoint& point : points_along(run.scene, shape, intervals(run))) {
-      series.x.push_back(point.r[across]);
-      series.y.push_back(point.r[up]);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Configuration& shape = shapes[i];
+    if (i > 0 && shape.t == shapes[i - 1].t && !shape.beam.empty()) {  // of the same instant: a gap, and another beam
+      diagram.series.back().x.push_back(std::numeric_limits<double>::quiet_NaN());
+      diagram.series.back().y.push_back(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      std::array<char, 32> time{};
+      std::snprintf(time.data(), time.size(), "%.4g", shape.t);
+      diagram.series.push_back({time.data(), {}, {}});
     }
-    diagram.series.push_back(std::move(series));
+    for (const ShapePoint& point : points_along(run.scene, shape, intervals(run))) {
+      diagram.series.back().x.push_back(point.r[across]);
+      diagram.series.back().y.push_back(point.r[up]);
+    }
   }
   diagram.equal_scales = comparable(diagram);
   for (std::size_t i = 0; i < sliding_joints(run.scene).size(); ++i) {
     diagram.series.push_back(masses_at(run, shapes, across, up, i));
   }
   if (!run.scene.point_masses.empty()) diagram.series.push_back(point_masses_at(run, shapes, across, up));
+  if (run.scene.assembly) {
+    for (const BodySpec& body : run.scene.assembly->bodies) {
+      diagram.series.push_back(body_at(run, body.name, shapes, across, up));
+    }
+  }
   return diagram;
 }
 
@@ -203,7 +239,7 @@ Diagram along_diagram(const RunFile& run, const AlongShape& member, const std::s
     Series series;
     std::array<char, 32> time{};
     std::snprintf(time.data(), time.size(), "%.4g", shape.t);
-    series.title = time.data();
+    series.title = (shape.beam.empty() ? "" : shape.beam + ", ") + time.data();
     for (const ShapePoint& point : points_along(run.scene, shape, intervals(run))) {
       series.x.push_back(point.x);
       series.y.push_back(member(point));
@@ -259,6 +295,9 @@ Diagram history_diagram(const RunFile& run, const std::vector<std::string>& name
 Diagram field_diagram(const RunFile& run, const AlongShape& member, const std::string& label) {
   constexpr std::size_t points = 120;
   const auto shapes = shapes_of(run);
+  if (run.scene.assembly) {
+    throw InvalidInput("--what", "a report of several beams", "fields and envelopes are of one beam");
+  }
   if (shapes.size() < 2) {
     throw InvalidInput("--what", "a report with one shape", "a field takes several: run the scene with --frames 100");
   }
@@ -326,7 +365,7 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
               const std::filesystem::path& figure) {
   if (what == "animation") {
     const auto shapes = shapes_of(run);
-    return draw_frames(shape_diagram(run, shapes), look, shapes.size(), shapes.back().t - shapes.front().t, figure);
+    return draw_frames(shape_diagram(run, shapes), look, times_of(shapes), shapes.back().t - shapes.front().t, figure);
   }
   Diagram diagram;
   if (what.empty() && !names.empty()) {

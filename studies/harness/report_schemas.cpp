@@ -178,6 +178,7 @@ Json run_schema() {
                               {"force", described(any_point, "force, as far as it acts inside an element", "N")}});
   const Json configuration = record(
       {{"t", described(any_number, "time", "s")},
+       {"beam", described(any_text, "which of several beams")},
        {"x", described(array_of(any_number), "material coordinates of the nodes", "m")},
        {"r", described(array_of(any_point), "positions of the nodes", "m")},
        {"r_x", described(array_of(any_point), "slopes at the nodes; at a kink that before it", "-")},
@@ -201,7 +202,7 @@ Json run_schema() {
                              "tangent; with frames",
                              "N m")},
        {"axis", described(axis, "points along the axis, those at nodes once for each element; with output.points")}},
-      {"kink", "kinks", "rest", "angles", "spins", "actions", "moments", "axis"});
+      {"beam", "kink", "kinks", "rest", "angles", "spins", "actions", "moments", "axis"});
   const Json jumps = record(
       {{"kinetic", described(nullable_number, "of kinetic energy", "J")},
        {"axial", described(nullable_number, "of the strain energy of stretching", "J")},
@@ -211,6 +212,7 @@ Json run_schema() {
   const Json event = record(
       {{"t", described(any_number, "time", "s")},
        {"type", described(choice_of<EventType>(), "what happened to the mesh")},
+       {"beam", described(any_text, "of which of several beams")},
        {"joint",
         described(whole, "which of the scene's sliding joints, from 0; behind them the ends that feed the beam", "-")},
        {"joint_position", described(any_number, "its material coordinate", "m")},
@@ -223,7 +225,8 @@ Json run_schema() {
        {"relaxation",
         described(whole, "iterations until the nodes beside it had given way, where they are relaxed", "-")},
        {"energy_restored",
-        described(flag, "false where velocities are conservative and yet the total energy changed")}});
+        described(flag, "false where velocities are conservative and yet the total energy changed")}},
+      {"beam"});
   const auto residual = [](const std::string& of, const char* position, const char* velocity) {
     return described(record({{"position", described(any_number, "largest", position)},
                              {"velocity", described(any_number, "largest of its rate", velocity)}}),

@@ -21,6 +21,7 @@ std::vector<Point> points_from(const Json& json) {
 Configuration configuration_from(const Json& json) {
   Configuration shape;
   shape.t = json.at("t").get<double>();
+  shape.beam = json.value("beam", "");
   shape.x = json.at("x").get<std::vector<double>>();
   shape.r = points_from(json.at("r"));
   shape.r_x = points_from(json.at("r_x"));

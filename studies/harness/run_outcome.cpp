@@ -29,9 +29,15 @@ auto members(Is<SectionSample> auto& of) {
 }
 auto members(Is<Sample> auto& of) {
   auto& [t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,
-         momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium, sections, extremes] = of;
+         momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium, sections, extremes,
+         assembly] = of;
   return std::tie(t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,
-                  momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium, sections, extremes);
+                  momentum, angular_momentum, reactions, strains, joint, joints, flow, equilibrium, sections, extremes,
+                  assembly);
+}
+auto members(Is<AssemblySample> auto& of) {
+  auto& [beams, bodies, links] = of;
+  return std::tie(beams, bodies, links);
 }
 auto members(Is<Configuration::Rest> auto& of) {
   auto& [r, r_x] = of;
@@ -42,14 +48,14 @@ auto members(Is<Configuration::Rates> auto& of) {
   return std::tie(x, v, r_x, spins);
 }
 auto members(Is<Configuration> auto& of) {
-  auto& [t, x, r, r_x, angles, weights, rest, kinks, rates, actions, moments] = of;
-  return std::tie(t, x, r, r_x, angles, weights, rest, kinks, rates, actions, moments);
+  auto& [t, beam, x, r, r_x, angles, weights, rest, kinks, rates, actions, moments] = of;
+  return std::tie(t, beam, x, r, r_x, angles, weights, rest, kinks, rates, actions, moments);
 }
 auto members(Is<Event> auto& of) {
-  auto& [t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump, relaxation,
-         restored, before, after] = of;
-  return std::tie(t, type, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump,
-                  relaxation, restored, before, after);
+  auto& [t, type, beam, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump, momentum_jump,
+         relaxation, restored, before, after] = of;
+  return std::tie(t, type, beam, joint, joint_position, weights, unit_fallback, energy_jump, discrete_jump,
+                  momentum_jump, relaxation, restored, before, after);
 }
 auto members(Is<NewtonCounters> auto& of) {
   auto& [iterations, tangents, failures, longest, constraints, multipliers] = of;

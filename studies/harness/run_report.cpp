@@ -144,8 +144,10 @@ Json configuration(const Configuration& shape, const Scene& scene) {
     for (const Point& point : list) array.push_back(components(point, d));
     return array;
   };
-  Json json = {
-      {"t", shape.t}, {"x", shape.x}, {"r", points(shape.r)}, {"r_x", points(shape.r_x)}, {"weights", shape.weights}};
+  Json json;
+  if (!shape.beam.empty()) json["beam"] = shape.beam;
+  json.update(
+      {{"t", shape.t}, {"x", shape.x}, {"r", points(shape.r)}, {"r_x", points(shape.r_x)}, {"weights", shape.weights}});
   if (!shape.angles.empty()) json["angles"] = shape.angles;
   json["x_rate"] = shape.rates.x;
   json["v"] = points(shape.rates.v);
@@ -168,21 +170,23 @@ Json configuration(const Configuration& shape, const Scene& scene) {
 }
 
 Json event(const Event& e) {
-  return {{"t", e.t},
-          {"type", to_string(e.type)},
-          {"joint", e.joint},
-          {"joint_position", e.joint_position},
-          {"weights", e.weights},
-          {"unit_fallback", e.unit_fallback},
-          {"energy_jumps",
-           {{"kinetic", e.energy_jump.kinetic},
-            {"axial", e.energy_jump.axial},
-            {"bending", e.energy_jump.bending},
-            {"gravity", e.energy_jump.gravity},
-            {"discrete_total", e.discrete_jump}}},
-          {"momentum_jumps", e.momentum_jump},
-          {"relaxation", e.relaxation},
-          {"energy_restored", e.restored}};
+  Json json = {{"t", e.t},
+               {"type", to_string(e.type)},
+               {"joint", e.joint},
+               {"joint_position", e.joint_position},
+               {"weights", e.weights},
+               {"unit_fallback", e.unit_fallback},
+               {"energy_jumps",
+                {{"kinetic", e.energy_jump.kinetic},
+                 {"axial", e.energy_jump.axial},
+                 {"bending", e.energy_jump.bending},
+                 {"gravity", e.energy_jump.gravity},
+                 {"discrete_total", e.discrete_jump}}},
+               {"momentum_jumps", e.momentum_jump},
+               {"relaxation", e.relaxation},
+               {"energy_restored", e.restored}};
+  if (!e.beam.empty()) json["beam"] = e.beam;
+  return json;
 }
 
 /// Of each number of the samples, by its name.

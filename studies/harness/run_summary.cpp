@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "scene/assembly.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
 #include "scene/energy_ledger.hpp"
@@ -235,6 +236,66 @@ void warning_lines(const RunResult& result, const Line& line) {
   }
 }
 
+/// Several beams and bodies: what there is.
+template <class Line>
+void assembly_lines(const Scene& scene, const Line& line) {
+  for (std::size_t i = 0; i < scene.assembly->beams.size(); ++i) {
+    const Scene beam = beam_scene(scene, i);
+    const std::string section = section_in_words(beam.beam);
+    line(i == 0 ? "beams" : "", scene.assembly->beams[i].name + ": " + beam_text(beam));
+    line("", (section.empty() ? "" : section + "; ") + law_in_words(beam));
+  }
+  const char* label = "bodies";
+  for (const BodySpec& body : scene.assembly->bodies) {
+    line(label, body.name + ": " + six_digits(body.mass) + " kg" + (body.inertia.empty() ? ", a point mass" : ""));
+    label = "";
+  }
+  label = "links";
+  for (const LinkSpec& link : scene.assembly->links) {
+    line(label, link.name + ": " + std::string(to_string(link.type)));
+    label = "";
+  }
+}
+
+/// What there is: a beam, or several and bodies.
+template <class Line>
+void beam_lines(const Scene& scene, const Line& line) {
+  if (scene.assembly) return assembly_lines(scene, line);
+  line("beam", beam_text(scene));
+  if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
+  line("law", law_in_words(scene));
+}
+
+/// Where its parts are.
+template <class Line>
+void part_lines(const Scene& scene, const Sample& last, const Line& line) {
+  const AssemblySpec& parts = *scene.assembly;
+  for (std::size_t i = 0; i < parts.beams.size(); ++i) {
+    const Sample& beam = last.assembly->beams[i];
+    line(i == 0 ? "ends of beams" : "", parts.beams[i].name + ": " + point_text(beam.end, scene.dimension));
+    const auto position = [&](const std::optional<double>& at) {
+      return at ? in_digits(*at, 8) + " m along it" : std::string("off the beam");
+    };
+    const std::size_t joints = sliding_joints(parts.beams[i].scene).size();
+    for (std::size_t k = 0; k < joints; ++k) {
+      line("", parts.beams[i].name + ", joint " + std::to_string(k) + ": " +
+                   position(joints > 1 ? beam.joints[k].position : beam.joint_position));
+    }
+  }
+  for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
+    const BodySample& body = last.assembly->bodies[i];
+    const bool turns = !parts.bodies[i].inertia.empty();
+    line(i == 0 ? "bodies at" : "",
+         parts.bodies[i].name + ": " + point_text(body.position, scene.dimension) +
+             (turns && scene.dimension == 2 ? ", turned by " + in_digits(body.rotation[2], 6) + " degrees" : ""));
+  }
+  for (std::size_t i = 0; i < parts.links.size(); ++i) {
+    double size = 0;
+    for (const double part : last.assembly->links[i].force) size += part * part;
+    line(i == 0 ? "forces of links" : "", parts.links[i].name + ": " + in_digits(std::sqrt(size), 6) + " N");
+  }
+}
+
 std::string static_summary(const Scene& scene, const RunResult& result) {
   std::ostringstream text;
   const auto line = [&text](const char* name, const std::string& value) {
@@ -243,9 +304,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
   text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
   line("status", std::string(to_string(result.status)) +
                      (result.status == RunStatus::failed ? " at load factor " + six_digits(result.failure_time) : ""));
-  line("beam", beam_text(scene));
-  if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
-  line("law", law_in_words(scene));
+  beam_lines(scene, line);
   line("equilibria", std::to_string(result.samples.size()) + ", control by " +
                          std::string(to_string(scene.statics.control)) + ", " +
                          std::to_string(result.solver.newton.iterations) + " iterations");
@@ -253,7 +312,11 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
     const Sample& last = result.samples.back();
     const StaticSample& at = *last.equilibrium;
     line("last", "load factor " + in_digits(at.load_factor, 8) + stability_text(at));
-    line("end of beam", point_text(last.end, scene.dimension));
+    if (scene.assembly) {
+      part_lines(scene, last, line);
+    } else {
+      line("end of beam", point_text(last.end, scene.dimension));
+    }
     if (last.joint_position) {
       const double holding = last.equilibrium->holding_force;
       const bool guided = first_is_guided(scene);
@@ -261,7 +324,7 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
            "at " + in_digits(*last.joint_position, 10) + " m along the beam" +
                (holding == 0 ? ", free" : (guided ? ", guided by " : ", held by ") + in_digits(holding, 8) + " N"));
     }
-    place_lines(scene, last, line);
+    if (!scene.assembly) place_lines(scene, last, line);
     line("energy", in_digits(last.energy.total(), 8) + " J");
   }
   for (const double frequency : result.frequencies) line("frequency", in_digits(frequency, 8) + " Hz");
@@ -310,18 +373,20 @@ std::string run_summary(const Scene& scene, const RunResult& result) {
   };
   text << (scene.title.empty() ? "Untitled scene" : printable(scene.title)) << '\n';
   line("status", std::string(to_string(result.status)) + when_text(result));
-  line("beam", beam_text(scene));
-  if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
-  line("law", law_in_words(scene));
+  beam_lines(scene, line);
   line("integrator", integrator_text(scene.integrator));
   if (!scene.integrator.reason.empty()) line("", choice_text(scene));
   if (!result.samples.empty()) {
     const Sample &first = result.samples.front(), &last = result.samples.back();
     if (first.equilibrium) line("start", start_text(scene, *first.equilibrium));
     line("time reached", in_digits(last.t, 8) + " s of " + in_digits(scene.duration, 8) + " s");
-    line("end of beam", point_text(last.end, scene.dimension));
-    joint_lines(scene, last, line);
-    place_lines(scene, last, line);
+    if (scene.assembly) {
+      part_lines(scene, last, line);
+    } else {
+      line("end of beam", point_text(last.end, scene.dimension));
+      joint_lines(scene, last, line);
+      place_lines(scene, last, line);
+    }
     extreme_lines(scene, last, line);
     const double size = largest_energy(result);
     line("total energy", energy_text(last.energy.total(), size, 8) + ", at the start " +

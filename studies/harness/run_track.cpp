@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/assembly.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
@@ -99,8 +100,41 @@ std::vector<double> drawn_probes(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Of several beams and bodies.
+Track track_of_assembly(const Scene& scene, const RunResult& result) {
+  Tracker tracker(scene, result);
+  const int d = scene.dimension;
+  const auto& [beams, bodies, links, longest, elements] = *scene.assembly;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const std::string& name = beams[i].name;
+    tracker.row(name + " end", "m", TrackKind::place,
+                [d, i](const Sample& s) { return components_of(s.assembly->beams[i].end, d); });
+    const std::size_t joints = sliding_joints(beams[i].scene).size();
+    for (std::size_t k = 0; k < joints; ++k) {
+      tracker.row(name + " joint " + std::to_string(k), "m", TrackKind::place, [i, k, joints](const Sample& s) {
+        const Sample& beam = s.assembly->beams[i];
+        return one_number(joints > 1 ? beam.joints[k].position : beam.joint_position);
+      });
+    }
+    tracker.row(name + " largest axial force", "N", TrackKind::other,
+                [i](const Sample& s) { return one_number(s.assembly->beams[i].strains.axial_force[1]); });
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    tracker.row(bodies[i].name, "m", TrackKind::place,
+                [d, i](const Sample& s) { return components_of(s.assembly->bodies[i].position, d); });
+  }
+  tracker.row("energy", "J", TrackKind::other, [](const Sample& s) { return one_number(s.energy.total()); });
+  tracker.row("kinetic energy", "J", TrackKind::other, [](const Sample& s) { return one_number(s.energy.kinetic); });
+  return std::move(tracker.track);
+}
+
+}  // namespace
+
 Track track_of(const Scene& scene, const RunResult& result, const std::vector<double>& times,
                const std::vector<std::vector<double>>& shapes) {
+  if (scene.assembly) return track_of_assembly(scene, result);
   Tracker tracker(scene, result);
   const int d = scene.dimension;
   const auto joints = sliding_joints(scene);

@@ -15,6 +15,7 @@
 #include "scene/scene_options.hpp"
 #include "scene/slack.hpp"
 #include "scene/validate.hpp"
+#include "studies/harness/assembly_json.hpp"
 #include "studies/harness/files.hpp"
 #include "studies/harness/nearest.hpp"
 
@@ -438,6 +439,7 @@ bool asks_for_accuracy(const Json& integrator) {
 }
 
 Scene scene_from_json(Json json) {
+  if (is_assembly(json)) return assembly_from_json(std::move(json));
   const bool in_time = !json.is_object() || !json.contains("analysis") || json.at("analysis") != "statics";
   const bool left_out =
       in_time && json.is_object() && (!json.contains("integrator") || json.at("integrator") == Json::object());
@@ -508,7 +510,7 @@ std::string left_out_of_material(const Json& scene) {
 Scene parse_scene(std::string_view text) {
   const Json json = parse_json(text);
   Scene scene = scene_from_json(json);
-  if (scene.setting == SceneSetting::standard) scene.assumed = left_out_of_material(json);
+  if (scene.setting == SceneSetting::standard && !scene.assembly) scene.assumed = left_out_of_material(json);
   return scene;
 }
 
@@ -518,6 +520,7 @@ Scene read_scene(const std::filesystem::path& file) {
 }
 
 Json scene_to_json(const Scene& scene) {
+  if (scene.assembly) return assembly_to_json(scene);
   Scene filled = scene;
   filled.integrator.automatic = false;  // what was chosen, as one may write it
   filled.beam.quadrature_points = quadrature_points(scene);

@@ -13,6 +13,7 @@
 #include "scene/options.hpp"
 #include "scene/sample_quantities.hpp"
 #include "scene/scene_options.hpp"
+#include "studies/harness/assembly_json.hpp"
 #include "studies/harness/scene_json.hpp"
 #include "studies/harness/schema_parts.hpp"
 
@@ -293,6 +294,7 @@ Json scene_schema() {
   integrator = {{"description", integrator.at("description")},
                 {"default", automatic.at("const")},
                 {"anyOf", {automatic, integrator}}};
+  add_assembly_schema(schema);
   return with_head("vlbeam scene", schema);
 }
 

@@ -32,6 +32,7 @@ std::string limits(const Json& schema) {
 
 /// "number > 0", "one of "a", "b"", "list of numbers".
 std::string kind_of(const Json& schema) {
+  if (schema.contains("$ref")) return schema.value("description", "as elsewhere");
   if (schema.contains("const")) return schema.at("const").dump();
   if (schema.contains("enum")) {
     std::string text;
@@ -56,7 +57,8 @@ void write(const Json& schema, const std::string& at, bool required, std::ostrea
     if (required) out << "  required";
     if (schema.contains("default")) out << "  default " << schema.at("default").dump();
     out << '\n';
-    if (schema.contains("description")) out << "    " << schema.at("description").get<std::string>() << '\n';
+    if (schema.contains("description") && !schema.contains("$ref"))
+      out << "    " << schema.at("description").get<std::string>() << '\n';
   }
   const auto below = [&out](const Json& object, const std::string& from) {
     if (!object.contains("properties")) return;

@@ -1,10 +1,12 @@
 #include "studies/harness/vtk.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "scene/assembly.hpp"
 #include "scene/options.hpp"
 #include "scene/shape.hpp"
 #include "studies/harness/files.hpp"
@@ -71,6 +73,11 @@ void write_vtk(const Scene& scene, const Shapes& shapes, int per_element, const 
   std::string series = head;
   series += "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
   std::size_t count = 0;
+  const auto part_of = [&scene](const Configuration& shape) {
+    if (!scene.assembly) return std::size_t{0};
+    const auto& beams = scene.assembly->beams;
+    return static_cast<std::size_t>(std::ranges::find(beams, shape.beam, &AssemblySpec::Beam::name) - beams.begin());
+  };
   shapes([&](const Configuration& shape) {
     const std::string name = file_name(count++);
     write_file(folder / name, [&](const TextSink& sink) {
@@ -78,7 +85,8 @@ void write_vtk(const Scene& scene, const Shapes& shapes, int per_element, const 
       write_grid(points_along(scene, shape, per_element), shape.weights.size(), per_element, out);
       out.flush();
     });
-    series += "    <DataSet timestep=\"" + number_text(shape.t) + "\" part=\"0\" file=\"" + name + "\"/>\n";
+    series += "    <DataSet timestep=\"" + number_text(shape.t) + "\" part=\"" + std::to_string(part_of(shape)) +
+              "\" file=\"" + name + "\"/>\n";
   });
   series += "  </Collection>\n</VTKFile>\n";
   write_text(folder / "shape.pvd", series);
@@ -98,12 +106,13 @@ void write_shapes_csv(const Scene& scene, const Shapes& shapes, int per_element,
   const auto d = static_cast<std::size_t>(scene.dimension);
   write_file(file, [&](const TextSink& sink) {
     TextWriter out(sink);
-    out << "t [s],element [-],x [m]";
+    out << (scene.assembly ? "beam,t [s],element [-],x [m]" : "t [s],element [-],x [m]");
     for (std::size_t i = 0; i < d; ++i) out << ",r_" << axes[i] << " [m]";
     for (std::size_t i = 0; i < d; ++i) out << ",v_" << axes[i] << " [m/s]";
     out << ",axial_strain [-],curvature [1/m],tension [N],shear [N],moment [N m],torque [N m]\n";
     shapes([&](const Configuration& shape) {
       for (const ShapePoint& point : points_along(scene, shape, per_element)) {
+        if (scene.assembly) out << shape.beam << ",";
         out << shape.t << "," << std::to_string(point.element) << "," << point.x;
         for (std::size_t i = 0; i < d; ++i) out << "," << point.r[i];
         for (std::size_t i = 0; i < d; ++i) out << "," << point.v[i];

@@ -39,6 +39,7 @@ PAPERS = [
 DOCUMENTS = {
     "docs/own_scene.md": ("A scene of your own", "Print, run, draw; joints, winches, loads; how far a number can be trusted; sweeps."),
     "docs/ropes.md": ("Ropes", "Which law, which strain, slack, corners, winches, starts."),
+    "docs/assemblies.md": ("Several beams and bodies", "Trolleys with hooks, platforms on ropes, frames, cranks: beams, bodies, links."),
     "docs/what_comes_out.md": ("What comes out", "Every quantity of a run: name, unit, meaning; places, extremes over time."),
     "docs/from_moorpy.md": ("From MoorPy and MoorDyn", "Their words and ours, two lines of MoorPy's tests, when to stay."),
     "docs/from_exudyn.md": ("From EXUDYN", "Its words and ours, a cantilever, when to stay."),

@@ -115,7 +115,7 @@ class Blocks(unittest.TestCase):
         if str(given.get("schema", "")).startswith("vlbeam.sweep"):
             (folder / "sweep.json").write_text(code)
             return
-        if not {"beam", "duration"} <= given.keys():
+        if "beams" not in given and not {"beam", "duration"} <= given.keys():
             given = self.with_room(given)
         told = subprocess.run([PROGRAM, "run", "-", "-q"], input=json.dumps(given), text=True, capture_output=True)
         self.assertEqual(0, told.returncode, f"{code}\n{told.stderr}")

@@ -18,7 +18,7 @@ COUNTED = Path(__file__).resolve().with_name("house.json")
 # The heart: elements, one beam in motion, time; and the rooms of mechanics/, which use it. No one in the heart is to use a
 # room.
 HEART = {"elements": "core", "motion": "mechanics/motion", "time": "mechanics/time"}
-ROOMS = ("frames", "spin", "flow", "ride", "contact", "ropes", "remesh", "conserving", "sundials", "statics")
+ROOMS = ("frames", "spin", "flow", "ride", "contact", "ropes", "remesh", "conserving", "sundials", "statics", "assembly")
 # What stands in the element library although it is of a room, for elements ask for it: a pattern a room.
 STILL_IN_CORE = {
     "frames": r"triad|twist_law",
@@ -37,6 +37,7 @@ WORDS = {
     "remesh": r"(?<!order_)[Rr]elax|[Ll]east_?[Cc]hange|[Rr]estore",
     "conserving": r"[Cc]onserving|[Ee]nergy_?[Mm]omentum|[Dd]iscrete_?[Gg]radient",
     "sundials": r"[Ss]undials|SUNDIALS|\bIDA\b|\bida\b|cvode",
+    "assembly": r"[Aa]ssembly|ActingLinks|LinkForces",
     "statics": r"[Ss]tatic(Sample|Equations|Search|Modes|Sum)|[Ee]quilibri",
 }
 

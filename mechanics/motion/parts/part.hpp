@@ -27,6 +27,10 @@ class Part {
   /// What of the power add_force() counts as of loads [W]; whoever knows it for less than all forces says so. `scratch`
   /// is an array of forces to write on.
   virtual double load_power(const Motion<D>& motion, double* scratch) const { return add_force(motion, scratch).loads; }
+  /// Whether it may take or give power: the state then counts it.
+  virtual bool works() const { return true; }
+  /// What of its force acts on a joint at that node, and not on the beam there [N].
+  virtual Vec<double, D> force_on_joint(int /*node*/) const { return Vec<double, D>::Zero(); }
   /// Adds the tangent of M a - Q as far as it is the part's.
   virtual void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const = 0;
 };

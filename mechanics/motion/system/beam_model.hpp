@@ -99,9 +99,13 @@ struct BeamModel {
     if (frames) axis.stiffness.EI = 0;
     return axis;
   }
+  /// Whether one of its own parts may take or give power.
+  bool parts_work() const {
+    return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part->works(); });
+  }
   /// Whether energy is lost.
   bool dissipates() const {
-    return !parts.empty() || section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
+    return parts_work() || section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
   }
   /// Whether there is friction at a joint.
   bool rubs() const {
@@ -130,7 +134,7 @@ struct BeamModel {
   Tallies tallies() const {
     if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
     return {dissipates(),
-            loads.present() || !parts.empty() || drag.streams() || (spin && spin->torques.present()) ||
+            loads.present() || parts_work() || drag.streams() || (spin && spin->torques.present()) ||
                 (frames && frames->loaded()),
             spin && !spin->drives.empty(), driven()};
   }

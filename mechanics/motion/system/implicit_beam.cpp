@@ -210,7 +210,7 @@ template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
                                                           double h, double t) {
-  const bool damped = beam_.model().section.damped() || !beam_.model().parts.empty();
+  const bool damped = beam_.model().section.damped() || beam_.model().parts_work();
   if (!damped || !beam_.move_nodes(t + h / 2)) return std::nullopt;
   assign_both(middle_q_, 0.5 * (q0 + q1), middle_v_, (q1 - q0) / h);
   assign(a_, 0.5 * (a0 + a1));
@@ -315,6 +315,7 @@ OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double 
   for (std::size_t i = 0; i < places().size(); ++i) {
     auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];
     on_mass = -position<D>(free_.data(), places()[i].node) - beam_.joint(i).law.mass * beam_.gravity(t);
+    for (const auto& part : beam_.acting()) on_mass -= part->force_on_joint(places()[i].node);
   }
   return forces;
 }
@@ -352,6 +353,7 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     on_mass = beam_.joint(i).law.mass * (acceleration - beam_.gravity(t));
     if (beam_.held(i) != nullptr)
       on_mass -= position<D>(free_.data(), places()[i].node);  // what holds it does the rest
+    for (const auto& part : beam_.acting()) on_mass -= part->force_on_joint(places()[i].node);
   }
   const auto& links = accelerations_.links().all();
   for (std::size_t c = 0; c < links.size(); ++c) {  // and so does what it is linked to
