@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -9,8 +11,27 @@
 #include "core/geometry/elementary.hpp"
 #include "core/geometry/vec.hpp"
 #include "scene/derived.hpp"
+#include "scene/on_elements.hpp"
 
 namespace vlbeam {
+namespace {
+
+void check_name(const std::string& at, const std::string& name, std::vector<std::string>& taken) {
+  const auto allowed = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ' '; };
+  constexpr std::array reserved{"t", "energy", "momentum", "angular_momentum"};
+  if (name.empty() || !std::ranges::all_of(name, allowed)) {
+    refuse(at, "\"" + name + "\"", "it must be letters, digits, spaces and underscores");
+  }
+  if (std::ranges::find(reserved, name) != reserved.end()) {
+    refuse(at, "\"" + name + "\"", "the whole has a quantity of that name: take another one");
+  }
+  if (std::ranges::find(taken, name) != taken.end()) {
+    refuse(at, "\"" + name + "\"", "there are two of that name: each beam, body and link needs one of its own");
+  }
+  taken.push_back(name);
+}
+
+}  // namespace
 std::string key_in_assembly(std::size_t which, const std::string& key) {
   const std::string entry = "/beams/" + std::to_string(which);
   if (key.starts_with("/beam/")) return entry + key.substr(5);
@@ -19,6 +40,14 @@ std::string key_in_assembly(std::size_t which, const std::string& key) {
     if (key.starts_with(own)) return entry + key;
   }
   return key;
+}
+
+int elements_of(const Scene& whole, std::size_t which) {
+  const AssemblySpec& parts = *whole.assembly;
+  const int drawn = parts.beams[which].scene.beam.elements;
+  if (whole.beam.elements == parts.elements) return drawn;
+  const double share = static_cast<double>(whole.beam.elements) / parts.elements;
+  return std::max(1, static_cast<int>(std::lround(share * drawn)));
 }
 
 Scene beam_scene(const Scene& whole, std::size_t which) {
@@ -48,9 +77,12 @@ Scene beam_scene(const Scene& whole, std::size_t which) {
     }
     for (SlidingJointSpec& joint : scene.sliding_joints) joint.x.emplace();
   }
-  if (whole.beam.elements != parts.elements) {
-    const double share = static_cast<double>(whole.beam.elements) / parts.elements;
-    scene.beam.elements = std::max(1, static_cast<int>(std::lround(share * scene.beam.elements)));
+  const int elements = elements_of(whole, which);
+  if (elements != scene.beam.elements) scene = on_elements(scene, elements);
+  const Scene& longest = parts.beams[parts.longest].scene;
+  if (const int more = quadrature_points(whole) - quadrature_points(longest); more != 0) {
+    scene.beam.polynomial_points = points_of_polynomials(scene) + more;
+    scene.beam.quadrature_points = quadrature_points(scene) + more;
   }
   return scene;
 }
@@ -111,6 +143,18 @@ std::string place_text(const Point& place, int dimension) {
   for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c)
     text += (c > 0 ? ", " : "") + six_digits(place[c]);
   return text + "]";
+}
+
+void check_names(const AssemblySpec& parts) {
+  std::vector<std::string> taken;
+  const auto check = [&taken](const char* list, const auto& entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      check_name(std::string(list) + std::to_string(i) + "/name", entries[i].name, taken);
+    }
+  };
+  check("/beams/", parts.beams);
+  check("/bodies/", parts.bodies);
+  check("/links/", parts.links);
 }
 
 }  // namespace vlbeam

@@ -84,6 +84,9 @@ struct AssemblySpec {
   int elements = 1;         ///< of that beam, as read: the elements of all grow in proportion with those of the whole
 };
 
+/// How many elements a beam of an assembly has now.
+int elements_of(const Scene& whole, std::size_t which);
+
 /// The scene of one beam of an assembly, with what it shares with the whole as that is now.
 Scene beam_scene(const Scene& whole, std::size_t which);
 
@@ -92,6 +95,9 @@ Scene scene_of_beam(const Scene& whole, const std::string& beam);
 
 /// The whole, of parts that are complete: what follows from the longest beam.
 Scene whole_scene(AssemblySpec parts);
+
+/// Throws InvalidInput where beams, bodies and links have no names of their own.
+void check_names(const AssemblySpec& parts);
 
 /// Where a key of a beam's scene stands in the whole.
 std::string key_in_assembly(std::size_t which, const std::string& key);

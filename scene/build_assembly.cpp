@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/build.hpp"
+#include "scene/on_elements.hpp"
 #include "scene/time_function.hpp"
 
 namespace vlbeam {
@@ -35,17 +36,16 @@ std::array<Point, 2> node_in(const Scene& scene, const LinkEndSpec& end) {
 }
 
 /// Of a beam of the whole, whose nodes are numbered in proportion where a companion has fewer of them.
-LinkEndSpec renumbered(const Scene& whole, LinkEndSpec end) {
+LinkEndSpec now(const Scene& whole, LinkEndSpec end) {
   if (end.of != LinkEndSpec::Of::node) return end;
   const int drawn = whole.assembly->beams[end.which].scene.beam.elements;
-  const int now = beam_scene(whole, end.which).beam.elements;
-  end.joint = (2 * end.joint * now + drawn) / (2 * drawn);
+  end.joint = renumbered(end.joint, drawn, elements_of(whole, end.which), "/links/between");
   return end;
 }
 
 std::array<Point, 2> node_of_whole(const Scene& whole, const LinkEndSpec& end) {
   const Scene scene = beam_scene(whole, end.which);
-  const LinkEndSpec here = renumbered(whole, end);
+  const LinkEndSpec here = now(whole, end);
   return scene.dimension == 2 ? node_in<2>(scene, here) : node_in<3>(scene, here);
 }
 
@@ -73,7 +73,7 @@ LinkEnd<D> build_end(const Scene& whole, const LinkEndSpec& spec) {
     case LinkEndSpec::Of::ground:
       return end;
   }
-  end.joint = renumbered(whole, spec).joint;
+  end.joint = now(whole, spec).joint;
   end.member = spec.which + (spec.of == LinkEndSpec::Of::body ? whole.assembly->beams.size() : 0);
   return end;
 }

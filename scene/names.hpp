@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "scene/assembly.hpp"
 #include "scene/result.hpp"
 #include "scene/scene.hpp"
 
@@ -30,15 +29,6 @@ constexpr auto names(ElementKind) {
 constexpr auto names(CurveType) {
   using enum CurveType;
   return std::to_array<Named<CurveType>>({{line, "line"}, {arc, "arc"}, {nurbs, "nurbs"}, {polyline, "polyline"}});
-}
-constexpr auto names(LinkType) {
-  using enum LinkType;
-  return std::to_array<Named<LinkType>>(
-      {{pin, "pin"}, {clamp, "clamp"}, {slide, "slide"}, {distance, "distance"}, {spring, "spring"}, {rail, "rail"}});
-}
-constexpr auto names(BodyLoadSpec::Type) {
-  using enum BodyLoadSpec::Type;
-  return std::to_array<Named<BodyLoadSpec::Type>>({{force, "force"}, {torque, "torque"}});
 }
 constexpr auto names(RestShape) {
   return std::to_array<Named<RestShape>>(

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "scene/assembly_names.hpp"
 #include "scene/build.hpp"
 #include "scene/build_assembly.hpp"
 #include "scene/derived.hpp"
@@ -24,21 +25,6 @@ const AssemblySpec& parts_of(const Scene& whole) { return *whole.assembly; }
 bool knows_links(IntegratorType type) {
   return type == IntegratorType::generalized_alpha || type == IntegratorType::dopri5 ||
          type == IntegratorType::cash_karp || type == IntegratorType::fehlberg78;
-}
-
-void check_name(const std::string& at, const std::string& name, std::vector<std::string>& taken) {
-  const auto allowed = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ' '; };
-  constexpr std::array reserved{"t", "energy", "momentum", "angular_momentum"};
-  if (name.empty() || !std::ranges::all_of(name, allowed)) {
-    refuse(at, "\"" + name + "\"", "it must be letters, digits, spaces and underscores");
-  }
-  if (std::ranges::find(reserved, name) != reserved.end()) {
-    refuse(at, "\"" + name + "\"", "the whole has a quantity of that name: take another one");
-  }
-  if (std::ranges::find(taken, name) != taken.end()) {
-    refuse(at, "\"" + name + "\"", "there are two of that name: each beam, body and link needs one of its own");
-  }
-  taken.push_back(name);
 }
 
 void check_body(const Scene& whole, const BodySpec& body, const std::string& at) {
@@ -222,18 +208,6 @@ void check_at_rest(const Scene& scene, const std::string& at) {
 }
 
 }  // namespace
-
-void check_names(const AssemblySpec& parts) {
-  std::vector<std::string> taken;
-  const auto check = [&taken](const char* list, const auto& entries) {
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      check_name(std::string(list) + std::to_string(i) + "/name", entries[i].name, taken);
-    }
-  };
-  check("/beams/", parts.beams);
-  check("/bodies/", parts.bodies);
-  check("/links/", parts.links);
-}
 
 void validate_assembly(const Scene& whole) {
   const AssemblySpec& parts = parts_of(whole);

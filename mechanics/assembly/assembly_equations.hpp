@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,6 +64,9 @@ class AssemblyEquations final : public SecondOrderSystem {
     Eigen::MatrixXd columns = {};  ///< K^-1 of a unit force on each component of these
     mutable Eigen::VectorXd q = {}, v = {}, a = {}, r = {};
   };
+  /// Of the largest pivot: below, a condition follows from others.
+  static constexpr double redundant_share = 1e-11;
+
   void refresh() const;
   void gather(const View& view, const Eigen::VectorXd& whole, Eigen::VectorXd& own) const;
   void scatter(const View& view, const Eigen::VectorXd& own, Eigen::VectorXd& whole) const;
@@ -100,10 +104,10 @@ class AssemblyEquations final : public SecondOrderSystem {
   mutable double unit_ = 1;  ///< makes an acceleration of a multiplier [kg]
   double scale_ = 1;         ///< by.a unit_
   // of linearize()
-  Eigen::MatrixXd gradients_, curvature_;
-  std::vector<Eigen::Index> bent_;  ///< rows of L that are not zero
-  double force_size_ = 1;           ///< of eta
-  bool dependent_ = false;          ///< some conditions follow from others
+  Eigen::SparseMatrix<double> gradients_, curvature_;  ///< G and L: a link has few entries of them
+  std::vector<Eigen::Index> bent_;                     ///< rows of L that are not zero
+  double force_size_ = 1;                              ///< of eta
+  bool dependent_ = false;                             ///< some conditions follow from others
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
   Eigen::FullPivLU<Eigen::MatrixXd> careful_factors_;
   mutable Eigen::VectorXd h_, rate_, forces_, touched_, right_, pull_, eta_;  // working memory

@@ -4,11 +4,11 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "scene/assembly_names.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
 #include "scene/validate.hpp"
-#include "scene/validate_assembly.hpp"
 #include "studies/harness/nearest.hpp"
 #include "studies/harness/scene_json.hpp"
 

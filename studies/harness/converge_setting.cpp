@@ -6,6 +6,7 @@
 #include "core/geometry/elementary.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/derived.hpp"
+#include "scene/on_elements.hpp"
 #include "scene/validate.hpp"
 #include "studies/harness/converge.hpp"
 #include "studies/harness/json.hpp"
@@ -18,14 +19,6 @@ constexpr double least_rtol = 1e-14;  // as /integrator/rtol allows: rounding
 // Accuracies of an automatic integrator that refinement starts from, so that time errs less than the mesh: tolerances
 // of 1e-9 for dopri5 and of 1e-7 of the length for generalized-alpha.
 constexpr double explicit_start = 2e-8, implicit_start = 1e-5;
-
-int renumbered(int node, int from, int to, const std::string& field) {
-  const long scaled = static_cast<long>(node) * to;
-  if (scaled % from != 0) {
-    throw InvalidInput(field, std::to_string(node), "it must be a node of " + std::to_string(to) + " elements, too");
-  }
-  return static_cast<int>(scaled / from);
-}
 
 }  // namespace
 
@@ -53,23 +46,9 @@ Setting setting_of(const Scene& given) {
 }
 
 Scene on_mesh(const Scene& scene, int elements, int points) {
-  Scene changed = scene;
-  const int from = scene.beam.elements;
-  changed.beam.elements = elements;
+  Scene changed = on_elements(scene, elements);
   changed.beam.quadrature_points = points;
   changed.beam.polynomial_points = points_of_polynomials(scene) + points - quadrature_points(scene);
-  if (changed.flow) {
-    for (auto& guide : changed.flow->nodes) guide.node = renumbered(guide.node, from, elements, "/flow/nodes");
-  }
-  if (changed.spin) {
-    for (auto& drive : changed.spin->drives) drive.node = renumbered(drive.node, from, elements, "/spin/drives");
-  }
-  for (LoadSpec& load : changed.loads) {
-    if (load.at == LoadPlace::node) load.node = renumbered(load.node, from, elements, "/loads");
-  }
-  for (PointMassSpec& mass : changed.point_masses) {
-    if (!mass.position) mass.node = renumbered(mass.node, from, elements, "/point_masses");
-  }
   return changed;
 }
 

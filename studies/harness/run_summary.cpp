@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "scene/assembly.hpp"
+#include "scene/assembly_names.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
 #include "scene/energy_ledger.hpp"
