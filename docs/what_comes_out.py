@@ -78,7 +78,7 @@ def page(samples):
 
 def main():
     told = subprocess.run([sys.argv[1], "schema", "run"], capture_output=True, text=True, check=True)
-    text = page(json.loads(told.stdout)["properties"]["samples"])
+    text = page(json.loads(told.stdout)["properties"]["samples"]["anyOf"][0])
     file = sys.argv[2] if len(sys.argv) > 2 else Path(__file__).with_suffix(".md")
     if file == "-":
         sys.stdout.write(text)

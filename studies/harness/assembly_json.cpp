@@ -374,6 +374,12 @@ Scene assembly_from_json(Json json) {
     throw InvalidInput("/beam", "this key", "the scene has /beams: write the beam as one of them");
   }
   for (const char* key : {"beams", "bodies", "links"}) json.erase(key);
+  for (const char* key :
+       {"supports", "sliding_mass", "sliding_joints", "blocks", "contact", "point_masses", "loads", "places", "spin"}) {
+    if (!json.contains(key)) continue;
+    throw InvalidInput(std::string("/") + key, "this key",
+                       "with several beams it belongs to one of them: write it into an entry of /beams");
+  }
   const Json integrator = json.contains("integrator") ? json.at("integrator") : Json("auto");
   const bool in_time = !json.contains("analysis") || json.at("analysis") != "statics";
   const bool left_out = in_time && (integrator == Json("auto") || integrator == Json::object());

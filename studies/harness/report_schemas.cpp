@@ -132,6 +132,18 @@ Json samples_schema() {
   return described(root, "the observed quantities, each a column with one entry a sample");
 }
 
+/// Of several beams and bodies: their names are those of the scene.
+Json samples_of_several_schema() {
+  return described(
+      {{"type", "object"},
+       {"properties", {{"t", array_of(any_number)}, {"energy", {{"type", "object"}}}}},
+       {"required", {"t", "energy"}},
+       {"not", {{"required", {"beam_length"}}}},
+       {"additionalProperties", {{"type", {"array", "object"}}}}},
+      "of several beams and bodies: energies and momenta of the whole, and below the name of each part what it "
+      "has");
+}
+
 Json run_error_schema() {
   const Json quantity = record({{"quantity", described(any_text, "what may be off")},
                                 {"unit", described(any_text, "of both numbers")},
@@ -310,7 +322,8 @@ Json run_schema() {
                                "meshes tell of its errors")},
            {"scene", described(scene, "as understood, every default filled in")},
            {"law", described(any_text, "how the axial force follows from the stretch, in words")},
-           {"samples", samples_schema()},
+           {"samples", described({{"anyOf", {samples_schema(), samples_of_several_schema()}}},
+                                 "the observed quantities, each a column with one entry a sample")},
            {"extremes",
             described({{"type", "object"}, {"additionalProperties", extreme}},
                       "of each number of the samples over all steps, by its name; where /output/extremes asks for it")},

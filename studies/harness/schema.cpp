@@ -295,6 +295,7 @@ Json scene_schema() {
                 {"default", automatic.at("const")},
                 {"anyOf", {automatic, integrator}}};
   add_assembly_schema(schema);
+  schema["$id"] = "https://vlbeam.example/scene";  // what it refers to is in it, wherever it stands
   return with_head("vlbeam scene", schema);
 }
 

@@ -67,6 +67,7 @@ TEST(AssemblyScene, WrongInputIsNamedWhereItStands) {
   EXPECT_EQ(field("/beam", Json::object()), "/beam") << "a beam beside beams";
   EXPECT_EQ(field("/beams/1/supports", {{{"at", "start"}, {"type", "pin"}}}), "/links/0/between/1") << "held twice";
   EXPECT_EQ(field("/checked", true), "/checked");
+  EXPECT_EQ(field("/supports", Json::array()), "/supports") << "whose?";
 }
 
 TEST(AssemblyScene, LinksThatDoNotMeetSayByHowMuch) {

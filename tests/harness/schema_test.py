@@ -61,6 +61,23 @@ def changed(**changes):
     return result
 
 
+# Several beams and bodies: what their schema refers to is found in a scene and in a report.
+with open(os.path.join(source, "scenes", "trolley_and_hook.json")) as file:
+    crane = json.load(file)
+expect(scene, crane, True, "a crane")
+several = copy.deepcopy(crane) | {"duration": 0.05, "output": {"interval": 0.05, "configurations": [0]}}
+told = subprocess.run([program, "run", "-", "-q", "--no-check", "--report", "-"], input=json.dumps(several), check=True, capture_output=True,
+                      text=True)
+expect(run, json.loads(told.stdout), True, "the report of a crane")
+for path, value in (("beams", []), ("beams/0/elementz", 3), ("bodies/0/mass", 0), ("links/0/type", "weld")):
+    wrong = copy.deepcopy(crane)
+    *parents, key = path.split("/")
+    node = wrong
+    for parent in parents:
+        node = node[int(parent) if parent.isdigit() else parent]
+    node[key] = value
+    expect(scene, wrong, False, f"{value} at {path}")
+
 stiffness = {"type": "stiffness", "EA": 1, "EI": 0, "rhoA": 1}
 expect(scene, changed(beam__section=stiffness), True, "stiffnesses")
 expect(scene, changed(beam__section={"radius": 0.1}), True, "a circle by default")
