@@ -70,19 +70,21 @@ Configuration BeamRecord<D>::shape(const Eigen::VectorXd& y, double t) const {
 
 /// Of a section that spins, at the nodes.
 template <int D>
-void BeamRecord<D>::add_angles(const Eigen::VectorXd& y, Configuration& shape) const {
-  const Spin* const spin = spin_of(system_);
-  for (std::size_t k = 0; spin != nullptr && k < shape.x.size(); ++k) {
-    const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
-    if (system_.marks() != nullptr) {
-      const Eigen::Index angle = spin->angle(static_cast<int>(k));
-      shape.angles.push_back(angles[angle]);
-      shape.rates.spins.push_back(rates[angle]);
-      continue;
+void BeamRecord<D>::add_angles([[maybe_unused]] const Eigen::VectorXd& y, [[maybe_unused]] Configuration& shape) const {
+  if constexpr (has_room("spin")) {
+    const Spin* const spin = spin_of(system_);
+    for (std::size_t k = 0; spin != nullptr && k < shape.x.size(); ++k) {
+      const double *angles = y.data() + system_.angles(), *rates = angles + system_.coordinates();
+      if (system_.marks() != nullptr) {
+        const Eigen::Index angle = spin->angle(static_cast<int>(k));
+        shape.angles.push_back(angles[angle]);
+        shape.rates.spins.push_back(rates[angle]);
+        continue;
+      }
+      const auto section = spin->section(angles, rates, shape.x[k]).at;
+      shape.angles.push_back(section.angle);
+      shape.rates.spins.push_back(section.spin);
     }
-    const auto section = spin->section(angles, rates, shape.x[k]).at;
-    shape.angles.push_back(section.angle);
-    shape.rates.spins.push_back(section.spin);
   }
 }
 
