@@ -10,11 +10,11 @@
 namespace vlbeam {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-class Quantities {
+class AssemblyQuantities {
  public:
-  explicit Quantities(const Scene& whole) : d_(static_cast<std::size_t>(whole.dimension)) {}
+  explicit AssemblyQuantities(const Scene& whole) : d_(static_cast<std::size_t>(whole.dimension)) {}
 
   std::vector<SampleQuantity> take() { return std::move(list_); }
   void add(SampleQuantity quantity) { list_.push_back(std::move(quantity)); }
@@ -61,7 +61,7 @@ bool is_of_the_whole(const std::string& path) {
   return std::ranges::find(whole, path) != whole.end();
 }
 
-void add_beam(Quantities& q, const Scene& whole, std::size_t which) {
+void add_beam(AssemblyQuantities& q, const Scene& whole, std::size_t which) {
   const std::string& name = whole.assembly->beams[which].name;
   const Scene scene = beam_scene(whole, which);
   q.part(name);
@@ -85,16 +85,16 @@ void add_beam(Quantities& q, const Scene& whole, std::size_t which) {
     };
     q.part(path);
     q.number(path + "/position", "m", "its material coordinate",
-             [joint](const Sample& s) { return joint(s).position.value_or(nan); });
+             [joint](const Sample& s) { return joint(s).position.value_or(not_there); });
     q.number(path + "/velocity", "m/s", "rate of its material coordinate",
-             [joint](const Sample& s) { return joint(s).on_beam ? joint(s).on_beam->velocity : nan; });
+             [joint](const Sample& s) { return joint(s).on_beam ? joint(s).on_beam->velocity : not_there; });
     q.vector(path + "/place", "m", "its place in space", [joint](const Sample& s) {
-      return joint(s).mass_position.value_or(Point{nan, nan, nan});
+      return joint(s).mass_position.value_or(Point{not_there, not_there, not_there});
     });
   }
 }
 
-void add_body(Quantities& q, const Scene& whole, std::size_t which) {
+void add_body(AssemblyQuantities& q, const Scene& whole, std::size_t which) {
   const std::string& name = whole.assembly->bodies[which].name;
   const auto of = [which](Point BodySample::*member) {
     return [which, member](const Sample& s) { return s.assembly->bodies[which].*member; };
@@ -115,7 +115,7 @@ void add_body(Quantities& q, const Scene& whole, std::size_t which) {
   q.vector(name + "/angular_velocity", "rad/s", "angular velocity in space", of(&BodySample::angular_velocity));
 }
 
-void add_link(Quantities& q, const Scene& whole, std::size_t which) {
+void add_link(AssemblyQuantities& q, const Scene& whole, std::size_t which) {
   const LinkSpec& link = whole.assembly->links[which];
   const auto of = [which](double LinkSample::*member) {
     return [which, member](const Sample& s) { return s.assembly->links[which].*member; };
@@ -131,7 +131,7 @@ void add_link(Quantities& q, const Scene& whole, std::size_t which) {
 }  // namespace
 
 std::vector<SampleQuantity> assembly_quantities(const Scene& whole) {
-  Quantities q(whole);
+  AssemblyQuantities q(whole);
   q.number("t", "s", "time; in statics the number of the equilibrium, from 0", [](const Sample& s) { return s.t; });
   if (whole.analysis == Analysis::statics) {
     q.number("load_factor", "-", "what loads, gravity and displacements of supports are scaled by",

@@ -12,11 +12,12 @@
 namespace vlbeam {
 namespace {
 
-constexpr int most_iterations = 400, most_halvings = 8;
-constexpr double largest_move = 0.1, largest_turn = 0.4;  // of one correction: over the length, and of slopes
-constexpr double calm = 0.3;                              // by_a falls by that where corrections fall
-constexpr double least_mass = 1e-9;                       // of the first by_a
-constexpr double falls_beyond = 1e-9;  // of the largest eigenvalue seen: below, rounding hides the sign
+constexpr int most_corrections_at_rest = 400, most_halved_loads = 8;
+constexpr double largest_move_at_rest = 0.1,
+                 largest_turn_at_rest = 0.4;  // of one correction: over the length, and of slopes
+constexpr double calm = 0.3;                  // by_a falls by that where corrections fall
+constexpr double least_mass = 1e-9;           // of the first by_a
+constexpr double falls_beyond = 1e-9;         // of the largest eigenvalue seen: below, rounding hides the sign
 
 /// Sizes of an array of coordinates: positions, and slopes and angles.
 struct Sizes {
@@ -62,7 +63,7 @@ class Search {
     Eigen::VectorXd offset;  // supports are where the factor has them
     if (equations.driven_offset(q, factor, offset)) q -= offset;
     double by_a = by_a_, before = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < most_corrections_at_rest; ++i) {
       equations.residual(q, zero, a, factor, r_);
       if (!r_.allFinite() || !equations.linearize(q, zero, a, factor, {1, 0, by_a})) return false;
       equations.solve(r_);
@@ -70,8 +71,8 @@ class Search {
       ++counters_.newton.iterations;
       const Sizes step = sizes(r_);
       const double size = std::max(step.position / options_.length, step.slope);
-      const double share =
-          1 / std::max({1.0, step.position / (largest_move * options_.length), step.slope / largest_turn});
+      const double share = 1 / std::max({1.0, step.position / (largest_move_at_rest * options_.length),
+                                         step.slope / largest_turn_at_rest});
       q.head(own) -= share * r_.head(own);
       a.tail(a.size() - own) -= share * by_a * r_.tail(r_.size() - own);
       if (size <= options_.tolerance) return true;
@@ -353,7 +354,7 @@ void trace_equilibria(AssemblySystem<D>& system, const AssemblyStaticsOptions& o
   };
   for (int step = 1; step <= options.steps; ++step) {
     const double from = static_cast<double>(step - 1) / options.steps, to = static_cast<double>(step) / options.steps;
-    if (!advance(advance, from, to, most_halvings)) {
+    if (!advance(advance, from, to, most_halved_loads)) {
       throw ComputationFailed("no equilibrium near the last one at load factor " + in_digits(to, 4) +
                                   ": something moves freely, or the path has a limit point",
                               from);

@@ -76,8 +76,8 @@ struct Link {
 
 /// Two points that are one.
 template <int D>
-Link<D> pin_link(std::string name, const LinkEnd<D>& a, const LinkEnd<D>& b) {
-  Link<D> link{std::move(name), {a, b}};
+Link<D> pin_link(const std::string& name, const LinkEnd<D>& a, const LinkEnd<D>& b) {
+  Link<D> link{name, {a, b}};
   for (int c = 0; c < D; ++c) {
     LinkCondition condition{{}, LinkVector::Zero(2 * D)};
     condition.gradient[c] = 1;
@@ -89,8 +89,9 @@ Link<D> pin_link(std::string name, const LinkEnd<D>& a, const LinkEnd<D>& b) {
 
 /// A point on a straight line of the ground, through `from` along `direction`.
 template <int D>
-Link<D> rail_link(std::string name, const LinkEnd<D>& a, const Vec<double, D>& from, const Vec<double, D>& direction) {
-  Link<D> link{std::move(name), {a}};
+Link<D> rail_link(const std::string& name, const LinkEnd<D>& a, const Vec<double, D>& from,
+                  const Vec<double, D>& direction) {
+  Link<D> link{name, {a}};
   const Vec<double, D> along = direction.normalized();
   Eigen::Index least = 0;
   along.cwiseAbs().minCoeff(&least);
@@ -104,8 +105,8 @@ Link<D> rail_link(std::string name, const LinkEnd<D>& a, const Vec<double, D>& f
 
 /// Two points that keep a distance > 0 [m].
 template <int D>
-Link<D> distance_link(std::string name, const LinkEnd<D>& a, const LinkEnd<D>& b, double distance) {
-  Link<D> link{std::move(name), {a, b}};
+Link<D> distance_link(const std::string& name, const LinkEnd<D>& a, const LinkEnd<D>& b, double distance) {
+  Link<D> link{name, {a, b}};
   LinkCondition condition{LinkMatrix::Zero(2 * D, 2 * D), LinkVector::Zero(2 * D), -distance / 2};
   condition.curvature.topLeftCorner<D, D>().diagonal().setConstant(1 / distance);
   condition.curvature.bottomRightCorner<D, D>().diagonal().setConstant(1 / distance);

@@ -23,14 +23,14 @@ constexpr std::array of_beams{"supports",     "sliding_mass", "sliding_joints", 
 bool is_of_beams(const std::string& key) { return std::ranges::find(of_beams, key) != of_beams.end(); }
 
 /// Reads the keys of one object, and refuses those that nobody has asked for.
-class Fields {
+class ObjectFields {
  public:
-  Fields(const Json& json, std::string at) : json_(json), at_(std::move(at)) {
+  ObjectFields(const Json& json, std::string at) : json_(json), at_(std::move(at)) {
     if (!json.is_object()) throw InvalidInput(at_, excerpt(json), "it must be an object");
   }
-  ~Fields() = default;
-  Fields(const Fields&) = delete;
-  Fields& operator=(const Fields&) = delete;
+  ~ObjectFields() = default;
+  ObjectFields(const ObjectFields&) = delete;
+  ObjectFields& operator=(const ObjectFields&) = delete;
 
   const Json* find(const std::string& key) {
     known_.push_back(key);
@@ -130,7 +130,7 @@ Json time_to_json(const TimeSpec& time) {
 }
 
 BodySpec body_from(const Json& json, const std::string& at, int dimension) {
-  Fields fields(json, at);
+  ObjectFields fields(json, at);
   BodySpec body;
   body.name = fields.text("name");
   fields.need("mass", "a number > 0 [kg]");
@@ -139,7 +139,7 @@ BodySpec body_from(const Json& json, const std::string& at, int dimension) {
     if (inertia->is_number()) {
       body.inertia = {inertia->get<double>()};
     } else {
-      const Point three = Fields::point_from(*inertia, at + "/inertia", "kg m^2", dimension == 2 ? 1 : 3);
+      const Point three = ObjectFields::point_from(*inertia, at + "/inertia", "kg m^2", dimension == 2 ? 1 : 3);
       body.inertia.assign(three.begin(), three.begin() + (dimension == 2 ? 1 : 3));
     }
   }
@@ -154,14 +154,14 @@ BodySpec body_from(const Json& json, const std::string& at, int dimension) {
     }
     for (const auto& item : points->items()) {
       body.points.push_back(
-          {item.key(), Fields::point_from(item.value(), at + "/points/" + item.key(), "m", dimension)});
+          {item.key(), ObjectFields::point_from(item.value(), at + "/points/" + item.key(), "m", dimension)});
     }
   }
   if (const Json* const loads = fields.find("loads")) {
     if (!loads->is_array()) throw InvalidInput(at + "/loads", excerpt(*loads), "it must be an array of objects");
     for (std::size_t i = 0; i < loads->size(); ++i) {
       const std::string own = at + "/loads/" + std::to_string(i);
-      Fields of_load((*loads)[i], own);
+      ObjectFields of_load((*loads)[i], own);
       BodyLoadSpec& load = body.loads.emplace_back();
       const auto type = from_string<BodyLoadSpec::Type>(of_load.text("type"));
       if (!type)
@@ -205,11 +205,11 @@ LinkEndSpec end_from(const Json& json, const std::string& at, const AssemblySpec
       "\"point\"} or "
       "{\"ground\": place}";
   if (!json.is_object()) throw InvalidInput(at, excerpt(json), allowed);
-  Fields fields(json, at);
+  ObjectFields fields(json, at);
   LinkEndSpec end;
   if (const Json* const ground = fields.find("ground")) {
     end.of = LinkEndSpec::Of::ground;
-    end.place = Fields::point_from(*ground, at + "/ground", "m", dimension);
+    end.place = ObjectFields::point_from(*ground, at + "/ground", "m", dimension);
     fields.end("a place of the ground");
     return end;
   }
@@ -253,7 +253,7 @@ LinkEndSpec end_from(const Json& json, const std::string& at, const AssemblySpec
 
 LinkSpec link_from(const Json& json, const std::string& at, const AssemblySpec& parts, const MemberNames& names,
                    int dimension) {
-  Fields fields(json, at);
+  ObjectFields fields(json, at);
   LinkSpec link;
   link.name = fields.text("name");
   const std::string type = fields.text("type");
@@ -441,7 +441,7 @@ Scene assembly_from_json(Json json) {
     whole.integrator.automatic = true;
     double accuracy = whole.integrator.accuracy;
     if (asked) {
-      Fields fields(integrator, "/integrator");
+      ObjectFields fields(integrator, "/integrator");
       fields.number("accuracy", "-", accuracy);
       fields.end("an integrator that \"accuracy\" chooses");
       const Range range = Range::closed(finest_accuracy, coarsest_accuracy);
