@@ -254,6 +254,7 @@ std::vector<double> eigenvalues(Search<D>& search, double factor, double shift, 
     const double norm = std::sqrt(std::max(x.dot(weigh(x)), 0.0));
     if (norm > 0) x /= norm;
   }
+  if (count == 0 || !projected.allFinite()) return {};
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(projected.topLeftCorner(count, count), Eigen::EigenvaluesOnly)
           .eigenvalues();
