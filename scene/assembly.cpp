@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/geometry/vec.hpp"
+#include "scene/assembly_names.hpp"
 #include "scene/derived.hpp"
 #include "scene/on_elements.hpp"
 
@@ -32,14 +33,13 @@ void check_name(const std::string& at, const std::string& name, std::vector<std:
 }
 
 }  // namespace
+
 std::string key_in_assembly(std::size_t which, const std::string& key) {
   const std::string entry = "/beams/" + std::to_string(which);
   if (key.starts_with("/beam/")) return entry + key.substr(5);
-  for (const char* own : {"/supports", "/sliding_mass", "/sliding_joints", "/blocks", "/contact", "/point_masses",
-                          "/loads", "/places", "/length_control", "/drag", "/fluid", "/spin"}) {
-    if (key.starts_with(own)) return entry + key;
-  }
-  return key;
+  const std::string first = key.substr(1, key.find('/', 1) - 1);
+  const auto among = [&](const auto& keys) { return std::ranges::find(keys, first) != keys.end(); };
+  return among(keys_of_one_beam) || among(keys_of_whole_or_beam) ? entry + key : key;
 }
 
 int elements_of(const Scene& whole, std::size_t which) {

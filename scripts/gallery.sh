@@ -15,6 +15,8 @@ for file in scenes/*.json; do
     bridge) what=(--quantity mass_position.y) ;;
     rotating_load) what=(--quantity load0_x load0_y) ;;
     cable_robot) what=(--quantity platform.position.y) ;;
+    cable_robot_in_space) what=(--quantity platform.position.z) ;;
+    double_atwood) what=(--quantity "lower string.joint 0.position") ;;
     elevator) what=(--quantity end.y) ;;
     atwood | incline | lead_screw | rope_off_peg | suspended_beam_friction) what=(--what joint) ;;
     hanging_cable) what=(--what tension) ;;

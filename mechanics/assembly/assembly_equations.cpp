@@ -6,6 +6,7 @@
 #include "mechanics/assembly/spring_now.hpp"
 
 namespace vlbeam {
+
 template <int D>
 AssemblyEquations<D>::AssemblyEquations(AssemblySystem<D>& system) : system_(system) {
   for (std::size_t b = 0; b < system.members(); ++b) {

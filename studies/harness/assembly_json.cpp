@@ -15,10 +15,12 @@
 namespace vlbeam {
 namespace {
 
-/// Keys beside /beam that each beam of an assembly has for itself.
-constexpr std::array of_beams{"supports",     "sliding_mass", "sliding_joints",   "blocks",        "contact",
-                              "point_masses", "loads",        "places",           "spin",          "drag",
-                              "fluid",        "ground",       "initial_velocity", "length_control"};
+/// Keys beside /beam that an entry of /beams may have.
+constexpr auto of_beams = [] {
+  std::array<const char*, keys_of_one_beam.size() + keys_of_whole_or_beam.size()> keys{};
+  std::ranges::copy(keys_of_whole_or_beam, std::ranges::copy(keys_of_one_beam, keys.begin()).out);
+  return keys;
+}();
 
 bool is_of_beams(const std::string& key) { return std::ranges::find(of_beams, key) != of_beams.end(); }
 
@@ -94,6 +96,18 @@ const Json& array_at(const Json& json, const std::string& key) {
   const Json& value = json.at(key);
   if (!value.is_array()) throw InvalidInput("/" + key, excerpt(value), "it must be an array of objects");
   return value;
+}
+
+/// Refuses a key that no beam of several has.
+void check_key(const std::string& at, const std::string& key) {
+  static const std::vector<std::string> of_beam = known_keys("beam");
+  if (is_of_beams(key) || std::ranges::find(of_beam, key) != of_beam.end()) return;
+  std::vector<std::string> known{"name"};
+  known.insert(known.end(), of_beam.begin(), of_beam.end());
+  known.insert(known.end(), of_beams.begin(), of_beams.end());
+  throw InvalidInput(
+      at + "/" + key, "an unknown key",
+      "the nearest known key is \"" + nearest_of(key, known) + "\" (a beam has: " + quoted_list(known) + ")");
 }
 
 /// A function of time, read as one of the options of a scene: the magnitude of a load.
@@ -374,8 +388,7 @@ Scene assembly_from_json(Json json) {
     throw InvalidInput("/beam", "this key", "the scene has /beams: write the beam as one of them");
   }
   for (const char* key : {"beams", "bodies", "links"}) json.erase(key);
-  for (const char* key :
-       {"supports", "sliding_mass", "sliding_joints", "blocks", "contact", "point_masses", "loads", "places", "spin"}) {
+  for (const char* key : keys_of_one_beam) {
     if (!json.contains(key)) continue;
     throw InvalidInput(std::string("/") + key, "this key",
                        "with several beams it belongs to one of them: write it into an entry of /beams");
@@ -409,6 +422,7 @@ Scene assembly_from_json(Json json) {
     scene["beam"] = Json::object();
     for (const auto& item : entry.items()) {
       if (item.key() == "name") continue;
+      check_key(at, item.key());
       (is_of_beams(item.key()) ? scene[item.key()] : scene["beam"][item.key()]) = item.value();
     }
     const bool floats = !in_time && !holds_an_end(entry);
@@ -417,7 +431,9 @@ Scene assembly_from_json(Json json) {
       parts.beams.push_back({entry.at("name").get<std::string>(), scene_from_json(scene)});
       if (floats) parts.beams.back().scene.start = {};
     } catch (const InvalidInput& error) {
-      throw InvalidInput(key_in_assembly(i, error.field), error.value, error.allowed);
+      const std::string first = error.field.substr(0, error.field.find('/', 1));
+      const bool of_whole = !first.empty() && !entry.contains(first.substr(1)) && json.contains(first.substr(1));
+      throw InvalidInput(of_whole ? error.field : key_in_assembly(i, error.field), error.value, error.allowed);
     }
     names.beams.push_back(parts.beams.back().name);
   }

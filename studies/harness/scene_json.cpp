@@ -76,11 +76,16 @@ std::string list_key(const Json& node) {
   return equals == std::string::npos ? "" : first.substr(0, equals);
 }
 
-std::string unknown_key_hint(const std::string& key, const Json& node, const std::string& discriminator) {
-  std::vector<std::string> known;
+std::vector<std::string> keys_of(const Json& node) {
+  std::vector<std::string> keys;
   for (const auto& item : node.items()) {
-    if (!item.key().empty()) known.push_back(item.key());
+    if (!item.key().empty()) keys.push_back(item.key());
   }
+  return keys;
+}
+
+std::string unknown_key_hint(const std::string& key, const Json& node, const std::string& discriminator) {
+  std::vector<std::string> known = keys_of(node);
   if (!discriminator.empty()) known.push_back(discriminator);
   if (key == "schema_version") return "this is a report; its scene stands in it under \"scene\"";
   return "the nearest known key is \"" + nearest_of(key, known) + "\" (known here: " + quoted_list(known) + ")";
@@ -437,6 +442,8 @@ bool asks_for_accuracy(const Json& integrator) {
   }
   return true;
 }
+
+std::vector<std::string> known_keys(const std::string& part) { return keys_of(KeyTree().tree().at(part)); }
 
 Scene scene_from_json(Json json) {
   if (is_assembly(json)) return assembly_from_json(std::move(json));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/scene.hpp"
 #include "studies/harness/json.hpp"
@@ -14,6 +16,9 @@ Scene scene_from_json(Json json);
 Scene parse_scene(std::string_view text);
 /// Of a file, which its errors name; "-" is standard input.
 Scene read_scene(const std::filesystem::path& file);
+
+/// Keys that the object under a top-level key of a scene may have.
+std::vector<std::string> known_keys(const std::string& part);
 
 /// The scene as understood, every default filled in. Reads back as the same scene.
 Json scene_to_json(const Scene& scene);

@@ -54,6 +54,9 @@ TEST(AssemblyScene, WrongInputIsNamedWhereItStands) {
   EXPECT_EQ(field("/beams/1/name", "energy"), "/beams/1/name") << "a quantity of the whole";
   EXPECT_EQ(field("/beams/0/elements", 0), "/beams/0/elements");
   EXPECT_EQ(field("/beams/0/elementz", 3), "/beams/0/elementz");
+  EXPECT_THAT(error_of("/beams/0/suports", Json::array()).allowed, testing::HasSubstr("is \"supports\""));
+  EXPECT_EQ(field("/length_control", {{"max_length", -1}}), "/length_control/max_length") << "of the whole";
+  EXPECT_EQ(field("/beams/0/length_control", {{"max_length", -1}}), "/beams/0/length_control/max_length");
   EXPECT_EQ(field("/beams/0/supports/0/type", "nail"), "/beams/0/supports/0/type");
   EXPECT_EQ(field("/beams/0/sliding_joints/0/mass", -1), "/beams/0/sliding_joints/0/mass");
   EXPECT_EQ(field("/bodies/0/mass", 0), "/bodies/0/mass");
