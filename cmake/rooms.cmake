@@ -1,7 +1,7 @@
 # Which rooms of mechanics/ are compiled: features that the beam in motion does without. Sets vlbeam_rooms and
 # vlbeam_rooms_left_out.
 set(VLBEAM_ROOMS "all" CACHE STRING "Rooms of mechanics/ to compile: all, none, or a list such as statics;ropes")
-set(all_rooms statics frames spin flow ride contact ropes remesh conserving sundials assembly)
+set(all_rooms statics frames spin flow ride contact ropes remesh conserving sundials assembly bearings vehicles)
 set(flow_uses statics spin ropes)
 set(conserving_uses ride)
 if(VLBEAM_ROOMS STREQUAL "all")

@@ -39,7 +39,7 @@ PARTS = [
     ("Motion", ("t", "load_factor", "end", "beam_length", "beam_length_rate", "angles")),
     ("What slides", ("joint_position", "joint_velocity", "mass_position", "contact", "holding_force", "sliding_joints", "winches")),
     ("Forces in the beam", ("axial_force", "bending_moment", "shear_force", "torque", "stress", "axial_strain", "curvature")),
-    ("Forces on the beam", ("tension", "reactions")),
+    ("Forces on the beam", ("tension", "reactions", "supports", "vehicles")),
     ("Places", ("places",)),
     ("Balances", ("energy", "momentum", "angular_momentum", "negative_pivots", "flow")),
 ]

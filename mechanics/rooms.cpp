@@ -63,6 +63,9 @@ std::unique_ptr<Unknowns<D>> unknowns_of_rooms([[maybe_unused]] const CurrentBea
   if constexpr (D == 3 && has_room("frames")) {
     if (beam.model().frames) return std::make_unique<FrameUnknowns>(beam);
   }
+  for (const auto& room : beam.model().rooms) {
+    if (auto unknowns = room->unknowns(beam)) return unknowns;
+  }
   return nullptr;
 }
 

@@ -19,7 +19,7 @@ constexpr auto names(BodyLoadSpec::Type) {
 
 /// Keys beside /beam that belong to one beam of several.
 inline constexpr std::array keys_of_one_beam{"supports",     "sliding_mass", "sliding_joints", "blocks", "contact",
-                                             "point_masses", "loads",        "places",         "spin"};
+                                             "point_masses", "loads",        "places",         "spin",   "vehicles"};
 /// Keys beside /beam that each beam may have for itself, in place of those of the whole.
 inline constexpr std::array keys_of_whole_or_beam{"drag", "fluid", "ground", "initial_velocity", "length_control"};
 

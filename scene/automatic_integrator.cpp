@@ -185,16 +185,22 @@ double work_of(const SolverCounters& solver) {
 
 /// Work of a run until `until`, by its first instants; infinite where these break down.
 double work_until(double until, Scene scene, const IntegratorSpec& integrator, double later_growth) {
-  scene.integrator = integrator;
-  scene.duration = trial_share * until;
-  scene.integrator.step = std::min(scene.integrator.step, scene.duration);
-  scene.output = {.interval = scene.duration, .configurations = {}};
+  const double whole = scene.duration, end = trial_share * until;
+  scene.duration = end;
+  scene.output = {.interval = end, .configurations = {}};
+  IntegratorSpec shorter = integrator;
+  shorter.step = std::min(integrator.step, end);
+  if (!allows(scene, shorter)) {  // what has not come by then may still come
+    scene.duration = whole;
+    scene.output.interval = whole;
+  }
+  scene.integrator = shorter;
   int steps = 0;
   double t = 0, last = 0;
   const RunResult result = simulate(scene, [&](double now) {
     last = now - t;
     t = now;
-    return ++steps < trial_steps;
+    return ++steps < trial_steps && now < end;
   });
   if (result.status == RunStatus::failed || steps == 0 || !(t > 0)) return std::numeric_limits<double>::infinity();
   const double work = work_of(result.solver), step = std::max(last, t / steps) * later_growth;

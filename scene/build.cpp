@@ -10,6 +10,7 @@
 #include "core/length_control/segmentation.hpp"
 #include "mechanics/rooms.hpp"
 #include "mechanics/ropes/ground.hpp"
+#include "scene/bearings.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_frames.hpp"
 #include "scene/build_loads.hpp"
@@ -18,6 +19,7 @@
 #include "scene/options.hpp"
 #include "scene/time_function.hpp"
 #include "scene/validate_feed.hpp"
+#include "scene/vehicles.hpp"
 
 namespace vlbeam {
 namespace {
@@ -124,6 +126,29 @@ void place_masses(const Scene& scene, const std::vector<double>& breaks, Initial
   }
 }
 
+/// A bearing gets a node where one is to be had that nothing else needs: elements between bearings err least.
+void place_bearings(const Scene& scene, const std::vector<double>& breaks, InitialNodes& nodes) {
+  std::vector<int> taken = nodes.joints;
+  taken.insert(taken.end(), nodes.masses.begin(), nodes.masses.end());
+  for (const LoadSpec& load : scene.loads) {
+    if (load.at == LoadPlace::node) taken.push_back(load.node);
+  }
+  for (const BearingSpec& bearing : scene.bearings) {
+    int node = 0;
+    for (int k = 1; k < scene.beam.elements; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const bool fits = nodes.x[i - 1] < bearing.x && bearing.x < nodes.x[i + 1];
+      if (!fits || std::ranges::find(taken, k) != taken.end()) continue;
+      if (std::binary_search(breaks.begin(), breaks.end(), nodes.x[i]) && nodes.x[i] != bearing.x) continue;
+      const auto off = [&](int which) { return std::abs(nodes.x[static_cast<std::size_t>(which)] - bearing.x); };
+      if (node == 0 || off(k) < off(node)) node = k;
+    }
+    if (node == 0 || std::ranges::find(nodes.x, bearing.x) != nodes.x.end()) continue;
+    nodes.x[static_cast<std::size_t>(node)] = bearing.x;
+    taken.push_back(node);
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -196,6 +221,7 @@ InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) 
     nodes.x[static_cast<std::size_t>(node)] = x;
   }
   place_masses(scene, breaks, nodes);
+  place_bearings(scene, breaks, nodes);
   return nodes;
 }
 
@@ -289,12 +315,12 @@ BeamModel<D> build_model(const Scene& scene) {
     SupportMotion<D> motion;
     const std::array<const std::optional<TimeSpec>*, 3> axes{&x, &y, &z};
     for (std::size_t c = 0; c < D; ++c) {
-      if (*axes[c]) motion.along[c] = acting(**axes[c], scene.analysis);
+      if (*axes[c]) motion.along[c] = acting(smooth_by_default(**axes[c]), scene.analysis);
     }
-    if (angle) motion.angle = acting(*angle, scene.analysis);
+    if (angle) motion.angle = acting(smooth_by_default(*angle), scene.analysis);
     if (direction == Point{}) return motion;
     motion.direction = vector_of<D>(direction).normalized();
-    motion.displacement = acting(displacement, scene.analysis);
+    motion.displacement = acting(smooth_by_default(displacement), scene.analysis);
     return motion;
   };
   model.start_motion = motion_of(scene.start.motion);
@@ -338,6 +364,8 @@ BeamModel<D> build_model(const Scene& scene) {
   if constexpr (has_room("ropes")) {
     if (scene.ground) model.parts.push_back(build_ground<D>(scene, model));
   }
+  add_bearings(scene, axis, model);
+  add_vehicles(scene, axis, model);
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);

@@ -1,6 +1,7 @@
 #include "scene/derived.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
@@ -174,12 +175,26 @@ bool has_several_joints(const Scene& scene) {
   return scene.sliding_joints.size() > 1 || fed(scene) || !knots(scene).empty();
 }
 
+namespace {
+
+/// Whether nodes are moved to where point masses and supports are, off those of equal elements.
+bool moves_nodes(const Scene& scene) {
+  constexpr double rounding = 1e-9;  // of an element
+  const auto is_off = [l = standard_length(scene)](double x) { return std::abs(x / l - std::round(x / l)) > rounding; };
+  return std::ranges::any_of(scene.bearings, [&](const BearingSpec& bearing) { return is_off(bearing.x); }) ||
+         std::ranges::any_of(scene.point_masses,
+                             [&](const PointMassSpec& mass) { return mass.position && is_off(*mass.position); });
+}
+
+}  // namespace
+
 double merge_below(const Scene& scene) {
   const auto& control = scene.length_control;
   // with one joint cuts and merges come together, which elements of unequal lengths would set off again and again
   const bool uneven = scene.analysis == Analysis::dynamics && may_have_corners(scene.beam.curve) &&
                       drawn_axis<3>(scene.beam.curve).breaks().size() > 2;
-  const bool apart = control.enabled && (uneven || has_several_joints(scene));
+  const bool apart = control.enabled && (uneven || has_several_joints(scene) ||
+                                         (scene.analysis == Analysis::dynamics && moves_nodes(scene)));
   const double otherwise = apart ? 2 - control.upper * (1 + control.hysteresis) : 0;
   return control.lower.value_or(otherwise);
 }

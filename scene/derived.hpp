@@ -128,9 +128,16 @@ AbsoluteTolerances with_defaults(AbsoluteTolerances atol, const Scene& scene);
 /// Whether a scene flows or has rotary inertia: the nodes of its beam then travel as prescribed, or stand still so.
 inline bool flows(const Scene& scene) { return scene.flow || scene.beam.rotary_inertia != BendingInertia::none; }
 
+/// Whether springs hold points between the ends of its beam.
+inline bool has_springs(const Scene& scene) {
+  return std::any_of(scene.bearings.begin(), scene.bearings.end(),
+                     [](const BearingSpec& bearing) { return bearing.type == BearingType::spring; });
+}
+
 /// Whether its samples have a FlowSample: anything but supports works on the beam.
 inline bool has_flow_sample(const Scene& scene) {
-  const bool acts = !scene.loads.empty() || scene.fluid || scene.ground;
+  const bool acts =
+      !scene.loads.empty() || scene.fluid || scene.ground || has_springs(scene) || !scene.vehicles.empty();
   return flows(scene) || scene.spin || acts || scene.start.winds_freely() || scene.end.winds_freely();
 }
 

@@ -152,7 +152,42 @@ struct JointOptions : OptionLines<Visitor, SceneT> {
   void supports() {
     support("/supports/at=start", scene.start);
     support("/supports/at=end", scene.end);
-    section("/supports", "what holds the ends of the beam; one that is not listed is free");
+    section("/supports", "what holds the ends of the beam, and points between them; an end that is not listed is free");
+    bearings();
+  }
+
+  /// A file has them in /supports, by an object in place of the end's name.
+  void bearings() {
+    list("/bearings", "what holds material points between the ends", scene.bearings);
+    for (std::size_t i = 0; i < scene.bearings.size(); ++i) {
+      auto& bearing = scene.bearings[i];
+      const std::string at = "/bearings/" + std::to_string(i), type = at + "/type";
+      number(at + "/at/x", "m", Range::non_negative(),
+             "material coordinate of a point between the ends, that joints pass over; of a spring an end, too",
+             bearing.x, {.required = true});
+      choice(type,
+             "how the point is held: pin, its place; roller, its place across the beam as it is drawn there; or by a "
+             "spring to the ground",
+             bearing.type, {.required = true});
+      const Condition is_spring = only_if(type, bearing.type, BearingType::spring);
+      choice(at + "/name", "letters, digits and underscores, for its quantities; if not given, its number from 0",
+             bearing.name);
+      number(at + "/stiffness", "N/m", Range::non_negative(), "of the spring", bearing.stiffness,
+             {.when = is_spring, .required = true});
+      number(at + "/damping", "N s/m", Range::non_negative(), "of a damper beside the spring", bearing.damping,
+             {.when = is_spring});
+      vector(at + "/direction", "-",
+             "along which alone the spring bears, unstrained where the point is drawn; if not given, in all directions",
+             bearing.direction, {.when = is_spring});
+      const std::string to = at + "/to";
+      vector(to, "m", "place in space of the spring's other end, of a hanger or a dropper: it bears along its own line",
+             bearing.to, {.when = is_spring});
+      number(at + "/length", "m", Range::non_negative(),
+             "of such a spring when it bears nothing; if not given, its length as drawn", bearing.length,
+             {.when = is_spring});
+      choice(at + "/tension_only", "whether the spring goes slack where it would push", bearing.tension_only,
+             {.when = is_spring});
+    }
   }
 
   void joints() {

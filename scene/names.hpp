@@ -54,6 +54,10 @@ constexpr auto names(SpaceLaw) {
 constexpr auto names(AxialStrain) {
   return std::to_array<Named<AxialStrain>>({{AxialStrain::full, "full"}, {AxialStrain::lobatto, "lobatto"}});
 }
+constexpr auto names(BearingType) {
+  using enum BearingType;
+  return std::to_array<Named<BearingType>>({{pin, "pin"}, {roller, "roller"}, {spring, "spring"}});
+}
 constexpr auto names(SupportType) {
   using enum SupportType;
   return std::to_array<Named<SupportType>>({{clamp, "clamp"}, {pin, "pin"}, {slide, "slide"}, {free, "free"}});
@@ -214,7 +218,8 @@ constexpr auto names(WarningKind) {
                                             {error_in_time, "error-in-time"},
                                             {error_of_mesh, "error-of-mesh"},
                                             {redundant_links, "redundant-links"},
-                                            {sudden_gravity, "sudden-gravity"}});
+                                            {sudden_gravity, "sudden-gravity"},
+                                            {lifting_wheel, "lifting-wheel"}});
 }
 
 /// A choice whose values have names.

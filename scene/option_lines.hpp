@@ -90,6 +90,11 @@ struct OptionLines {
         "pairs of a time and a value, in order of time, in place of all the others: a smooth curve through them that "
         "rises and falls where they do, and rests before the first and after the last",
         f.table, {.components = 2, .when = when});
+    choice(at + "/smooth",
+           "of a table: true is a spline, whose acceleration does not jump and which may swing a little beyond the "
+           "values; false rises and falls where they do. Both rest where two neighbouring values are the same; if not "
+           "given, true for motions of supports, rings and sleeves, and false for all else",
+           f.smooth, {.when = when});
     if constexpr (requires { visitor.time_function(at, f); }) visitor.time_function(at, f);
   }
 };

@@ -105,9 +105,10 @@ concept OptionalEnum = requires {
 }
 &&NamedEnum<typename T::value_type>&& std::same_as<T, std::optional<typename T::value_type>>;
 
-/// An option that takes a number, or is left out.
+/// An option that takes a number, a point of them, or true or false, or is left out.
 template <class T>
-concept OptionalNumber = std::same_as<T, std::optional<double>> || std::same_as<T, std::optional<int>>;
+concept OptionalNumber = std::same_as<T, std::optional<double>> || std::same_as<T, std::optional<int>> ||
+    std::same_as<T, std::optional<Point>> || std::same_as<T, std::optional<bool>>;
 
 /// What an option may be, in words: "a number > 0 [m]".
 template <class T>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "scene/derived.hpp"
 #include "scene/section_data.hpp"
 #include "scene/slack.hpp"
+#include "scene/vehicles.hpp"
 
 namespace vlbeam {
 namespace {
@@ -213,6 +215,7 @@ std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
   check_compression(scene, result, warnings);
   check_friction(scene, result, warnings);
   check_stability(scene, result, warnings);
+  std::ranges::copy(lifting_wheels(scene, result), std::back_inserter(warnings));
   if (!scene.statics.joints) check_held_rings(scene, result, warnings);
   return warnings;
 }

@@ -101,6 +101,19 @@ struct PlaceSample {
   SectionForce force;
 };
 
+/// What holds a material point between the ends.
+struct BearingSample {
+  Point position{};  ///< of that point [m]
+  Point force{};     ///< on the beam [N]
+};
+
+/// A wheel of a vehicle.
+struct AxleSample {
+  double x = 0;                 ///< its material coordinate, on the beam or off it [m]
+  std::optional<double> force;  ///< with which it pushes the beam, while it is on it [N]
+  double height = 0;  ///< of the mass that it carries, counted from rest on a level road; without one its own [m]
+};
+
 /// How the sections of a beam are loaded and turned.
 struct SectionSample {
   std::optional<AlongBeam> axial, moment;          ///< of a beam that bends
@@ -109,6 +122,8 @@ struct SectionSample {
   std::array<double, 2> angles{};                  ///< of the beam at its start and its end, see beam_angle() [degrees]
   std::array<std::optional<double>, 2> tension;    ///< there, by what holds it [N]; empty where an end is free
   std::vector<std::optional<PlaceSample>> places;  ///< of the scene, empty where they are not on the beam
+  std::vector<BearingSample> bearings = {};        ///< of the scene
+  std::vector<AxleSample> axles = {};              ///< of all vehicles
 };
 
 /// The largest and the least value of a quantity until a sample, and when they were [s].
@@ -261,6 +276,7 @@ enum class WarningKind {
   error_of_mesh,           ///< the elements err by more than 1 % of the motion
   redundant_links,         ///< links hold what others hold already
   sudden_gravity,          ///< gravity that acts at once on an unstrained beam makes it vibrate
+  lifting_wheel,           ///< a wheel would leave the beam, which holds it
 };
 
 /// Something that the results of a run do not show by themselves, and that its user should know.

@@ -64,6 +64,12 @@ void refuse_missing_rooms(const Scene& scene) {
       refuse_room("ropes", "/beam/material/mass_damping", number_text(scene.beam.material.mass_damping));
     }
   }
+  if constexpr (!has_room("bearings")) {
+    if (!scene.bearings.empty()) refuse_room("bearings", "/bearings/0/at", "an object");
+  }
+  if constexpr (!has_room("vehicles")) {
+    if (!scene.vehicles.empty()) refuse_room("vehicles", "/vehicles", "an array");
+  }
   if constexpr (!has_room("remesh")) {
     const bool slides = scene.length_control.enabled && (sliding_joint(scene) != nullptr || fed(scene));
     if (slides && cut_policy(scene) == CutPolicy::relaxed) {

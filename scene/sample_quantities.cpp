@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/assembly_quantities.hpp"
+#include "scene/bearings.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/section_data.hpp"
@@ -326,6 +327,42 @@ void add_reactions(Quantities& q, const Scene& scene) {
   end(1, "end", scene.end);
 }
 
+void add_supports_between(Quantities& q, const Scene& scene) {
+  if (scene.bearings.empty()) return;
+  q.part("supports");
+  for (std::size_t i = 0; i < scene.bearings.size(); ++i) {
+    const std::string name = bearing_name(scene, i);
+    const auto point = [&](const std::string& key, const char* unit, const char* what, Point BearingSample::*member) {
+      q.vector("supports/" + name + "/" + key, "support_" + name + "_" + key, unit, what,
+               [i, member](const Sample& s) -> std::optional<Point> {
+                 return s.sections ? std::optional(s.sections->bearings[i].*member) : std::nullopt;
+               });
+    };
+    point("position", "m", "of the point of the beam that it holds", &BearingSample::position);
+    point("force", "N", "of the support on the beam", &BearingSample::force);
+  }
+}
+
+void add_vehicles(Quantities& q, const Scene& scene) {
+  if (scene.vehicles.empty()) return;
+  q.part("vehicles");
+  std::size_t which = 0;
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    for (std::size_t k = 0; k < vehicle.axles.size(); ++k, ++which) {
+      const std::string axle = "axle_" + std::to_string(k), path = "vehicles/" + vehicle.name + "/" + axle + "/",
+                        stem = "vehicle_" + vehicle.name + "_" + axle + "_";
+      const auto of = [which](const Sample& s) -> const AxleSample& { return s.sections->axles[which]; };
+      q.number(path + "x", stem + "x", "m", "material coordinate of the wheel, on the beam or off it",
+               [of](const Sample& s) { return of(s).x; });
+      q.number(path + "force", stem + "force", "N", "with which the wheel pushes the beam; null while it is off it",
+               [of](const Sample& s) { return of(s).force; });
+      q.number(path + "height", stem + "height", "m",
+               "of the mass that the wheel carries, as if the spring had its length at rest; without one, of the wheel",
+               [of](const Sample& s) { return of(s).height; });
+    }
+  }
+}
+
 void add_flow(Quantities& q, const Scene& scene) {
   q.number("flow/mass", "mass", "kg", "of the beam between its end nodes",
            [](const Sample& s) { return s.flow->mass; });
@@ -429,6 +466,8 @@ std::vector<SampleQuantity> sample_quantities(const Scene& scene) {
   add_ends(q, scene);
   add_reactions(q, scene);
   add_places(q, scene);
+  add_supports_between(q, scene);
+  add_vehicles(q, scene);
   if (has_flow_sample(scene)) add_flow(q, scene);
   return q.take();
 }

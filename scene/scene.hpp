@@ -129,6 +129,7 @@ struct TimeSpec {
   double rate_ramp = 0;              ///< [s], in place of `ramp`
   std::optional<double> until = {};  ///< [s]; if not given it never does
   std::vector<Point> table = {};     ///< times [s], in order, and values: two components each
+  std::optional<bool> smooth = {};   ///< of a table: a curve whose acceleration does not jump; see smooth_by_default()
 };
 
 /// Rotary inertia of bending.
@@ -226,6 +227,24 @@ struct SupportSpec {
   bool winds_freely() const { return held_tension || drum; }
 };
 
+/// What holds a material point between the ends of the beam; joints pass over it.
+enum class BearingType {
+  pin,     ///< its place
+  roller,  ///< its place across the beam, as it is drawn there
+  spring,
+};
+struct BearingSpec {
+  std::string name = {};  ///< of its quantities; if not given, its number
+  double x = 0;           ///< material coordinate [m]
+  BearingType type = BearingType::roller;
+  double stiffness = 0;               ///< of a spring [N/m]
+  double damping = 0;                 ///< of a spring [N s/m]
+  Point direction{};                  ///< along which a spring bears; zero: along all
+  std::optional<Point> to = {};       ///< other end of a spring that bears along its own line [m]
+  std::optional<double> length = {};  ///< of that spring when it bears nothing; else its distance at t = 0 [m]
+  bool tension_only = false;          ///< a spring goes slack where it would push
+};
+
 /// A place on the drawn axis.
 struct CornerSpec {
   int corner = 1;  ///< which inner point of a polyline, which kink of a NURBS curve, from the start
@@ -301,6 +320,22 @@ struct FlowSpec {
   double tension = 0;              ///< initial axial force [N]
   std::optional<double> velocity;  ///< of the matter along the axis at t = 0 [m/s]; if not given, node 0 stands still
   bool steady = false;             ///< start from the steady flow under the loads at t = 0
+};
+
+/// A wheel of a vehicle, and what stands on it.
+struct AxleSpec {
+  double distance = 0;     ///< behind the first axle [m]
+  double force = 0;        ///< down, on the wheel [N]
+  double mass = 0;         ///< of the wheel [kg]
+  double sprung_mass = 0;  ///< [kg]
+  double stiffness = 0;    ///< of the spring under it [N/m]
+  double damping = 0;      ///< beside that spring [N s/m]
+};
+/// Axles that roll along the beam, onto it and off it.
+struct VehicleSpec {
+  std::string name = {};
+  TimeSpec x = {};  ///< material coordinate of the first axle, on the beam or off it [m]
+  std::vector<AxleSpec> axles = {};
 };
 
 /// A lumped mass on the material point that a node marks at t = 0.
@@ -477,6 +512,7 @@ struct Scene {
   BeamSpec beam;
   SupportSpec start;
   SupportSpec end;
+  std::vector<BearingSpec> bearings = {};             ///< in /supports beside those of the ends
   std::optional<SlidingMassSpec> sliding_mass;        ///< short for one sliding joint that is free
   std::vector<SlidingJointSpec> sliding_joints = {};  ///< in order along the beam; none beside a sliding mass
   std::vector<BlockSpec> blocks = {};
@@ -484,6 +520,7 @@ struct Scene {
   std::optional<SpinSpec> spin;
   std::optional<FlowSpec> flow;
   std::vector<LoadSpec> loads = {};
+  std::vector<VehicleSpec> vehicles = {};
   std::vector<PointMassSpec> point_masses = {};
   std::vector<PlaceSpec> places = {};
   std::optional<InitialVelocitySpec> initial_velocity;

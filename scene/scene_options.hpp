@@ -25,6 +25,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
     spin();
     flow();
     loads();
+    vehicles();
     point_masses();
     places();
     initial_velocity();
@@ -154,6 +155,29 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
       choice(follows, "whether a moment in space turns with the section; else its axis stays as it is", load.follows,
              {.when = is_moment});
       time_function(at + "/turn", "rad", load.turn, is_force);
+    }
+  }
+
+  void vehicles() {
+    list("/vehicles", "what rolls along the beam, onto it and off it", scene.vehicles);
+    for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
+      auto& vehicle = scene.vehicles[i];
+      const std::string at = "/vehicles/" + std::to_string(i);
+      choice(at + "/name", "letters, digits and underscores, another one for each vehicle", vehicle.name,
+             {.required = true});
+      time_function(at + "/x", "m", vehicle.x);
+      list(at + "/axles", "its wheels, from the first", vehicle.axles);
+      for (std::size_t k = 0; k < vehicle.axles.size(); ++k) {
+        auto& axle = vehicle.axles[k];
+        const std::string wheel = at + "/axles/" + std::to_string(k);
+        number(wheel + "/distance", "m", Range::non_negative(), "behind the first axle", axle.distance);
+        number(wheel + "/force", "N", {}, "down, on the wheel", axle.force);
+        number(wheel + "/mass", "kg", Range::non_negative(), "of the wheel, which stays on the beam", axle.mass);
+        number(wheel + "/sprung_mass", "kg", Range::non_negative(), "of what the wheel carries on a spring",
+               axle.sprung_mass);
+        number(wheel + "/stiffness", "N/m", Range::non_negative(), "of that spring", axle.stiffness);
+        number(wheel + "/damping", "N s/m", Range::non_negative(), "of a damper beside it", axle.damping);
+      }
     }
   }
 

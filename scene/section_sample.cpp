@@ -6,10 +6,12 @@
 #include "mechanics/frames/frame_unknowns.hpp"
 #include "mechanics/motion/parts/material_point.hpp"
 #include "mechanics/rooms.hpp"
+#include "scene/bearings.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
 #include "scene/section_forces.hpp"
+#include "scene/vehicles.hpp"
 
 namespace vlbeam {
 namespace {
@@ -121,6 +123,14 @@ Configuration shape_of(const Scene& scene, const BeamSystem<D>& system, const Ei
     shape.actions.push_back({*mark_of(system, y, 0), point_of<D>(-forces.on_masses.front())});
   }
   for (const PointMass& mass : system.model().masses.points) shape.actions.push_back({mass.x});
+  for (const AxleSample& axle : axle_samples(scene, system, y, t, forces)) {
+    if (axle.force) shape.actions.push_back({axle.x, pushed_down(scene, *axle.force)});
+  }
+  if (const auto bearings = bearing_samples(scene, system, y, forces); !bearings.empty()) {
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+      shape.actions.push_back({scene.bearings[i].x, bearings[i].force});
+    }
+  }
   if (scene.flow) {
     for (const FlowSpec::Guide& guide : scene.flow->nodes) {
       if (guide.support != SupportType::free) shape.actions.push_back({shape.x[static_cast<std::size_t>(guide.node)]});
@@ -147,6 +157,8 @@ std::shared_ptr<const SectionSample> section_sample(const Scene& scene, const st
   seen.look_at_beam(*sample);
   sample->tension = {seen.tension(true, forces, winches[0]), seen.tension(false, forces, winches[1])};
   for (const PlaceSpec& place : places) sample->places.push_back(seen.look_at(place));
+  sample->bearings = bearing_samples(scene, system, y, forces);
+  sample->axles = axle_samples(scene, system, y, shape.t, forces);
   return sample;
 }
 

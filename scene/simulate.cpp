@@ -40,6 +40,7 @@ class Run {
         system_(build_model<D>(scene), chain),
         friction_(system_.model()),
         record_(scene, system_, output) {
+    system_.corrects = scene.integrator.type != IntegratorType::generalized_alpha;
     system_.on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_.on_step = [this](double t) {
       ++steps_;

@@ -20,7 +20,7 @@ RunResult simulate_statics(const Scene& scene, const std::function<bool(double t
   const auto started = std::chrono::steady_clock::now();
   const auto on_point = [&](const Equilibrium& at) {
     const auto number = static_cast<double>(result.samples.size());
-    const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor);
+    const OuterForces<D> forces = system.forces_at_rest(at.y, at.factor, at.links);
     Configuration shape = shape_of(scene, system, at.y, at.factor, forces);
     shape.t = number;
     result.samples.push_back(static_sample<D>(system, {at.y, at.factor, static_sample_of(at), at.holding}, number,

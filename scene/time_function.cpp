@@ -36,8 +36,33 @@ std::vector<double> rates_of(const std::vector<Point>& table) {
   return rates;
 }
 
-TimeFunction tabulated(const std::vector<Point>& table) {
-  return [table, rates = rates_of(table)](double t) -> Prescribed {
+/// Those of the spline with the second derivatives going on, of each piece between two rests: at its ends it rests.
+/// Where the table says the same twice it rests in between.
+std::vector<double> spline_rates(const std::vector<Point>& table) {
+  const std::size_t last = table.size() - 1;
+  std::vector<double> rates(table.size(), 0), above(table.size(), 0);
+  const auto rests = [&](std::size_t i) {
+    const bool stays_before = i > 0 && table[i - 1][1] == table[i][1],
+               stays_behind = i < last && table[i][1] == table[i + 1][1];
+    return i == 0 || i == last || stays_before || stays_behind;
+  };
+  for (std::size_t i = 1; i < last; ++i) {  // elimination of the tridiagonal system, forwards
+    if (rests(i)) continue;
+    const double before = 1 / (table[i][0] - table[i - 1][0]), behind = 1 / (table[i + 1][0] - table[i][0]);
+    const double right =
+        3 * (before * slope_between(table[i - 1], table[i]) + behind * slope_between(table[i], table[i + 1]));
+    const double pivot = 2 * (before + behind) - before * above[i - 1];
+    above[i] = behind / pivot;
+    rates[i] = (right - before * rates[i - 1]) / pivot;
+  }
+  for (std::size_t i = last; i-- > 1;) {
+    if (!rests(i)) rates[i] -= above[i] * rates[i + 1];
+  }
+  return rates;
+}
+
+TimeFunction tabulated(const std::vector<Point>& table, bool smooth) {
+  return [table, rates = smooth ? spline_rates(table) : rates_of(table)](double t) -> Prescribed {
     if (t <= table.front()[0]) return {table.front()[1], 0, 0};
     if (t >= table.back()[0]) return {table.back()[1], 0, 0};
     const auto after = std::ranges::upper_bound(table, t, {}, [](const Point& entry) { return entry[0]; });
@@ -95,7 +120,7 @@ TimeFunction analytic(const TimeSpec& spec) {
 }  // namespace
 
 TimeFunction time_function(const TimeSpec& spec) {
-  return remembering(spec.table.empty() ? analytic(spec) : tabulated(spec.table));
+  return remembering(spec.table.empty() ? analytic(spec) : tabulated(spec.table, spec.smooth.value_or(false)));
 }
 
 double steepest(const TimeSpec& f) {
@@ -110,7 +135,11 @@ void check_time_function(const std::string& at, const TimeSpec& spec) {
   if (spec.ramp > 0 && spec.rate_ramp > 0) {
     refuse(at + "/rate_ramp", number_text(spec.rate_ramp), "it does not go together with \"ramp\": take one of them");
   }
-  if (spec.table.empty()) return;
+  if (spec.table.empty()) {
+    if (spec.smooth)
+      refuse(at + "/smooth", *spec.smooth ? "true" : "false", "it says how a table is read: give one, or leave it out");
+    return;
+  }
   const std::string key = at + "/table";
   if (spec.value != 0 || spec.rate != 0 || spec.acceleration != 0 || spec.amplitude != 0 || spec.ramp > 0 ||
       spec.rate_ramp > 0 || spec.until) {

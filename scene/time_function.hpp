@@ -12,6 +12,12 @@ namespace vlbeam {
 /// The function that a scene describes, with its derivatives.
 TimeFunction time_function(const TimeSpec& spec);
 
+/// The same with tables read as those of motions are, unless it says how: smooth.
+inline TimeSpec smooth_by_default(TimeSpec spec) {
+  if (!spec.table.empty() && !spec.smooth) spec.smooth = true;
+  return spec;
+}
+
 /// Throws InvalidInput where the parts of a function of time do not go together; `at` is its pointer.
 void check_time_function(const std::string& at, const TimeSpec& spec);
 

@@ -46,8 +46,11 @@ class Course {
     visit_options(*this, scene);
     add(0, scene.gravity_ramp);
     for (const LoadSpec& load : scene.loads) {
-      if (load.at == LoadPlace::point && scene.analysis == Analysis::dynamics) add_arrivals(scene, load);
+      if (load.at == LoadPlace::point && scene.analysis == Analysis::dynamics) add_arrivals(scene, load.x, 0);
       if (load.turn.rate != 0) swings.push_back({Timetable::never, 2 * std::numbers::pi / std::abs(load.turn.rate)});
+    }
+    for (const VehicleSpec& vehicle : scene.vehicles) {
+      for (const AxleSpec& axle : vehicle.axles) add_arrivals(scene, vehicle.x, axle.distance);
     }
   }
 
@@ -80,12 +83,12 @@ class Course {
   std::vector<Swing> swings;
 
  private:
-  /// When a load that travels comes onto the beam, and when it leaves.
-  void add_arrivals(const Scene& scene, const LoadSpec& load) {
+  /// When what travels so far behind `place` comes onto the beam, and when it leaves.
+  void add_arrivals(const Scene& scene, const TimeSpec& place, double distance) {
     constexpr int instants = 2000;
-    const TimeFunction x = vlbeam::time_function(load.x);
+    const TimeFunction x = vlbeam::time_function(place);
     for (const double end : {0.0, beam_length(scene)}) {
-      const auto beyond = [&](double t) { return x(t).value - end; };
+      const auto beyond = [&](double t) { return x(t).value - distance - end; };
       double before = beyond(0);
       for (int i = 1; i <= instants; ++i) {
         const double t = scene.duration * i / instants, from = scene.duration * (i - 1) / instants, now = beyond(t);

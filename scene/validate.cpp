@@ -1,4 +1,5 @@
 #include "scene/validate.hpp"
+#include "scene/bearings.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -24,6 +25,7 @@
 #include "scene/validate_joints.hpp"
 #include "scene/validate_loads.hpp"
 #include "scene/validate_nut.hpp"
+#include "scene/vehicles.hpp"
 
 namespace vlbeam {
 namespace {
@@ -327,7 +329,7 @@ void check_equilibrium(const Scene& scene) {
   const auto held = [&](SupportType by) {
     return std::ranges::count(scene.sliding_joints, by, &SlidingJointSpec::support) > 0;
   };
-  const bool in_ring = held(SupportType::clamp) || held(SupportType::pin);
+  const bool in_ring = held(SupportType::clamp) || held(SupportType::pin) || !scene.bearings.empty();
   if (scene.start.type == SupportType::free && scene.end.type == SupportType::free && loaded && !in_ring) {
     refuse("/supports", "a beam that nothing holds",
            "under loads or gravity it has no equilibrium: hold an end, or lay it over a ring");
@@ -490,6 +492,8 @@ void check_all(const Scene& scene) {
   validate_frames(scene);
   validate_joints(scene);
   validate_blocks(scene);
+  validate_bearings(scene);
+  validate_vehicles(scene);
   validate_nut(scene);
   validate_length_control(scene);
   check_integrator(scene);

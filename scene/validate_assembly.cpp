@@ -200,6 +200,11 @@ void check_at_rest(const Scene& scene, const std::string& at) {
     }
   }
   if (fed(scene)) refuse(at + "/supports", "a winch", "statics of several beams knows none yet");
+  for (const BearingSpec& bearing : scene.bearings) {
+    if (bearing.type == BearingType::spring) continue;
+    refuse(at + "/supports", "a " + std::string(to_string(bearing.type)) + " at x = " + number_text(bearing.x) + " m",
+           "statics of several beams knows springs between the ends, but no pins and rollers yet");
+  }
 }
 
 /// The error of a beam's scene, with its key where it stands in the whole.

@@ -20,7 +20,7 @@ std::vector<NodeContact<D>> Contacts<D>::all() const {
     const auto add = [&](int behind, int support, const Impact& impact) {
       const auto& touch = beam_.touch(i, side_of(support));
       const double distance = touch.distance > 0 ? touch.distance : touching;
-      found.push_back({{behind, behind + 1, distance}, i, support, impact, touch.rests});
+      found.push_back({{behind, behind + 1, distance, {}, {}}, i, support, impact, touch.rests});
     };
     const Impact& at_support = beam_.joint(i).at_support;
     const bool strikes = at_support.law != AtSupport::stop && model.length_control.end_merge == 0;

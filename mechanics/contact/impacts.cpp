@@ -19,10 +19,10 @@ void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& 
   const auto elements = beam_.masses_at(y, t);
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
   std::vector<Contact> bearing = contacts;                // what rests pushes, but does not pull
-  const std::vector<NodeLink<D>> blocks = links_.tied();  // they push and pull
+  const std::vector<BeamLink<D>> blocks = links_.tied();  // they push and pull
   const auto tied = static_cast<Eigen::Index>(blocks.size());
   while (!bearing.empty()) {
-    std::vector<NodeLink<D>> links = blocks;
+    std::vector<BeamLink<D>> links = blocks;
     links.insert(links.end(), bearing.begin(), bearing.end());
     Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(links.size())), after = rate;
     for (std::size_t i = 0; i < bearing.size(); ++i) {

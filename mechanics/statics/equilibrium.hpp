@@ -40,6 +40,7 @@ struct Equilibrium {
   int negative_pivots = 0;           ///< of the tangent: directions in which the potential energy falls
   int hidden_pivots = 0;             ///< directions of which rounding hides whether it falls
   Eigen::VectorXd multipliers = {};  ///< of the conditions on the slopes of a kinked joint
+  Eigen::VectorXd links = {};        ///< forces of its links: see OuterForces [N]
   bool joint_held = true;            ///< joints that nothing guides keep their material coordinates
   std::vector<double> holding = {};  ///< what it takes for that, or for the guide, along the beam: of each joint [N]
   double holding_force = 0;          ///< of the first joint that nothing guides

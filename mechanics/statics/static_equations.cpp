@@ -5,11 +5,16 @@
 namespace vlbeam {
 
 template <int D>
+void StaticEquations<D>::refresh() const {
+  if (revision_ == system_.revision()) return;
+  revision_ = system_.revision();
+  kinks_.adopt(system_, true);
+  links_.adopt();
+}
+
+template <int D>
 Kinks<D>& StaticEquations<D>::kinks() const {
-  if (revision_ != system_.revision()) {
-    revision_ = system_.revision();
-    kinks_.adopt(system_, true);
-  }
+  refresh();
   for (auto& kink : kinks_.all()) kink.suspended = suspended(kink.joint);
   return kinks_;
 }
@@ -29,6 +34,10 @@ void StaticEquations<D>::reactions(const Eigen::VectorXd& u, double factor, Eige
   const Kinks<D>& conditions = kinks();
   conditions.add_forces(u.data(), u.data() + at, 1, r.data());
   conditions.write_values(u.data(), u.data() + at, r.data() + at);
+  const Eigen::Index first = at + conditions.count();
+  links_.add_forces(u.data(), u.data() + first, 1 / length_, r.data());
+  links_.write_values(u.data(), r.data() + first);
+  r.tail(links_.count()) /= length_;
 }
 
 template <int D>
@@ -52,6 +61,9 @@ bool StaticEquations<D>::linearize(const Eigen::VectorXd& u, double factor, doub
   if (forces != nullptr) forces->add_to(u, tangent_);
   kinks().add_curvature(u.data() + system_.coordinates(), 1, tangent_);
   kinks().add_rows(u.data(), 1, tangent_);
+  links_.add_curvature(u.data(), u.data() + size() - links_.count(), 1 / length_, tangent_);
+  links_.stiffen(u.data(), stiffening() / (length_ * length_), tangent_);
+  links_.add_rows(u.data(), 1 / length_, tangent_);
   system_.holding().project(tangent_);
   for (std::size_t which = 0; which < system_.places().size(); ++which) {
     if (!holds(which)) continue;
@@ -64,6 +76,7 @@ template <int D>
 Eigen::MatrixXd StaticEquations<D>::dense(const Eigen::VectorXd& u, double factor, double by_a) {
   assemble(u, factor, by_a);
   kinks().add_curvature(u.data() + system_.coordinates(), 1, tangent_);
+  links_.add_curvature(u.data(), u.data() + size() - links_.count(), 1 / length_, tangent_);
   const Eigen::Index n = system_.coordinates();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   tangent_.expand(matrix);
@@ -73,8 +86,16 @@ Eigen::MatrixXd StaticEquations<D>::dense(const Eigen::VectorXd& u, double facto
 template <int D>
 Eigen::MatrixXd StaticEquations<D>::directions(const Eigen::VectorXd& u) const {
   const Eigen::MatrixXd free = system_.holding().directions(system_.coordinates());
-  if (!system_.has_joint()) return free;
-  const Eigen::MatrixXd ties = kinks().normals(u.data(), system_.coordinates());
+  if (!system_.has_joint() && system_.links().all().empty()) return free;
+  Eigen::MatrixXd ties = kinks().normals(u.data(), system_.coordinates());
+  const Eigen::Index conditions = ties.cols();
+  ties.conservativeResize(system_.coordinates(), conditions + links_.count());
+  ties.rightCols(links_.count()).setZero();
+  const ChainView<D> beam = system_.view(u.data(), u.data());
+  for (Eigen::Index i = 0; i < links_.count(); ++i) {
+    const BeamLink<D>& link = system_.links().all()[static_cast<std::size_t>(i)];
+    link.add_force(beam, 1, ties.col(conditions + i).data());
+  }
   std::vector<Eigen::Index> held;
   for (std::size_t which = 0; which < system_.places().size(); ++which) {
     if (holds(which)) held.push_back(mark(which));

@@ -63,6 +63,7 @@ class StaticSearch {
     at.negative_pivots = seen.surely;
     at.hidden_pivots = seen.perhaps - seen.surely;
     at.multipliers = q.tail(q.size() - system.coordinates());
+    at.links = equations.link_forces(at.multipliers);
     at.joint_held = releasing ? factor < 1 : equations.holds_joints();
     at.holding = holding_forces(q, factor);
     for (std::size_t i = 0; i < at.holding.size() && !at.joint_held; ++i) {

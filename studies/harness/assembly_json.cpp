@@ -140,6 +140,7 @@ Json time_to_json(const TimeSpec& time) {
   if (time.table.empty()) return json;
   json = {{"table", Json::array()}};
   for (const Point& entry : time.table) json["table"].push_back({entry[0], entry[1]});
+  if (time.smooth) json["smooth"] = *time.smooth;
   return json;
 }
 

@@ -52,6 +52,8 @@ std::string part_description(const std::string& part) {
       {"angles", "of the beam at its ends"},
       {"tension", "at the ends that something holds"},
       {"places", "places of the scene, by their names; null where they are not on the beam"},
+      {"supports", "of points between the ends, by their names or numbers"},
+      {"vehicles", "vehicles of the scene, by their names"},
       {"curvature", "over the whole beam"},
       {"reactions", "of the supports, by the accelerations that belong to the state"},
       {"flow", "what else there is to see of a beam that spins, flows or bears loads"},
@@ -108,8 +110,10 @@ Json samples_schema() {
     const auto parts = segments("/" + quantity.path);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       path += (path.empty() ? "" : "/") + parts[i];
-      const bool numbered = parts[i].starts_with("node_"), named = i == 1 && parts[0] == "places";
-      const std::string pattern = numbered ? "^node_[0-9]+$" : named ? "^[A-Za-z0-9_]+$" : "";
+      const bool numbered = parts[i].starts_with("node_"),
+                 named = i == 1 && (parts[0] == "places" || parts[0] == "supports" || parts[0] == "vehicles");
+      const bool axle = i == 2 && parts[0] == "vehicles";
+      const std::string pattern = numbered ? "^node_[0-9]+$" : axle ? "^axle_[0-9]+$" : named ? "^[A-Za-z0-9_]+$" : "";
       Json& entry = pattern.empty() ? (*object)["properties"][parts[i]] : (*object)["patternProperties"][pattern];
       if (is_needed(path)) {
         Json& required = (*object)["required"];
@@ -118,7 +122,9 @@ Json samples_schema() {
       const bool leaf = i + 1 == parts.size() && !quantity.columns.empty();
       if (!leaf) {
         if (entry.is_null()) {
-          entry = described(record(Json::object()), named ? "a place of the scene" : part_description(parts[i]));
+          entry = described(record(Json::object()), axle    ? "a wheel"
+                                                    : named ? "one of the scene"
+                                                            : part_description(parts[i]));
         }
         object = &entry;
         continue;

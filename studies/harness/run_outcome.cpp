@@ -24,8 +24,8 @@ auto members(Is<FlowSample> auto& of) {
   return std::tie(mass, end_angles, spin_momentum, loads, supports, torques, ledger);
 }
 auto members(Is<SectionSample> auto& of) {
-  auto& [axial, moment, shear, torque, stress, angles, tension, places] = of;
-  return std::tie(axial, moment, shear, torque, stress, angles, tension, places);
+  auto& [axial, moment, shear, torque, stress, angles, tension, places, bearings, axles] = of;
+  return std::tie(axial, moment, shear, torque, stress, angles, tension, places, bearings, axles);
 }
 auto members(Is<Sample> auto& of) {
   auto& [t, joint_position, mass_position, end, beam_length, beam_length_rate, winches, energy, discrete_total,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/assembly.hpp"
+#include "scene/bearings.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
@@ -168,6 +169,12 @@ Track track_of(const Scene& scene, const RunResult& result, const std::vector<do
               [](const Sample& s) { return one_number(s.strains.axial_force[1]); });
   tracker.row("largest curvature", "1/m", TrackKind::other,
               [](const Sample& s) { return one_number(s.strains.curvature); });
+  for (std::size_t i = 0; i < scene.bearings.size(); ++i) {
+    tracker.row("force of support " + bearing_name(scene, i), "N", TrackKind::other, [i, d](const Sample& s) {
+      return s.sections ? components_of(s.sections->bearings[i].force, d)
+                        : std::vector<double>(static_cast<std::size_t>(d), nan);
+    });
+  }
   Track track = std::move(tracker.track);
   if (shapes.empty() || result.samples.empty()) return track;
   if (scene.analysis == Analysis::dynamics) {

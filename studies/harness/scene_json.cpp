@@ -14,6 +14,7 @@
 #include "scene/options.hpp"
 #include "scene/scene_options.hpp"
 #include "scene/slack.hpp"
+#include "scene/time_function.hpp"
 #include "scene/validate.hpp"
 #include "studies/harness/assembly_json.hpp"
 #include "studies/harness/files.hpp"
@@ -68,6 +69,9 @@ class KeyTree {
   Json tree_;
 };
 
+/// Supports of points between the ends stand in the table by this key, and in a file in /supports.
+constexpr const char* between_ends = "bearings";
+
 /// The discriminating key of a list ("at"), or nothing if the tree's node is no list.
 std::string list_key(const Json& node) {
   if (!node.is_object() || node.empty()) return "";
@@ -79,7 +83,7 @@ std::string list_key(const Json& node) {
 std::vector<std::string> keys_of(const Json& node) {
   std::vector<std::string> keys;
   for (const auto& item : node.items()) {
-    if (!item.key().empty()) keys.push_back(item.key());
+    if (!item.key().empty() && item.key() != between_ends) keys.push_back(item.key());
   }
   return keys;
 }
@@ -96,7 +100,7 @@ std::string unknown_key_hint(const std::string& key, const Json& node, const std
 class Canonical {
  public:
   /// Takes the values out of the file: one may hold millions of numbers.
-  explicit Canonical(Json file) : json_(object(file, KeyTree().tree(), "", "", "")) {}
+  explicit Canonical(Json file) : json_(canonical(std::move(file))) {}
 
   const Json* find(std::string_view at) const {
     const auto where = pointer(at);
@@ -108,12 +112,42 @@ class Canonical {
   std::string in_file(std::string_view at) const {
     std::string text(at);
     for (const auto& [ours, theirs] : renamed_) {
-      if (text.starts_with(ours)) return theirs + text.substr(ours.size());
+      const bool whole = text.size() == ours.size() || (text.size() > ours.size() && text[ours.size()] == '/');
+      if (whole && text.starts_with(ours)) return theirs + text.substr(ours.size());
     }
     return text;
   }
 
  private:
+  Json canonical(Json file) {
+    const Json tree = KeyTree().tree();
+    set_apart_between_ends(file, tree);
+    return object(file, tree, "", "", "");
+  }
+
+  /// Supports whose place is an object go to a list of their own.
+  void set_apart_between_ends(Json& file, const Json& tree) {
+    if (!file.is_object()) return;
+    if (file.contains(between_ends)) {
+      throw InvalidInput(std::string("/") + between_ends, "an unknown key", unknown_key_hint(between_ends, tree, ""));
+    }
+    if (!file.contains("supports") || !file.at("supports").is_array()) return;
+    Json at_ends = Json::array(), between = Json::array();
+    Json& supports = file.at("supports");
+    for (std::size_t i = 0; i < supports.size(); ++i) {
+      const bool is_between = supports[i].is_object() && supports[i].contains("at") && supports[i].at("at").is_object();
+      if (is_between) {
+        renamed_.emplace_back("/" + std::string(between_ends) + "/" + std::to_string(between.size()),
+                              "/supports/" + std::to_string(i));
+      } else {
+        supports_at_.push_back(i);
+      }
+      (is_between ? between : at_ends).push_back(std::move(supports[i]));
+    }
+    supports = std::move(at_ends);
+    if (!between.empty()) file[between_ends] = std::move(between);
+  }
+
   /// `here` is where we are by the table's pointers, `shown` by the file's.
   Json object(Json& file, const Json& node, const std::string& here, const std::string& shown,
               const std::string& discriminator) {
@@ -139,7 +173,7 @@ class Canonical {
         Json& entries = result[key] = Json::array();
         for (std::size_t i = 0; i < item.value().size(); ++i) {
           const std::string entry = "/" + std::to_string(i);
-          entries.push_back(object(item.value()[i], child[0], at + entry, at_shown + entry, ""));
+          entries.push_back(object(item.value()[i], child[0], at + entry, shown_as(at + entry, at_shown + entry), ""));
         }
       } else if (!list_key(child).empty()) {
         result[key] = list(item.value(), child, at, at_shown);
@@ -157,12 +191,14 @@ class Canonical {
     const std::string discriminator = list_key(node);
     std::vector<std::string> choices;
     for (const auto& item : node.items()) choices.push_back(item.key().substr(discriminator.size() + 1));
-    const std::string allowed = "it must be one of " + quoted_list(choices);
+    const bool ends = here == "/supports";
+    const std::string allowed =
+        "it must be one of " + quoted_list(choices) + (ends ? R"(, or a place between the ends, {"x": ...})" : "");
 
     Json result = Json::object();
     for (std::size_t i = 0; i < file.size(); ++i) {
       Json& entry = file[i];
-      const std::string entry_shown = shown + "/" + std::to_string(i);
+      const std::string entry_shown = shown + "/" + std::to_string(ends ? supports_at_[i] : i);
       if (!entry.is_object()) throw InvalidInput(entry_shown, excerpt(entry), "it must be an object");
 
       const std::string key_shown = entry_shown + "/" + discriminator;
@@ -179,7 +215,14 @@ class Canonical {
     return result;
   }
 
+  /// Where an entry of a list stands in the file.
+  std::string shown_as(const std::string& here, const std::string& otherwise) const {
+    const auto found = std::ranges::find(renamed_, here, &std::pair<std::string, std::string>::first);
+    return found != renamed_.end() ? found->second : otherwise;
+  }
+
   std::vector<std::pair<std::string, std::string>> renamed_;
+  std::vector<std::size_t> supports_at_;  ///< where those of the ends stand in the file
   Json json_;
 };
 
@@ -331,7 +374,14 @@ class Writer {
   void list(const Option&, const std::vector<T>&) {}
   void section(const Option&) {}
 
-  Json json() const { return with_lists(json_); }
+  Json json() const {
+    Json result = with_lists(json_);
+    if (result.contains(between_ends)) {
+      for (const Json& entry : result.at(between_ends)) result["supports"].push_back(entry);
+      result.erase(between_ends);
+    }
+    return result;
+  }
 
  private:
   template <class T>
@@ -349,7 +399,7 @@ class Writer {
       for (const Point& item : member) array.push_back(value(option, item));
       return array;
     } else if constexpr (OptionalNumber<T>) {
-      return member ? Json(*member) : Json();
+      return member ? value(option, *member) : Json();
     } else {
       return member;
     }
@@ -406,10 +456,13 @@ Scene scene_with_every_part() {
     support->drum.emplace();
     support->end_stop.emplace();
   }
+  scene.bearings.emplace_back().type = BearingType::spring;
+  scene.bearings.back().to.emplace();
   scene.blocks.emplace_back();
   scene.spin.emplace().drives.emplace_back();
   scene.flow.emplace().nodes.emplace_back();
   scene.loads.emplace_back();
+  scene.vehicles.push_back({.name = "train", .axles = {AxleSpec{}}});
   scene.contact.emplace().joints = AtSupport::rebound;
   scene.point_masses.emplace_back();
   PlaceSpec& place = scene.places.emplace_back();
@@ -526,6 +579,20 @@ Scene read_scene(const std::filesystem::path& file) {
   return naming_file(file, [&] { return parse_scene(text); });
 }
 
+/// How tables of motions are read.
+void fill_motions(Scene& scene) {
+  const auto fill = [](std::optional<SupportMotionSpec>& motion) {
+    if (!motion) return;
+    motion->displacement = smooth_by_default(motion->displacement);
+    for (auto* part : {&motion->angle, &motion->x, &motion->y, &motion->z}) {
+      if (*part) *part = smooth_by_default(**part);
+    }
+  };
+  fill(scene.start.motion);
+  fill(scene.end.motion);
+  for (SlidingJointSpec& joint : scene.sliding_joints) fill(joint.motion);
+}
+
 Json scene_to_json(const Scene& scene) {
   if (scene.assembly) return assembly_to_json(scene);
   Scene filled = scene;
@@ -537,6 +604,7 @@ Json scene_to_json(const Scene& scene) {
   if (filled.beam.compression == Compression::none) filled.beam.slack_over = slack_over(scene);
   if (auto& mass = filled.sliding_mass) mass->separation_distance = separation_distance(scene, *mass);
   for (SlidingJointSpec& joint : filled.sliding_joints) joint.separation_distance = separation_distance(scene, joint);
+  fill_motions(filled);
   filled.length_control.end_merge = end_merge(scene);
   filled.length_control.lower = merge_below(scene);
   if (auto& atol = filled.integrator.atol_by_kind) atol = with_defaults(*atol, scene);

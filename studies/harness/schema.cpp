@@ -279,6 +279,50 @@ class SceneSchemaBuilder {
   std::map<std::string, std::string> defaults_;
 };
 
+/// A file has supports of points between the ends in /supports, too: an entry is of the one kind or the other, by what
+/// its place is.
+void put_among_supports(Json& properties) {
+  const Json between = properties.at("bearings").at("items");
+  properties.erase("bearings");
+  Json& items = properties.at("supports").at("items");
+  const auto keys_of = [](const Json& entry) {
+    Json keys = Json::array();
+    for (const auto& [key, value] : entry.at("properties").items()) keys.push_back(key);
+    return keys;
+  };
+  const auto rules_of = [&](const Json& entry) {
+    Json rules = {{"propertyNames", {{"enum", keys_of(entry)}}},
+                  {"properties", {{"type", {{"enum", entry.at("properties").at("type").at("enum")}}}}},
+                  {"required", entry.at("required")}};
+    if (entry.contains("allOf")) rules["allOf"] = entry.at("allOf");
+    if (entry.contains("anyOf")) rules["anyOf"] = entry.at("anyOf");
+    return rules;
+  };
+  const Json of_ends = rules_of(items), of_others = rules_of(between);
+  Json both = items;
+  both.erase("allOf");
+  both.erase("anyOf");
+  both["required"] = Json::array({"at", "type"});
+  for (const auto& [key, value] : between.at("properties").items()) {
+    if (!both["properties"].contains(key)) both["properties"][key] = value;
+  }
+  Json place = between.at("properties").at("at");
+  const Json end = items.at("properties").at("at");
+  place["required"] = Json::array({"x"});
+  both["properties"]["at"] = {{"description", "an end of the beam, or a point between them"},
+                              {"anyOf", Json::array({{{"enum", end.at("enum")}}, place})}};
+  Json& types = both["properties"]["type"];
+  for (const Json& type : between.at("properties").at("type").at("enum")) {
+    if (std::ranges::find(types["enum"], type) == types["enum"].end()) types["enum"].push_back(type);
+  }
+  types["description"] = types.at("description").get<std::string>() + "; between the ends: " +
+                         between.at("properties").at("type").at("description").get<std::string>();
+  both["if"] = {{"properties", {{"at", {{"type", "object"}}}}}};
+  both["then"] = of_others;
+  both["else"] = of_ends;
+  items = both;
+}
+
 }  // namespace
 
 Json scene_schema() {
@@ -286,6 +330,7 @@ Json scene_schema() {
   const Scene scene = scene_with_every_part();
   visit_options(builder, scene);
   Json schema = builder.schema();
+  put_among_supports(schema["properties"]);
   Json& integrator = schema["properties"]["integrator"];
   const Json automatic = {
       {"const", "auto"},

@@ -169,7 +169,7 @@ class Documents(unittest.TestCase):
 
         scenes = {"a sliding mass": falling(), "several masses": library("two_trolleys"), "friction": falling(friction={"coefficient": 0.1}), "supports that move": moved(),
                   "two slopes": falling(slopes="free"), "beams that are curved": library("semicircle"),
-                  "loads": library("moving_force"), "ropes": ropes(), "several beams": library("slider_crank"), "in space": in_space(), "spin": library("torsion")}
+                  "loads": library("moving_force") | {"vehicles": [{"name": "lorry", "x": {"value": 0.1}, "axles": [{"force": 1}]}]}, "ropes": ropes(), "several beams": library("slider_crank"), "in space": in_space(), "spin": library("torsion")}
         self.assertEqual(len(scenes), len(rows) - 2)
         for row in rows[2:]:
             name = next(name for name in scenes if row[0].startswith(name))

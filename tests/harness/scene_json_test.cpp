@@ -325,6 +325,42 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"/supports/0", R"({"at": "start"})", "/supports/0/type", "missing"},
         BadScene{"/supports/0", R"({"type": "pin"})", "/supports/0/at", "missing"}));
 
+TEST(SceneJson, SupportsBetweenTheEndsStandAmongTheOthers) {
+  Json json = Json::parse(R"({"beam": {"curve": {"type": "line", "end": [4, 0]}}, "duration": 0.1, "supports": [
+    {"at": {"x": 1}, "type": "roller", "name": "pier"},
+    {"at": "end", "type": "slide"},
+    {"at": {"x": 3}, "type": "spring", "stiffness": 5, "to": [3, 1], "tension_only": true},
+    {"at": "start", "type": "pin"}]})");
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene.end.type, SupportType::slide);
+  EXPECT_EQ(scene.start.type, SupportType::pin);
+  ASSERT_EQ(scene.bearings.size(), 2U);
+  EXPECT_EQ(scene.bearings[0].name, "pier");
+  EXPECT_EQ(scene.bearings[1].x, 3);
+  EXPECT_EQ(*scene.bearings[1].to, (Point{3, 1, 0}));
+  const Json echo = scene_to_json(scene);
+  EXPECT_EQ(echo.at("supports").size(), 4U);
+  EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo);
+
+  json["supports"][0]["stiffness"] = 1;
+  EXPECT_EQ(error_of(json)->field, "/supports/0/stiffness");
+  json["supports"][0].erase("stiffness");
+  json["supports"][2]["at"]["x"] = 4;
+  EXPECT_EQ(error_of(json)->field, "/supports/2/at/x");
+  json["supports"][2]["at"] = {{"y", 3}};
+  EXPECT_EQ(error_of(json)->field, "/supports/2/at/y");
+  json["supports"][2]["at"] = "middle";
+  EXPECT_EQ(error_of(json)->field, "/supports/2/at");
+  EXPECT_THAT(error_of(json)->allowed, HasSubstr(R"({"x": ...})"));
+  json["supports"][2]["at"] = {{"x", 3}};
+  json["supports"][3]["type"] = "roller";
+  EXPECT_EQ(error_of(json)->field, "/supports/3/type");
+  json["supports"][3]["type"] = "pin";
+  json["bearings"] = Json::array();
+  EXPECT_EQ(error_of(json)->field, "/bearings");
+  EXPECT_EQ(error_of(json)->value, "an unknown key");
+}
+
 TEST(SceneJson, AWholeNumberMayBeWrittenInAnyWay) {
   EXPECT_EQ(parse_scene(R"({"beam": {"elements": 1e1}, "duration": 1})").beam.elements, 10);
   EXPECT_EQ(parse_scene(R"({"beam": {"elements": 10.0}, "duration": 1})").beam.elements, 10);

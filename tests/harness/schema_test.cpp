@@ -40,7 +40,7 @@ TEST(SceneSchema, ComesFromTheOptionTable) {
   EXPECT_EQ(at("/properties/beam/properties/elements/minimum"), 2.0);
   EXPECT_EQ(at("/properties/beam/properties/element/enum"), (Json{"ALE-RANCF", "ALE-ANCF", "RANCF", "ANCF"}));
   EXPECT_EQ(at("/properties/sliding_mass/required"), (Json{"mass", "position"}));
-  EXPECT_EQ(at("/properties/supports/items/properties/at/enum"), (Json{"start", "end"}));
+  EXPECT_EQ(at("/properties/supports/items/properties/at/anyOf/0/enum"), (Json{"start", "end"}));
   EXPECT_FALSE(at("/properties/supports/items/properties/type").contains("default")) << "it is required";
   EXPECT_EQ(at("/properties/sliding_joints/items/properties/support/enum"), (Json{"clamp", "pin", "free"}));
   EXPECT_EQ(at("/properties/sliding_joints/items/properties/support/default"), "free");

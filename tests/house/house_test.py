@@ -18,7 +18,8 @@ COUNTED = Path(__file__).resolve().with_name("house.json")
 # The heart: elements, one beam in motion, time; and the rooms of mechanics/, which use it. No one in the heart is to use a
 # room.
 HEART = {"elements": "core", "motion": "mechanics/motion", "time": "mechanics/time"}
-ROOMS = ("frames", "spin", "flow", "ride", "contact", "ropes", "remesh", "conserving", "sundials", "statics", "assembly")
+ROOMS = ("frames", "spin", "flow", "ride", "contact", "ropes", "remesh", "conserving", "sundials", "statics", "assembly",
+         "bearings", "vehicles")
 # What stands in the element library although it is of a room, for elements ask for it: a pattern a room.
 STILL_IN_CORE = {
     "frames": r"triad|twist_law",
@@ -38,6 +39,8 @@ WORDS = {
     "conserving": r"[Cc]onserving|[Ee]nergy_?[Mm]omentum|[Dd]iscrete_?[Gg]radient",
     "sundials": r"[Ss]undials|SUNDIALS|\bIDA\b|\bida\b|cvode",
     "assembly": r"[Aa]ssembly|ActingLinks|LinkForces",
+    "bearings": r"[Bb]earing|HeldPoint|PointSpring",
+    "vehicles": r"[Vv]ehicle|[Aa]xle",
     "statics": r"[Ss]tatic(Sample|Equations|Search|Modes|Sum)|[Ee]quilibri",
 }
 

@@ -115,6 +115,17 @@ const std::vector<Feature>& features() {
          s.beam.weights = {1, 0.95, 1.05, 1};
        }},
       {"transported weights", [](Scene& s) { s.weights = WeightTransport::transported; }},
+      {"roller", [](Scene& s) { s.bearings.push_back({.name = "roller", .x = 0.35}); }},
+      {"spring to the ground",
+       [](Scene& s) {
+         s.bearings.push_back(
+             {.name = "spring", .x = 0.6, .type = BearingType::spring, .stiffness = 200, .damping = 1});
+       }},
+      {"vehicle",
+       [](Scene& s) {
+         const AxleSpec axle{.force = 1, .mass = 0.1, .sprung_mass = 0.2, .stiffness = 100, .damping = 1};
+         s.vehicles.push_back({.name = "train", .x = {.value = 0.2, .rate = 2}, .axles = {axle}});
+       }},
       {"loads",
        [](Scene& s) {
          s.loads = {{.node = 3, .x = {}, .magnitude = {.value = 2, .ramp = 0.01}, .turn = {.rate = 9}},

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/error.hpp"
@@ -53,6 +55,31 @@ TEST(TimeFunction, OfATablePassesItsEntriesWithoutOvershoot) {
     before = now;
   }
   expect_derivatives(spec, {1.2, 1.7, 2.9, 3.5, 4.4});
+}
+
+TEST(TimeFunction, ASmoothTableIsASplineThatRestsWhereItSaysTheSameTwice) {
+  TimeSpec spec;
+  spec.table = {{1, 2, 0}, {1.5, 2.5, 0}, {3, 6, 0}, {4, 6, 0}, {5, 5, 0}, {5.5, 4.2, 0}, {7, 4, 0}};
+  spec.smooth = true;
+  const TimeFunction f = time_function(spec);
+  for (const Point& entry : spec.table) EXPECT_NEAR(f(entry[0]).value, entry[1], 1e-14);
+  for (const double t : {0.0, 1.0, 3.0, 4.0, 7.0, 9.0}) EXPECT_EQ(f(t).rate, 0) << "at rest, " << t;
+  for (const double t : {3.2, 3.9}) EXPECT_EQ(f(t).value, 6) << "and stays there, " << t;
+  for (const double t : {1.5, 5.0, 5.5}) {
+    EXPECT_NEAR(f(t - 1e-9).acceleration, f(t + 1e-9).acceleration, 1e-6) << "the acceleration does not jump, " << t;
+  }
+  expect_derivatives(spec, {1.2, 1.7, 2.9, 4.4, 6});
+  spec.table.clear();
+  EXPECT_THROW(check_time_function("/x", spec), InvalidInput);
+
+  TimeSpec wave;  // ten points of a cosine: a spline with its rates at the ends errs by the fourth power
+  for (int i = 0; i <= 10; ++i) wave.table.push_back({0.1 * i, -std::cos(std::numbers::pi * 0.1 * i), 0});
+  wave.smooth = true;
+  const TimeFunction of_ten = time_function(wave);
+  for (int i = 0; i <= 100; ++i) {
+    EXPECT_NEAR(of_ten(0.01 * i).value, -std::cos(std::numbers::pi * 0.01 * i),
+                5 * std::pow(0.1 * std::numbers::pi, 4) / 384);
+  }
 }
 
 TEST(TimeFunction, ItsPartsExcludeEachOther) {

@@ -46,11 +46,17 @@ double Loads<D>::add_forces(const ChainView<D>& beam, double t, double* force, d
 template <int D>
 typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, const ChainView<D>& beam, int k,
                                                    double t) const {
-  constexpr int X = point_coordinates<D> - 2;
   const double x = load.place(beam, t);
+  const Vec<double, D> r_x = point_at<double, D>(beam.kinematics(k), x).r_x;
+  return constant_force_tangent<D>(beam, k, x, load.force_on(r_x, t), load.turning(r_x, t));
+}
+
+template <int D>
+PointMatrix<D> constant_force_tangent(const ChainView<D>& beam, int k, double x, const Vec<double, D>& force,
+                                      const Eigen::Matrix<double, D, D>& turning) {
+  constexpr int X = point_coordinates<D> - 2;
   const PointMotion<double, D> at = point_at<double, D>(beam.kinematics(k), x);
-  const Eigen::Matrix<double, D, D> turning = load.turning(at.r_x, t);
-  ElementMatrix matrix = ElementMatrix::Zero();
+  PointMatrix<D> matrix = PointMatrix<D>::Zero();
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
       matrix.template block<D, D>(D * i, D * j) =
@@ -61,7 +67,6 @@ typename Loads<D>::ElementMatrix Loads<D>::tangent(const PointLoad<D>& load, con
 
   const std::array<bool, 2> moves{beam.joint_at(k) != nullptr, beam.joint_at(k + 1) != nullptr};
   const std::array<Vec<double, D>, 2> y{at.y_a, at.y_b}, y_x{at.y_a_x, at.y_b_x};
-  const Vec<double, D> force = load.force_on(at.r_x, t);
   // how the shape functions change with the marks, and the second derivatives of r by them: the kinematics of unit
   // nodal vectors, and of the marks alone at unit rates
   using Row = Eigen::Vector4d;
@@ -143,6 +148,10 @@ template void check_places(const std::vector<PointLoad<2>>&, double, double,
                            const std::function<std::pair<double, double>(double)>&);
 template void check_places(const std::vector<PointLoad<3>>&, double, double,
                            const std::function<std::pair<double, double>(double)>&);
+template PointMatrix<2> constant_force_tangent(const ChainView<2>&, int, double, const Vec<double, 2>&,
+                                               const Eigen::Matrix2d&);
+template PointMatrix<3> constant_force_tangent(const ChainView<3>&, int, double, const Vec<double, 3>&,
+                                               const Eigen::Matrix3d&);
 template struct Loads<2>;
 template struct Loads<3>;
 template Vec<double, 2> swept(const MovingKinematics<double, 2>&, const ShapeTabulation&, bool, Formulation);

@@ -51,6 +51,12 @@ Vec<Real, 2> turning_force(double moment, const Vec<Real, 2>& r_x) {
   return {-share * r_x[1], share * r_x[0]};
 }
 
+/// Tangent of minus a force on the material point x of element k, whose ends joints may be, by the element's
+/// coordinates: of a constant force, and of one that turns with the slope there, by `turning`.
+template <int D>
+PointMatrix<D> constant_force_tangent(const ChainView<D>& beam, int k, double x, const Vec<double, D>& force,
+                                      const Eigen::Matrix<double, D, D>& turning = Eigen::Matrix<double, D, D>::Zero());
+
 /// Forces on material points of a beam, and along all of it. A force F on the material point x is N^T F of the
 /// element that holds it, N = [S, y_A, y_B]; along the beam it acts on the mark of a joint, if that is an end of it. A
 /// moment is the same of the slope, with N_x. What is distributed evenly acts as gravity does, of the beam alone: see

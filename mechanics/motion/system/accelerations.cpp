@@ -28,7 +28,10 @@ Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t
     power.loads += beam_.line_power(now.beam, t);
     power.supports += beam_.fed_line_power(now.beam, t);
   }
-  if (beam_.moving_parts().empty()) return power;
+  if (beam_.moving_parts().empty()) {
+    elements.clear();
+    return power;
+  }
   beam_.fill_elements(q, rate, t, elements);
   double lost = 0;
   for (std::size_t p = 0; p < beam_.moving_parts().size(); ++p) {
@@ -113,7 +116,10 @@ std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate
     power = power + unknowns->power(q, rate, a, t, nullptr);
   }
   if (pull && beam_.prescribed_mesh() == nullptr) power.supports += pull->power(a);
-  if (!links_.all().empty() && !press(q, rate, a, power)) return std::nullopt;
+  links_.carry(q, rate, t);
+  if (!links_.all().empty() || !links_.carried().empty()) {
+    if (!press(q, rate, a, power)) return std::nullopt;
+  }
   return power;
 }
 
@@ -158,12 +164,19 @@ bool Accelerations<D>::solve_without_joints(const double* q, const double* rate,
 template <int D>
 bool Accelerations<D>::press(const double* q, const double* rate, double* a, Tally& power) {
   const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(a, beam_.coordinates());
-  const auto forces = mass_.press(links_.all(), elements_, q, links_.bending_in(rate), a);
+  const auto held = static_cast<Eigen::Index>(links_.all().size());
+  pressing_ = links_.all();
+  pressing_.insert(pressing_.end(), links_.carried().begin(), links_.carried().end());
+  const auto forces = mass_.press(pressing_, elements_, q, links_.bending_in(q, rate, pressing_), a);
   if (!forces) return false;
-  link_forces_ = *forces;
+  link_forces_ = forces->head(held);
+  carried_forces_ = forces->tail(forces->size() - held);
+  for (Eigen::Index i = 0; i < carried_forces_.size(); ++i) {
+    power.loads += carried_forces_[i] * links_.carried()[static_cast<std::size_t>(i)].rate(beam_.view(q, rate));
+  }
   if (beam_.model().driven()) {
     const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(a, beam_.coordinates()) - apart;
-    power.supports += mass_.work_of_prescribed(links_.all(), *forces, elements_, q, rate, change);
+    power.supports += mass_.work_of_prescribed(pressing_, *forces, elements_, q, rate, change);
   }
   return true;
 }
@@ -197,7 +210,7 @@ Eigen::VectorXd Accelerations<D>::forces_of_links(const Eigen::VectorXd& y, doub
   std::optional<Eigen::VectorXd> forces;
   if (mass_.solve_joints(elements, motions, a.data())) {
     if (pull) pull->complete(a.data());
-    forces = mass_.press(links_.all(), elements, q, links_.bending_in(rate), a.data());
+    forces = mass_.press(links_.all(), elements, q, links_.bending_in(q, rate, links_.all()), a.data());
   }
   return forces.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(links_.all().size())));
 }

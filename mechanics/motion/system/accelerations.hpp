@@ -36,6 +36,8 @@ class Accelerations {
   void accelerations(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
   /// Forces along links, as evaluated last: positive where they push [N].
   const Eigen::VectorXd& link_forces() const { return link_forces_; }
+  /// Those of the masses that the beam carries, along their directions [N].
+  const Eigen::VectorXd& carried_forces() const { return carried_forces_; }
   /// The same at a state.
   Eigen::VectorXd forces_of_links(const Eigen::VectorXd& y, double t) const;
   /// Generalized force of the support that holds a loose mass, on its coordinate [N].
@@ -73,7 +75,8 @@ class Accelerations {
   JointElements elements_;               ///< of rates()
   std::vector<JointMotion<D>> motions_;  ///< the same
   Eigen::VectorXd imposed_;              ///< coordinates and velocities
-  Eigen::VectorXd link_forces_;
+  Eigen::VectorXd link_forces_, carried_forces_;
+  std::vector<BeamLink<D>> pressing_;
   std::size_t evaluations_ = 0;
 };
 

@@ -11,10 +11,16 @@ void BeamLinks<D>::adopt() {
   all_.clear();
   for (const Tie& tie : ties_) {
     const int behind = beam_.place_of(tie.behind).node, ahead = beam_.place_of(tie.ahead).node;
-    for (int c = 0; c < D; ++c) all_.push_back({behind, ahead, tie.apart[c], Vector(Vector::Unit(c))});
+    for (int c = 0; c < D; ++c) all_.push_back({behind, ahead, tie.apart[c], Vector(Vector::Unit(c)), {}});
   }
   for (const auto& room : beam_.model().rooms) room->add_links(beam_, all_);
   tied_ = all_.size();
+}
+
+template <int D>
+void BeamLinks<D>::carry(const double* q, const double* rate, double t) const {
+  carried_.clear();
+  for (const auto& room : beam_.model().rooms) room->add_carried(beam_.view(q, rate), t, carried_);
 }
 
 template <int D>
@@ -40,9 +46,10 @@ bool BeamLinks<D>::in_block(int index) const {
 }
 
 template <int D>
-Eigen::VectorXd BeamLinks<D>::bending_in(const double* rate) const {
-  Eigen::VectorXd wanted(static_cast<Eigen::Index>(all_.size()));
-  for (std::size_t i = 0; i < all_.size(); ++i) wanted[static_cast<Eigen::Index>(i)] = -all_[i].turning(rate);
+Eigen::VectorXd BeamLinks<D>::bending_in(const double* q, const double* rate, const std::vector<Link>& links) const {
+  Eigen::VectorXd wanted(static_cast<Eigen::Index>(links.size()));
+  const ChainView<D> beam = beam_.view(q, rate);
+  for (std::size_t i = 0; i < links.size(); ++i) wanted[static_cast<Eigen::Index>(i)] = -links[i].turning(beam);
   return wanted;
 }
 

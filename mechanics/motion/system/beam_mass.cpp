@@ -117,22 +117,22 @@ bool BeamMass<D>::solve_apart(const JointElements& elements, const double* q, do
 }
 
 template <int D>
-std::optional<Eigen::VectorXd> BeamMass<D>::press(const std::vector<NodeLink<D>>& links, const JointElements& elements,
+std::optional<Eigen::VectorXd> BeamMass<D>::press(const std::vector<BeamLink<D>>& links, const JointElements& elements,
                                                   const double* q, const Eigen::VectorXd& wanted, double* a) {
   const auto count = static_cast<Eigen::Index>(links.size());
   Eigen::MatrixXd answers = Eigen::MatrixXd::Zero(beam_.coordinates(), count), by(count, count);  // M^-1 L, L^T M^-1 L
   Eigen::VectorXd lacking = wanted;
+  const ChainView<D> beam = beam_.view(q, q);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const NodeLink<D>& link = links[static_cast<std::size_t>(i)];
-    const Vector line = link.line(q);
-    position<D>(answers.col(i).data(), link.behind) = -line;
-    position<D>(answers.col(i).data(), link.ahead) = line;
+    const BeamLink<D>& link = links[static_cast<std::size_t>(i)];
+    link.add_force(beam, 1, answers.col(i).data());
     if (!solve_apart(elements, q, answers.col(i).data())) return std::nullopt;
-    lacking[i] -= line.dot(link.difference(a));
+    lacking[i] -= link.dot(beam, a);
   }
   for (Eigen::Index i = 0; i < count; ++i) {
-    const NodeLink<D>& link = links[static_cast<std::size_t>(i)];
-    for (Eigen::Index k = 0; k < count; ++k) by(i, k) = link.line(q).dot(link.difference(answers.col(k).data()));
+    const BeamLink<D>& link = links[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < count; ++k) by(i, k) = link.dot(beam, answers.col(k).data());
+    by(i, i) += link.mobility;
   }
   const Eigen::VectorXd forces = solve_pivoting(by, lacking);
   Eigen::Map<Eigen::VectorXd>(a, beam_.coordinates()) += answers * forces;
@@ -140,14 +140,14 @@ std::optional<Eigen::VectorXd> BeamMass<D>::press(const std::vector<NodeLink<D>>
 }
 
 template <int D>
-double BeamMass<D>::work_of_prescribed(const std::vector<NodeLink<D>>& links, const Eigen::VectorXd& forces,
+double BeamMass<D>::work_of_prescribed(const std::vector<BeamLink<D>>& links, const Eigen::VectorXd& forces,
                                        const JointElements& elements, const double* q, const double* rate,
                                        const Eigen::VectorXd& change) const {
   Eigen::VectorXd all(beam_.coordinates());
   multiply(elements, q, change.data(), all.data());
   double work = all.dot(Eigen::Map<const Eigen::VectorXd>(rate, beam_.coordinates()));
   for (std::size_t i = 0; i < links.size(); ++i) {
-    work -= forces[static_cast<Eigen::Index>(i)] * links[i].line(q).dot(links[i].difference(rate));
+    work -= forces[static_cast<Eigen::Index>(i)] * links[i].dot(beam_.view(q, rate), rate);
   }
   return work;
 }

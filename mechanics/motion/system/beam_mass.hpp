@@ -44,14 +44,14 @@ class BeamMass {
   /// matrix is singular. Of a beam with a joint and without links, nodes outside `part` may be left out: p acts on none
   /// of them, and v is too small to count there.
   bool solve(const JointElements& elements, const double* q, double* p, const BeamPart& part = {});
-  /// Adds what forces (or momenta) along the lines of links do to the accelerations (or velocities) `a` of a beam
-  /// without them, so that L . (a_ahead - a_behind) is as `wanted` on each line L. Returns them, positive where they
-  /// push; nothing where the mass matrix is singular.
-  std::optional<Eigen::VectorXd> press(const std::vector<NodeLink<D>>& links, const JointElements& elements,
+  /// Adds what forces (or momenta) of links do to the accelerations (or velocities) `a` of a beam without them, so that
+  /// dC/dq . a is as `wanted` of each link, or of a mass that is carried with its force as it is. Returns them,
+  /// positive where they push nodes apart; nothing where the mass matrix is singular.
+  std::optional<Eigen::VectorXd> press(const std::vector<BeamLink<D>>& links, const JointElements& elements,
                                        const double* q, const Eigen::VectorXd& wanted, double* a);
   /// Of what prescribes parts of the state: what it does as such forces change accelerations (or momenta velocities) by
   /// `change`.
-  double work_of_prescribed(const std::vector<NodeLink<D>>& links, const Eigen::VectorXd& forces,
+  double work_of_prescribed(const std::vector<BeamLink<D>>& links, const Eigen::VectorXd& forces,
                             const JointElements& elements, const double* q, const double* rate,
                             const Eigen::VectorXd& change) const;
   /// Writes M times the velocities `rate`; of the nodes of a part, as if the beam ended there, `before` and `behind` of

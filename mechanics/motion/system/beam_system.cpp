@@ -22,6 +22,7 @@ BeamSystem<D>::BeamSystem(const BeamModel<D>& of, const ChainState<D>& chain)
   links_.tie_blocks(initial_.data());
   adopt_parts();
   Beam::impose(initial_, 0);
+  come_back_to_links(initial_, 0);
   ramp_ = RampWork<D>(of.gravity, of.gravity_ramp);
 }
 
@@ -120,9 +121,39 @@ OuterForces<D> BeamSystem<D>::forces(const Eigen::VectorXd& y, double t) {
 }
 
 template <int D>
-OuterForces<D> BeamSystem<D>::forces_at_rest(const Eigen::VectorXd& y, double t) {
+OuterForces<D> BeamSystem<D>::forces_at_rest(const Eigen::VectorXd& y, double t, const Eigen::VectorXd& of_links) {
   second_order();
-  return implicit_->forces_at_rest(y, t);
+  return implicit_->forces_at_rest(y, t, of_links);
+}
+
+template <int D>
+void BeamSystem<D>::correct(Eigen::VectorXd& y, double t) {
+  if (corrects) come_back_to_links(y, t);
+}
+
+/// Along what impulses of the links would do: Newton's iteration for the positions, whose conditions are quadratic at
+/// most or nearly linear so near to them.
+template <int D>
+void BeamSystem<D>::come_back_to_links(Eigen::VectorXd& y, double t) {
+  if (!links_.holds_points()) return;
+  constexpr int most_rounds = 4;
+  const std::vector<BeamLink<D>> held = links_.tied();
+  const Eigen::Index n = coordinates(), count = std::ssize(held);
+  const double nothing = 1e-15 * mesh().length();
+  Eigen::VectorXd off(count), change(n);
+  for (int round = 0; round < most_rounds; ++round) {
+    const ChainView<D> beam = Beam::view(y.data(), y.data() + n);
+    for (Eigen::Index i = 0; i < count; ++i) off[i] = held[static_cast<std::size_t>(i)].value(beam);
+    if (!(off.cwiseAbs().maxCoeff() > nothing)) break;
+    change.setZero();
+    if (!mass_.press(held, Beam::masses_at(y, t), y.data(), -off, change.data())) return;
+    y.head(n) += change;
+  }
+  const ChainView<D> beam = Beam::view(y.data(), y.data() + n);
+  for (Eigen::Index i = 0; i < count; ++i) off[i] = held[static_cast<std::size_t>(i)].rate(beam);
+  if (off.isZero(0)) return;
+  change.setZero();
+  if (mass_.press(held, Beam::masses_at(y, t), y.data(), -off, change.data())) y.segment(n, n) += change;
 }
 
 template class BeamSystem<2>;

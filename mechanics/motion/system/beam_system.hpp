@@ -69,6 +69,9 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
   void sample(const Eigen::VectorXd& y, double t) override;
+  /// Explicit methods drift from what links hold of material points, and are brought back where `corrects` says so.
+  void correct(Eigen::VectorXd& y, double t) override;
+  bool corrects = false;
   bool proceed(const Eigen::VectorXd& y, double t) override {
     check_order(y, t);
     if (ramp_.due(t)) ramp_.advance(t, moment(y, t));
@@ -97,18 +100,20 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   std::unique_ptr<SecondOrderSystem> new_second_order() override;
   /// By the accelerations that belong to the state.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
-  /// Without accelerations, at a state at rest.
-  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
+  /// Without accelerations, at a state at rest, with the forces of its links: see OuterForces::links.
+  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t, const Eigen::VectorXd& of_links = {});
   /// Evaluations of the equations, as accelerations or as a residual.
   std::size_t rhs_evaluations() const { return accelerations_.evaluations(); }
-  /// Nodes that keep a distance: those of blocks, then what rests against each other.
-  const std::vector<NodeLink<D>>& links() const { return links_.all(); }
+  /// Those of blocks and rooms, then what rests against each other.
+  const BeamLinks<D>& links() const { return links_; }
   /// Energies, momenta and length, summed with `points` Gauss points an element, or own_points; strains only where they
   /// are asked for.
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points, bool strains = false) const;
 
  private:
   void adopt_parts();
+  /// Brings positions and velocities back to what links hold of material points.
+  void come_back_to_links(Eigen::VectorXd& y, double t);
   /// Throws ComputationFailed where joints are no longer in their order along the beam: events have to prevent it.
   void check_order(const Eigen::VectorXd& y, double t) const;
   /// What events of the mesh may change of a beam with one joint.

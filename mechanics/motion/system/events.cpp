@@ -90,8 +90,8 @@ typename BeamSystem<D>::EventScope BeamSystem<D>::scope_of(const std::vector<Pen
   const LengthControl& control = model().length_control;
   const PendingEvent& due = dues.front();
   EventScope scope;
-  scope.observes_all =
-      due.observes_all || std::ranges::any_of(sources_, [](const auto& source) { return source->observes_all(); });
+  scope.observes_all = due.observes_all || links_.holds_points() ||
+                       std::ranges::any_of(sources_, [](const auto& source) { return source->observes_all(); });
   scope.transfers = due.remeshes && control.velocities != VelocityTransfer::nodal;
   scope.conserves = scope.transfers && control.velocities == VelocityTransfer::conservative;
   scope.always_transfers = due.always_transfers;
@@ -229,6 +229,10 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
     Beam::write_state(record.after, old_, y);
   }
   change_velocities(scope, before, record, y, t);
+  if (links_.holds_points()) {
+    come_back_to_links(y, t);
+    record.after = Beam::chain(y, t);
+  }
   book_jumps(scope, before, record, y, t);
 
   if (ramped) ramp_.restart(t, moment(y, t));

@@ -304,12 +304,15 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
 }
 
 template <int D>
-OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double t) {
-  Eigen::VectorXd q, v;
+OuterForces<D> ImplicitBeam<D>::forces_at_rest(const Eigen::VectorXd& y, double t, const Eigen::VectorXd& of_links) {
+  Eigen::VectorXd q, v, a;
   expand(y, q, v);
   free_.resize(q.size());
-  free_residual(q, v, Eigen::VectorXd::Zero(q.size()), t, free_);
+  a.setZero(q.size());
+  a.tail(of_links.size()) = -of_links / reference_mass_;
+  free_residual(q, v, a, t, free_);
   OuterForces<D> forces;
+  forces.links.assign(of_links.begin(), of_links.end());
   forces.supports = {free_.head<B>(), free_.segment<B>(after_nodes() - B)};
   forces.on_masses.assign(beam_.model().joints.size(), Vec<double, D>::Zero());
   for (std::size_t i = 0; i < places().size(); ++i) {
@@ -356,8 +359,11 @@ OuterForces<D> ImplicitBeam<D>::forces(const Eigen::VectorXd& y, double t) {
     for (const auto& part : beam_.acting()) on_mass -= part->force_on_joint(places()[i].node);
   }
   const auto& links = accelerations_.links().all();
+  forces.links.assign(accelerations_.link_forces().begin(), accelerations_.link_forces().end());
+  forces.carried.assign(accelerations_.carried_forces().begin(), accelerations_.carried_forces().end());
   for (std::size_t c = 0; c < links.size(); ++c) {  // and so does what it is linked to
     const auto& link = links[c];
+    if (link.place) continue;  // held by the ground, beside what slides
     const Vec<double, D> push = accelerations_.link_forces()[static_cast<Eigen::Index>(c)] * link.line(y.data());
     for (std::size_t i = 0; i < places().size(); ++i) {
       auto& on_mass = forces.on_masses[static_cast<std::size_t>(beam_.joint_index(i))];

@@ -81,8 +81,8 @@ class ImplicitBeam final : public ConstrainedSystem {
 
   /// By the accelerations that belong to a state y at time t.
   OuterForces<D> forces(const Eigen::VectorXd& y, double t);
-  /// Without accelerations.
-  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t);
+  /// Without accelerations, with the forces of its links.
+  OuterForces<D> forces_at_rest(const Eigen::VectorXd& y, double t, const Eigen::VectorXd& of_links);
 
  private:
   static constexpr int B = node_size<D>;

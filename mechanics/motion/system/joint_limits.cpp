@@ -123,7 +123,12 @@ void JointLimits<D>::joints_met(std::size_t which, double t) const {
                                      std::to_string(beam_.joint_index(which + 1));
   std::ostringstream share;
   share << beam_.model().contact_distance;
-  throw ComputationFailed(met + " met: they are as near each other as " + share.str() + " standard elements", t);
+  const bool held = beam_.held(which) != nullptr || beam_.held(which + 1) != nullptr;
+  const std::string remedy =
+      held && !feed ? R"(; a support that others pass over stands in /supports, as {"at": {"x": 10}, "type": "roller"})"
+                    : "";
+  throw ComputationFailed(met + " met: they are as near each other as " + share.str() + " standard elements" + remedy,
+                          t);
 }
 
 template <int D>

@@ -84,6 +84,8 @@ struct OuterForces {
   std::vector<double> guiding;             ///< of what guides the model's joints, on their material coordinates [N]
   std::vector<double> mark_accelerations;  ///< of the joints on the beam, in the order of the chain [m/s^2]
   std::vector<double> drives;              ///< about the axis, of what drives angles on the beam [N m]
+  std::vector<double> links;               ///< of the beam's links, times dC/dq each: see BeamLink [N]
+  std::vector<double> carried;             ///< of masses that the beam carries, along their directions [N]
 };
 
 /// Sums energies, momenta and length of a beam's axis, element by element, by a rule of one's own.

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "mechanics/motion/system/beam_link.hpp"
 #include "mechanics/motion/system/event_source.hpp"
-#include "mechanics/motion/system/node_link.hpp"
 
 namespace vlbeam {
 
@@ -15,8 +16,12 @@ class Room {
   virtual ~Room() = default;
   /// Appends its sources of events.
   virtual void add_sources(const BeamInside<D>& /*inside*/, EventSources<D>& /*sources*/) const {}
-  /// Appends its links between nodes of the beam as it is now.
-  virtual void add_links(const CurrentBeam<D>& /*beam*/, std::vector<NodeLink<D>>& /*links*/) const {}
+  /// Unknowns of its own on a beam that has no others, or null.
+  virtual std::unique_ptr<Unknowns<D>> unknowns(const CurrentBeam<D>& /*beam*/) const { return nullptr; }
+  /// Appends masses that the beam carries now at points that travel along it: see BeamLink::carrying().
+  virtual void add_carried(const ChainView<D>& /*beam*/, double /*t*/, std::vector<BeamLink<D>>& /*carried*/) const {}
+  /// Appends its links of the beam as it is now.
+  virtual void add_links(const CurrentBeam<D>& /*beam*/, std::vector<BeamLink<D>>& /*links*/) const {}
 };
 
 }  // namespace vlbeam

@@ -44,8 +44,8 @@ struct Floor final : Room<2> {
 
 /// A rod between the ends of a beam.
 struct RodBetweenEnds final : Room<2> {
-  void add_links(const CurrentBeam<2>& beam, std::vector<NodeLink<2>>& links) const override {
-    links.push_back({0, beam.mesh().last(), 1});
+  void add_links(const CurrentBeam<2>& beam, std::vector<BeamLink<2>>& links) const override {
+    links.push_back({0, beam.mesh().last(), 1, {}, {}});
   }
 };
 
