@@ -345,7 +345,7 @@ TEST(SceneJson, SupportsBetweenTheEndsStandAmongTheOthers) {
   json["supports"][0]["stiffness"] = 1;
   EXPECT_EQ(error_of(json)->field, "/supports/0/stiffness");
   json["supports"][0].erase("stiffness");
-  json["supports"][2]["at"]["x"] = 4;
+  json["supports"][2]["at"]["x"] = 4.5;
   EXPECT_EQ(error_of(json)->field, "/supports/2/at/x");
   json["supports"][2]["at"] = {{"y", 3}};
   EXPECT_EQ(error_of(json)->field, "/supports/2/at/y");
