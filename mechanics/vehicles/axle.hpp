@@ -49,8 +49,7 @@ struct WheelMotion {
   Real height, rate;  ///< [m], [m/s]
   Real convective;    ///< acceleration without those of coordinates [m/s^2]
 
-  WheelMotion(const PointMotion<Real, D>& at, const Vec<double, D>& direction, const Prescribed& x) {
-    const Vec<Real, D> up = direction.template cast<Real>();
+  WheelMotion(const PointMotion<Real, D>& at, const Vec<Real, D>& up, const Prescribed& x) {
     height = up.dot(at.r);
     rate = up.dot(at.v) + Real(x.rate) * up.dot(at.r_x);
     convective = up.dot(at.remainder) + Real(2 * x.rate) * up.dot(at.v_x) + Real(x.rate * x.rate) * up.dot(at.r_xx) +

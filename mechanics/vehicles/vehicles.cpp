@@ -84,7 +84,7 @@ void ActingAxles<D>::add_tangent(const Motion<D>& motion, const TangentWeights& 
                  z_rate = axle.sprung() ? motion.beam.rate[height(i)] : 0;
     Coupling coupling{i, k, own};
     const auto force = [&](const PointMotion<Real, D>& at, const Vec<Real, D>& acceleration) {
-      const WheelMotion<Real, D> wheel(at, axles_.up, *x);
+      const WheelMotion<Real, D> wheel(at, up, *x);
       Real down(still);
       if (axle.sprung()) {
         down += (wheel.height - Real(z)) * Real(axle.stiffness) + (wheel.rate - Real(z_rate)) * Real(axle.damping);
