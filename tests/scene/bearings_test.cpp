@@ -146,6 +146,18 @@ TEST(Bearings, AMassPassesThemAndNothingIsLost) {
   }
 }
 
+TEST(Bearings, ASpringWithoutADamperTakesNothing) {
+  Scene scene = sliding(IntegratorType::dopri5, 2);
+  scene.bearings[1].damping = 0;
+  for (const Point& direction : {Point{}, Point{0, 1, 0}}) {
+    scene.bearings[1].direction = direction;
+    const RunResult run = simulate(scene);
+    ASSERT_EQ(run.status, RunStatus::completed) << run.failure;
+    EXPECT_NEAR(run.samples.back().energy.dissipated, 0, 1e-9 * run.max_kinetic);
+    EXPECT_GT(std::abs(run.samples.back().flow->ledger.loads), 1e-6 * run.max_kinetic) << "it stores something";
+  }
+}
+
 TEST(Bearings, ExplicitAndImplicitMotionsAgree) {
   const RunResult a = simulate(sliding(IntegratorType::dopri5, 2));
   Scene scene = sliding(IntegratorType::generalized_alpha, 2);
