@@ -293,6 +293,43 @@ TEST(AssemblyScene, LeesFrameFollowsItsPathPastTheLimit) {
 }
 
 // Clamped ends of one section that go on straight are one beam.
+/// A trolley with a rope passes a pier of its girder, and a cart follows it.
+TEST(AssemblyScene, AGirderMayHaveAPierAndACart) {
+  Json json = Json::parse(R"({"gravity": [0, -9.81], "gravity_ramp": 0.2, "duration": 0.5,
+    "beams": [
+      {"name": "girder", "curve": {"type": "line", "start": [0, 0], "end": [8, 0]}, "elements": 8,
+       "section": {"type": "stiffness", "EA": 1e6, "EI": 1e5, "rhoA": 20},
+       "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "slide"}, {"at": {"x": 4}, "type": "roller", "name": "pier"}],
+       "vehicles": [{"name": "cart", "x": {"value": -1, "rate": 5},
+                     "axles": [{"sprung_mass": 50, "mass": 5, "stiffness": 2e4, "damping": 200}]}],
+       "sliding_joints": [{"position": 3.4, "mass": 20, "x": {"rate": 3, "rate_ramp": 0.1}}]},
+      {"name": "rope", "curve": {"type": "line", "start": [3.4, 0], "end": [3.4, -3]}, "elements": 4,
+       "section": {"type": "stiffness", "EA": 2e4, "EI": 0, "rhoA": 0.5}, "point_masses": [{"node": 4, "mass": 50}]}],
+    "links": [{"name": "hang", "type": "pin", "between": [{"beam": "girder", "joint": 0}, {"beam": "rope", "at": "start"}]}],
+    "integrator": {"type": "dopri5", "rtol": 1e-7, "atol": 1e-8}})");
+  const Scene scene = scene_from_json(json);
+  const RunResult run = simulate(scene);
+  ASSERT_EQ(run.status, RunStatus::completed) << run.failure;
+  EXPECT_LT(run.max_energy_drift, 1e-6 * run.max_kinetic);
+  EXPECT_GT(last(scene, run, "girder.joint_position"), 4.5) << "it has passed the pier";
+  EXPECT_NEAR(last(scene, run, "girder.supports.pier.position.y"), 0, 1e-9);
+  EXPECT_GT(last(scene, run, "girder.supports.pier.force.y"), 0);
+  EXPECT_GT(last(scene, run, "girder.vehicles.cart.axle_0.force"), 0);
+
+  json.erase("duration");
+  json.erase("gravity_ramp");
+  json.erase("integrator");
+  json["analysis"] = "statics";
+  json["beams"][0].erase("vehicles");
+  json["beams"][0]["sliding_joints"][0].erase("x");
+  try {
+    scene_from_json(json);
+    FAIL() << "statics of several beams knows no roller";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, "/beams/0/supports");
+  }
+}
+
 TEST(AssemblyScene, ABeamInTwoPiecesIsOneBeam) {
   const Json section = {{"type", "stiffness"}, {"EA", 2000}, {"EI", 0.7}, {"rhoA", 1.3}};
   const Json clamp = {{{"at", "start"}, {"type", "clamp"}}};
