@@ -1,7 +1,6 @@
 #include "scene/bearings.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "core/error.hpp"
@@ -14,6 +13,7 @@
 #include "scene/names.hpp"
 #include "scene/options.hpp"
 #include "scene/run_support.hpp"
+#include "scene/shared_checks.hpp"
 
 namespace vlbeam {
 namespace {
@@ -74,16 +74,9 @@ void check_spring(const BearingSpec& bearing, const std::string& at, const Axis<
 void check_held(const Scene& scene, std::size_t which, const std::string& at) {
   const BearingSpec& bearing = scene.bearings[which];
   const std::string what = "a " + std::string(to_string(bearing.type)) + " at x = " + six_digits(bearing.x) + " m";
-  switch (scene.integrator.type) {
-    case IntegratorType::rosenbrock4:
-    case IntegratorType::ida:
-    case IntegratorType::cvode:
-    case IntegratorType::energy_momentum:
-      if (scene.analysis == Analysis::statics) break;
-      refuse(at + "/type", what,
-             "it goes together with explicit integrators and \"generalized-alpha\": take one, or a \"spring\"");
-    default:
-      break;
+  if (scene.analysis == Analysis::dynamics && !takes_links(scene.integrator.type)) {
+    refuse(at + "/type", what,
+           "it goes together with explicit integrators and \"generalized-alpha\": take one, or a \"spring\"");
   }
   const auto joints = sliding_joints(scene);
   for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -119,8 +112,7 @@ void validate_bearings(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bearings.size(); ++i) {
     const BearingSpec& bearing = scene.bearings[i];
     const std::string at = "/bearings/" + std::to_string(i);
-    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    if (!std::ranges::all_of(bearing.name, letter)) {
+    if (!is_plain_name(bearing.name)) {
       refuse(at + "/name", "\"" + bearing.name + "\"", "it must be letters, digits and underscores");
     }
     for (std::size_t k = 0; k < i; ++k) {
@@ -175,10 +167,7 @@ std::vector<BearingSample> bearing_samples(const Scene& scene, const BeamSystem<
   std::vector<BearingSample> samples;
   if constexpr (has_room("bearings")) {
     if (scene.bearings.empty()) return samples;
-    const PointSprings<D>* springs = nullptr;
-    for (const auto& part : system.model().parts) {
-      if (const auto* found = dynamic_cast<const PointSprings<D>*>(part.get())) springs = found;
-    }
+    const auto* const springs = part_of<PointSprings<D>>(system.model());
     const ChainView<D> beam = system.view(y.data(), y.data() + system.coordinates());
     const auto& links = system.links().all();
     std::size_t spring = 0, link = 0;

@@ -7,6 +7,7 @@
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
+#include "scene/shared_checks.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {
@@ -158,15 +159,7 @@ double end_merge(const Scene& scene) {
 }
 
 bool joints_may_rest(const Scene& scene) {
-  switch (scene.integrator.type) {
-    case IntegratorType::rosenbrock4:  // these need more than forces of what rests: derivatives
-    case IntegratorType::ida:
-    case IntegratorType::cvode:
-    case IntegratorType::energy_momentum:
-      return false;
-    default:
-      break;
-  }
+  if (!takes_links(scene.integrator.type)) return false;
   const auto& joints = scene.sliding_joints;
   return std::ranges::none_of(joints, [](const SlidingJointSpec& joint) { return joint.friction || joint.pitch; });
 }

@@ -15,6 +15,7 @@
 #include "scene/options.hpp"
 #include "scene/rooms.hpp"
 #include "scene/scene_options.hpp"
+#include "scene/shared_checks.hpp"
 #include "scene/time_function.hpp"
 #include "scene/validate_assembly.hpp"
 #include "scene/validate_beam.hpp"
@@ -459,8 +460,7 @@ void check_places(const Scene& scene) {
   for (std::size_t i = 0; i < scene.places.size(); ++i) {
     const PlaceSpec& place = scene.places[i];
     const std::string at = "/places/" + std::to_string(i);
-    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    if (place.name.empty() || !std::ranges::all_of(place.name, letter)) {
+    if (place.name.empty() || !is_plain_name(place.name)) {
       refuse(at + "/name", "\"" + place.name + "\"", "it must be letters, digits and underscores");
     }
     const auto first = std::ranges::find(scene.places, place.name, &PlaceSpec::name) - scene.places.begin();

@@ -1,7 +1,6 @@
 #include "scene/vehicles.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "scene/names.hpp"
 #include "scene/options.hpp"
 #include "scene/run_support.hpp"
+#include "scene/shared_checks.hpp"
 #include "scene/time_function.hpp"
 
 namespace vlbeam {
@@ -56,16 +56,8 @@ void check_company(const Scene& scene) {
   none(flows(scene), scene.flow ? "/flow" : "/beam/rotary_inertia", "this key", "leave one of the two out");
   none(has_frames(scene), "/beam/space_law", "\"frames\"", "take \"scalar\"");
   none(fed(scene), "/supports", "a winch", "the beam must keep its length");
-  switch (scene.integrator.type) {
-    case IntegratorType::rosenbrock4:
-    case IntegratorType::ida:
-    case IntegratorType::cvode:
-    case IntegratorType::energy_momentum:
-      none(true, "/integrator/type", quoted(scene.integrator.type), "take \"generalized-alpha\" or an explicit method");
-      break;
-    default:
-      break;
-  }
+  none(!takes_links(scene.integrator.type), "/integrator/type", quoted(scene.integrator.type),
+       "take \"generalized-alpha\" or an explicit method");
 }
 
 template <int D>
@@ -82,8 +74,7 @@ void validate_vehicles(const Scene& scene) {
   for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
     const VehicleSpec& vehicle = scene.vehicles[i];
     const std::string at = "/vehicles/" + std::to_string(i);
-    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    if (vehicle.name.empty() || !std::ranges::all_of(vehicle.name, letter)) {
+    if (vehicle.name.empty() || !is_plain_name(vehicle.name)) {
       refuse(at + "/name", "\"" + vehicle.name + "\"", "it must be letters, digits and underscores");
     }
     for (std::size_t k = 0; k < i; ++k) {
@@ -116,8 +107,7 @@ void add_vehicles([[maybe_unused]] const Scene& scene, [[maybe_unused]] const Ax
     axles.behind = axles.up.dot(axis.position(axis.length()));
     for (const VehicleSpec& vehicle : scene.vehicles) {
       for (const AxleSpec& axle : vehicle.axles) {
-        TimeSpec x = vehicle.x;
-        const TimeFunction first = time_function(x);
+        const TimeFunction first = time_function(vehicle.x);
         const auto of_axle = [first, behind = axle.distance](double t) {
           Prescribed at = first(t);
           at.value -= behind;
@@ -138,10 +128,7 @@ std::vector<AxleSample> axle_samples(const Scene& scene, const BeamSystem<D>& sy
   std::vector<AxleSample> samples;
   if constexpr (has_room("vehicles")) {
     if (scene.vehicles.empty()) return samples;
-    const ActingAxles<D>* acting = nullptr;
-    for (const auto& part : system.model().parts) {
-      if (const auto* found = dynamic_cast<const ActingAxles<D>*>(part.get())) acting = found;
-    }
+    const auto* const acting = part_of<ActingAxles<D>>(system.model());
     const Motion<D> motion = system.motion(y.data(), y.data() + system.coordinates(), nullptr, t);
     const auto& axles = acting->axles();
     std::size_t carried = 0;
