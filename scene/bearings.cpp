@@ -7,6 +7,7 @@
 #include "mechanics/bearings/held_points.hpp"
 #include "mechanics/bearings/point_springs.hpp"
 #include "mechanics/rooms.hpp"
+#include "scene/across.hpp"
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
@@ -22,17 +23,9 @@ bool is_spring(const BearingSpec& bearing) { return bearing.type == BearingType:
 
 template <int D>
 std::vector<Vec<double, D>> held_directions(const BearingSpec& bearing, const Vec<double, D>& tangent) {
+  if (bearing.type != BearingType::pin) return across<D>(tangent);
   std::vector<Vec<double, D>> directions;
-  if (bearing.type == BearingType::pin) {
-    for (int c = 0; c < D; ++c) directions.push_back(Vec<double, D>::Unit(c));
-  } else if constexpr (D == 2) {
-    directions.push_back(Vec<double, D>(-tangent[1], tangent[0]));
-  } else {
-    Eigen::Index least = 0;
-    tangent.cwiseAbs().minCoeff(&least);
-    const Vec<double, D> across = tangent.cross(Vec<double, D>::Unit(least)).normalized();
-    directions = {across, Vec<double, D>(tangent.cross(across))};
-  }
+  for (int c = 0; c < D; ++c) directions.push_back(Vec<double, D>::Unit(c));
   return directions;
 }
 

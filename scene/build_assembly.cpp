@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/across.hpp"
 #include "scene/build.hpp"
 #include "scene/on_elements.hpp"
 #include "scene/time_function.hpp"
@@ -88,19 +89,6 @@ LinkEnd<D> direction_of(const Scene& whole, const LinkEndSpec& spec, const Vec<d
   const auto axes = axes_of(whole.assembly->bodies[spec.which].rotation);
   for (int i = 0; i < D; ++i) end.place[i] = vector_of<D>(axes[static_cast<std::size_t>(i)]).dot(in_space);
   return end;
-}
-
-/// Directions across one, of length 1: one in the plane, two in space.
-template <int D>
-std::vector<Vec<double, D>> across(const Vec<double, D>& along) {
-  if constexpr (D == 2) {
-    return {Vec<double, 2>(-along[1], along[0])};
-  } else {
-    Eigen::Index least = 0;
-    along.cwiseAbs().minCoeff(&least);
-    const Vec<double, 3> first = along.cross(Vec<double, 3>::Unit(least)).normalized();
-    return {first, along.cross(first)};
-  }
 }
 
 /// Whether two beams of one section are one beam at a clamp: they share the slope then, stretch and all, as one does at
