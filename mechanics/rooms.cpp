@@ -8,6 +8,7 @@
 #include "mechanics/motion/system/joint_limits.hpp"
 #include "mechanics/motion/system/passages.hpp"
 #include "mechanics/motion/system/room.hpp"
+#include "mechanics/motion/system/section_changes.hpp"
 #include "mechanics/remesh/giving_way.hpp"
 #include "mechanics/remesh/restore_beside_joint.hpp"
 #include "mechanics/ride/ride_events.hpp"
@@ -32,6 +33,7 @@ EventSources<D> sources_of_rooms(const BeamInside<D>& inside) {
     sources.push_back(std::make_unique<JointLimits<D>>(inside));
     if constexpr (has_room("ride")) sources.push_back(std::make_unique<RideEvents<D>>(inside));
     if (model.masses.present()) sources.push_back(std::make_unique<Passages<D>>(inside));
+    if (!model.pieces.empty()) sources.push_back(std::make_unique<SectionChanges<D>>(inside));
     if constexpr (has_room("contact")) sources.push_back(std::make_unique<ContactEvents<D>>(inside));
     if constexpr (has_room("remesh")) {
       if (control.cut == CutPolicy::relaxed || control.merge == MergePolicy::relaxed) {

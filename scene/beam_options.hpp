@@ -16,7 +16,8 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
 
  private:
   using Lines = OptionLines<Visitor, SceneT>;
-  using Lines::scene, Lines::number, Lines::vector, Lines::choice, Lines::section, Lines::paper, Lines::example1;
+  using Lines::scene, Lines::number, Lines::vector, Lines::choice, Lines::section, Lines::paper, Lines::example1,
+      Lines::list, Lines::present, Lines::drag_at;
   static constexpr std::string_view section_type = "/beam/section/type";
 
   void axis() {
@@ -55,52 +56,71 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
 
   void cross_section() {
     auto& beam = scene.beam;
-    choice(section_type, "how the section is given", beam.section.type);
-    const auto is = [&](auto... types) { return only_if(section_type, beam.section.type, types...); };
+    section_at("/beam/section", beam.section);
+    list("/beam/sections",
+         "in place of section: the sections of a beam that has several, piece by piece from its start; each ends at a "
+         "node, and a joint passes from one to the next",
+         beam.sections);
+    for (std::size_t i = 0; i < beam.sections.size(); ++i) {
+      auto& piece = beam.sections[i];
+      const std::string at = "/beam/sections/" + std::to_string(i);
+      number(at + "/to", "m", Range::positive(),
+             "material coordinate where the piece ends; that of the last one, the length of the beam, may be left out",
+             piece.to);
+      section(at + "/section", "the section of the piece, of the beam's material");
+      section_at(at + "/section", piece.section);
+      number(at + "/area", "m^2", Range::positive(),
+             "what it displaces of /fluid per length, where the section does not say it", piece.area);
+      if (present(at + "/drag", "of the piece, in place of that of the scene", piece.drag)) {
+        drag_at(at + "/drag", *piece.drag);
+      }
+    }
+  }
+
+  template <class SectionT>
+  void section_at(const std::string& at, SectionT& of) {
+    const std::string type = at + "/type";
+    choice(type, "how the section is given", of.type);
+    const auto is = [&](auto... types) { return only_if(type, of.type, types...); };
     using enum Section::Type;
     const Condition given = is(stiffness);
-    number("/beam/section/radius", "m", Range::positive(),
-           "radius of the full circular section; outer radius of a tube", beam.section.radius,
-           {.source = example1, .when = is(circle, tube)});
-    number("/beam/section/width", "m", Range::positive(),
-           "of a rectangle, a box or a profile, along the section's axis y", beam.section.width,
+    number(at + "/radius", "m", Range::positive(), "radius of the full circular section; outer radius of a tube",
+           of.radius, {.source = example1, .when = is(circle, tube)});
+    number(at + "/width", "m", Range::positive(), "of a rectangle, a box or a profile, along the section's axis y",
+           of.width, {.when = is(rectangle, box, profile), .required = true});
+    number(at + "/height", "m", Range::positive(),
+           "of a rectangle, a box or a profile, along the section's axis z; in the plane it lies in it", of.height,
            {.when = is(rectangle, box, profile), .required = true});
-    number("/beam/section/height", "m", Range::positive(),
-           "of a rectangle, a box or a profile, along the section's axis z; in the plane it lies in it",
-           beam.section.height, {.when = is(rectangle, box, profile), .required = true});
-    number("/beam/section/wall", "m", Range::positive(), "thickness of the wall of a tube or a box", beam.section.wall,
+    number(at + "/wall", "m", Range::positive(), "thickness of the wall of a tube or a box", of.wall,
            {.when = is(tube, box), .required = true});
-    number("/beam/section/web", "m", Range::positive(), "thickness of the web of a profile", beam.section.web,
+    number(at + "/web", "m", Range::positive(), "thickness of the web of a profile", of.web,
            {.when = is(profile), .required = true});
-    number("/beam/section/flange", "m", Range::positive(), "thickness of the flanges of a profile", beam.section.flange,
+    number(at + "/flange", "m", Range::positive(), "thickness of the flanges of a profile", of.flange,
            {.when = is(profile), .required = true});
-    number("/beam/section/diameter", "m", Range::positive(),
-           "nominal diameter of a rope; of the bar of a chain's links", beam.section.diameter,
-           {.when = is(rope, chain), .required = true});
-    choice("/beam/section/construction", "of a rope, by which its stiffness and mass follow from the diameter",
-           beam.section.construction, {.source = "OrcaFlex documentation, line type wizard", .when = is(rope)});
-    choice("/beam/section/links", "of a chain, by which its stiffness and mass follow from the diameter",
-           beam.section.links, {.source = "OrcaFlex documentation, line type wizard", .when = is(chain)});
-    number("/beam/section/EA", "N", Range::positive(), "axial stiffness", beam.section.EA,
-           {.when = given, .required = true});
-    number("/beam/section/EI_y", "N m^2", Range::positive(),
-           "in place of EI, together with EI_z: resists bending about the section's axis y", beam.section.EI_y,
+    number(at + "/diameter", "m", Range::positive(), "nominal diameter of a rope; of the bar of a chain's links",
+           of.diameter, {.when = is(rope, chain), .required = true});
+    choice(at + "/construction", "of a rope, by which its stiffness and mass follow from the diameter", of.construction,
+           {.source = "OrcaFlex documentation, line type wizard", .when = is(rope)});
+    choice(at + "/links", "of a chain, by which its stiffness and mass follow from the diameter", of.links,
+           {.source = "OrcaFlex documentation, line type wizard", .when = is(chain)});
+    number(at + "/EA", "N", Range::positive(), "axial stiffness", of.EA, {.when = given, .required = true});
+    number(at + "/EI_y", "N m^2", Range::positive(),
+           "in place of EI, together with EI_z: resists bending about the section's axis y", of.EI_y, {.when = given});
+    number(at + "/EI_z", "N m^2", Range::positive(), "resists bending about the section's axis z", of.EI_z,
            {.when = given});
-    number("/beam/section/EI_z", "N m^2", Range::positive(), "resists bending about the section's axis z",
-           beam.section.EI_z, {.when = given});
-    number("/beam/section/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", beam.section.EI,
-           {.when = given, .required = !beam.section.EI_y, .instead = "EI_y"});
-    number("/beam/section/rhoA", "kg/m", Range::positive(), "mass per unstretched length", beam.section.rhoA,
+    number(at + "/EI", "N m^2", Range::non_negative(), "bending stiffness; 0 is a cable", of.EI,
+           {.when = given, .required = !of.EI_y, .instead = "EI_y"});
+    number(at + "/rhoA", "kg/m", Range::positive(), "mass per unstretched length", of.rhoA,
            {.when = given, .required = true});
-    number("/beam/section/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin and by frames",
-           beam.section.GIp, {.when = given});
-    number("/beam/section/rhoIp", "kg m", Range::non_negative(),
-           "moment of inertia per length about the axis, needed by spin and by frames that move", beam.section.rhoIp,
+    number(at + "/GIp", "N m^2", Range::non_negative(), "torsional stiffness, needed by spin and by frames", of.GIp,
            {.when = given});
-    vector("/beam/section/orientation", "-",
+    number(at + "/rhoIp", "kg m", Range::non_negative(),
+           "moment of inertia per length about the axis, needed by spin and by frames that move", of.rhoIp,
+           {.when = given});
+    vector(at + "/orientation", "-",
            "a direction that is the section's axis y, as far as it is across the beam, all along it; needed where the "
            "two bending stiffnesses differ",
-           beam.section.orientation, {.components = 3, .when = is(stiffness, rectangle, box, profile)});
+           of.orientation, {.components = 3, .when = is(stiffness, rectangle, box, profile)});
   }
 
   void material() {

@@ -17,6 +17,7 @@
 #include "scene/build_winch.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
+#include "scene/sections.hpp"
 #include "scene/time_function.hpp"
 #include "scene/validate_feed.hpp"
 #include "scene/vehicles.hpp"
@@ -79,6 +80,17 @@ std::vector<double> uniform_nodes(const std::vector<double>& breaks, int n) {
   }
   x.push_back(breaks.back());
   return x;
+}
+
+/// The breaks of an axis with the places where the section changes, which are nodes, too.
+std::vector<double> with_changes(const Scene& scene, std::vector<double> breaks) {
+  const double rounding = corner_rounding * breaks.back();
+  for (const double at : section_changes(scene.beam)) {
+    const double x = position_on_axis(scene.beam.curve, breaks, at);
+    const auto next = std::ranges::lower_bound(breaks, x - rounding);
+    if (next == breaks.end() || *next > x + rounding) breaks.insert(next, x);
+  }
+  return breaks;
 }
 
 /// Nodes of the point masses: those given, or the nearest that nothing else needs, which moves to the place given.
@@ -174,8 +186,9 @@ Axis<D> build_axis(const Scene& scene) {
   return drawn.rounded(round, drawn.length() / scene.beam.elements);
 }
 
-InitialNodes place_nodes(const Scene& scene, const std::vector<double>& breaks) {
+InitialNodes place_nodes(const Scene& scene, const std::vector<double>& of_axis) {
   const int n = scene.beam.elements;
+  const std::vector<double> breaks = with_changes(scene, of_axis);
   InitialNodes nodes{uniform_nodes(breaks, n)};
   const auto joints = sliding_joints(scene);
   for (std::size_t which = 0; which < joints.size(); ++which) {
@@ -285,7 +298,7 @@ Vec<double, D> initial_velocity(const Scene& scene, const Vec<double, D>& r) {
 template <int D>
 std::shared_ptr<const Part<D>> build_ground(const Scene& scene, const BeamModel<D>& model) {
   const GroundSpec& ground = *scene.ground;
-  const double weight = model.section.rhoA * model.gravity.norm();
+  const double weight = mean_mass(scene.beam, beam_length(scene)) * model.gravity.norm();
   return std::make_shared<Ground<D>>(FloorLaw<D>{.up = -model.gravity.normalized(),
                                                  .level = ground.height,
                                                  .stiffness = ground.stiffness,
@@ -299,6 +312,7 @@ template <int D>
 BeamModel<D> build_model(const Scene& scene) {
   BeamModel<D> model;
   model.section = build_section(scene);
+  model.pieces = build_pieces(scene);
   model.formulation = scene.formulation;
   model.transport = weight_transport(scene);
   model.quadrature_points = quadrature_points(scene);
@@ -369,6 +383,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);
+  for (const auto& piece : model.pieces.pieces()) model.length_control.kept.push_back(piece.end);
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis.straightened());
   auto [loads, torques, moments] = build_loads<D>(scene);
   const std::vector<double>& nodes = placed.x;
@@ -391,6 +406,7 @@ BeamModel<D> build_model(const Scene& scene) {
     spin.torques = std::move(torques);
   }
   model.loads = std::move(loads);
+  add_laws_along(scene, model);
   for (const bool at_start : {true, false}) {
     if ((at_start ? scene.start : scene.end).pays_out()) add_winch(scene, at_start, axis.length(), model);
   }

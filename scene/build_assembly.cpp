@@ -98,7 +98,8 @@ bool goes_on_straight(const Scene& whole, const LinkEndSpec& a, const LinkEndSpe
   if (!b.is_of_beam()) return false;
   const Scene one = beam_scene(whole, a.which), other = beam_scene(whole, b.which);
   const BeamSection first = build_section(one), second = build_section(other);
-  const bool same = first.rhoA == second.rhoA && first.stiffness.EA == second.stiffness.EA &&
+  const bool even = one.beam.sections.empty() && other.beam.sections.empty();
+  const bool same = even && first.rhoA == second.rhoA && first.stiffness.EA == second.stiffness.EA &&
                     first.stiffness.EI == second.stiffness.EI && one.beam.strain_law == other.beam.strain_law;
   constexpr double rounding = 1e-9;
   const Vec<double, D> slope = vector_of<D>(node_of_whole(whole, a)[1]),

@@ -77,7 +77,7 @@ void add_to(std::function<Value(double t)>& sum, const std::function<Value(doubl
 template <int D>
 BeamLoads<D> build_loads(const Scene& scene) {
   BeamLoads<D> result;
-  if (scene.fluid && scene.fluid->density > 0) {
+  if (scene.fluid && scene.fluid->density > 0 && scene.beam.sections.empty()) {
     const double area = scene.fluid->area.value_or(displaced_area(scene.beam.section));
     const Vec<double, D> lift = -scene.fluid->density * area * vector_of<D>(scene.gravity);
     const TimeFunction share = acting({.value = 1, .ramp = scene.gravity_ramp}, scene.analysis);

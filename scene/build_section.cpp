@@ -1,6 +1,7 @@
 #include "mechanics/spin/circular_shaft.hpp"
 #include "scene/build.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {
@@ -13,12 +14,12 @@ double shear_modulus(const Material& material) { return material.youngs_modulus 
 BeamSection build_section(const BeamSpec& beam) {
   const FrameSection bending = build_frames(beam);
   BeamSection section;
-  if (const auto sizes = sizes_of(beam.section)) {
+  if (const auto sizes = sizes_of(main_section(beam))) {
     const Material material = named(beam.material);
     section.rhoA = material.density * sizes->area;
     section.stiffness.EA = material.youngs_modulus * sizes->area;
   } else {
-    const Section of = with_stiffness(beam.section);
+    const Section of = with_stiffness(main_section(beam));
     section.rhoA = of.rhoA;
     section.stiffness.EA = of.EA;
   }
@@ -36,9 +37,9 @@ BeamSection build_section(const Scene& scene) {
 }
 
 FrameSection build_frames(const BeamSpec& beam) {
-  const auto sizes = sizes_of(beam.section);
+  const auto sizes = sizes_of(main_section(beam));
   if (!sizes) {
-    const Section section = with_stiffness(beam.section);
+    const Section section = with_stiffness(main_section(beam));
     return {section.EI_y.value_or(section.EI),
             section.EI_z.value_or(section.EI),
             section.GIp,
@@ -57,7 +58,7 @@ FrameSection build_frames(const BeamSpec& beam) {
 }
 
 SpinSection build_spin(const BeamSpec& beam) {
-  const Section& section = beam.section;
+  const Section& section = main_section(beam);
   if (section.type == Section::Type::circle) {
     const Material material = named(beam.material);
     return CircularShaft{.radius = section.radius,

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "scene/build.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 
 namespace vlbeam {
 namespace {
@@ -66,8 +67,7 @@ Axis<D> draw(const CurveSpec& curve) {
 }  // namespace
 
 bool is_rope(const BeamSpec& beam) {
-  const Section section = with_stiffness(beam.section);
-  return section.type == Section::Type::stiffness && section.EI_y.value_or(section.EI) == 0;
+  return std::ranges::all_of(sections_of(beam), [](const Section* section) { return is_rope_section(*section); });
 }
 
 template <int D>
@@ -98,7 +98,9 @@ bool may_have_corners(const CurveSpec& curve) {
 std::vector<Knot> knots(const Scene& scene) {
   std::vector<Knot> result;
   const bool corners = may_have_corners(scene.beam.curve);
-  if ((scene.point_masses.empty() && scene.loads.empty() && !corners) || !may_have_knots(scene)) return result;
+  const std::vector<double> changes = section_changes(scene.beam);
+  if (scene.point_masses.empty() && scene.loads.empty() && !corners && changes.empty()) return result;
+  if (!may_have_knots(scene)) return result;
   const bool rope = is_rope(scene.beam);
   const auto joints = sliding_joints(scene);
   const auto kinked = [](const SlidingJointSpec& joint) { return joint.slopes != JointSlopes::continuous; };
@@ -115,6 +117,9 @@ std::vector<Knot> knots(const Scene& scene) {
   for (const int node : masses) add(node);
   for (const LoadSpec& load : scene.loads) {
     if (rope && load.type == LoadType::force && load.at == LoadPlace::node) add(load.node);
+  }
+  if (rope) {
+    for (const double at : changes) add(static_cast<int>(std::ranges::lower_bound(x, at) - x.begin()));
   }
   if (rope && joints.empty()) {
     for (const double at : drawn.kinks()) add(static_cast<int>(std::ranges::lower_bound(x, at) - x.begin()));

@@ -28,9 +28,9 @@ constexpr double means_corner = 1e-2;
 /// a corner exactly that. Throws InvalidInput for a corner that is not there.
 void place_at_corners(Scene& scene);
 
-/// A node of a rope with two slopes, as at a joint that keeps its place. A lumped mass hangs there, a force acts, or
-/// the drawn axis has a corner that no joint could reach. Where joints with kinks slide along a beam that bends, its
-/// lumped masses stop them in the same way, with one slope.
+/// A node of a rope with two slopes, as at a joint that keeps its place. A lumped mass hangs there, a force acts, its
+/// section changes, or the drawn axis has a corner that no joint could reach. Where joints with kinks slide along a
+/// beam that bends, its lumped masses stop them in the same way, with one slope.
 struct Knot {
   int node;
   JointSlopes slopes;

@@ -8,6 +8,7 @@
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
 #include "scene/shared_checks.hpp"
+#include "scene/sections.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {
@@ -170,11 +171,12 @@ bool has_several_joints(const Scene& scene) {
 
 namespace {
 
-/// Whether nodes are moved to where point masses and supports are, off those of equal elements.
+/// Whether nodes are moved to where point masses, supports and changes of the section are, off those of equal elements.
 bool moves_nodes(const Scene& scene) {
   constexpr double rounding = 1e-9;  // of an element
   const auto is_off = [l = standard_length(scene)](double x) { return std::abs(x / l - std::round(x / l)) > rounding; };
-  return std::ranges::any_of(scene.bearings, [&](const BearingSpec& bearing) { return is_off(bearing.x); }) ||
+  return std::ranges::any_of(section_changes(scene.beam), is_off) ||
+         std::ranges::any_of(scene.bearings, [&](const BearingSpec& bearing) { return is_off(bearing.x); }) ||
          std::ranges::any_of(scene.point_masses,
                              [&](const PointMassSpec& mass) { return mass.position && is_off(*mass.position); });
 }

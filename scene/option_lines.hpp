@@ -64,6 +64,21 @@ struct OptionLines {
   void list(std::string_view pointer, std::string_view description, List& entries) {
     visitor.list(named({}, pointer, description), entries);
   }
+  /// The coefficients of a drag below the pointer `at`.
+  template <class Drag>
+  void drag_at(const std::string& at, Drag& drag) {
+    section(at + "/linear", "in proportion to the velocity");
+    section(at + "/quadratic", "in proportion to the square of the velocity");
+    const auto coefficient = [&](const std::string& pointer, std::string_view unit, std::string_view description,
+                                 auto& member) { number(pointer, unit, Range::non_negative(), description, member); };
+    coefficient(at + "/linear/normal", "N s/m^2", "of the velocity across the axis", drag.linear.normal);
+    coefficient(at + "/linear/tangential", "N s/m^2", "of the velocity along the axis", drag.linear.tangential);
+    coefficient(at + "/quadratic/normal", "N s^2/m^3",
+                "of the velocity across the axis: half the density of the air "
+                "times the coefficient of drag and the width",
+                drag.quadratic.normal);
+    coefficient(at + "/quadratic/tangential", "N s^2/m^3", "of the velocity along the axis", drag.quadratic.tangential);
+  }
   /// A function of time: value, rate, ... below the pointer `at`.
   template <class Function>
   void time_function(const std::string& at, const std::string& unit, Function& f, const Condition& when = {}) {

@@ -10,6 +10,7 @@
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 #include "scene/slack.hpp"
 #include "scene/vehicles.hpp"
 
@@ -52,7 +53,7 @@ void check_strain(const Scene& scene, const RunResult& result, std::vector<Warni
                         "/beam/material/damping takes waves out; the strain laws know no limit of the material"});
     return;
   }
-  const Section::Type type = scene.beam.section.type;
+  const Section::Type type = main_section(scene.beam).type;
   warnings.push_back({WarningKind::large_strain, message,
                       type == Section::Type::circle
                           ? "is /beam/material/youngs_modulus in Pa, and /beam/section/radius in m?"
@@ -71,8 +72,8 @@ void check_material(const Scene& scene, std::vector<Warning>& warnings) {
 }
 
 void check_section(const Scene& scene, std::vector<Warning>& warnings) {
-  if (scene.beam.section.type != Section::Type::circle) return;
-  const double radius = scene.beam.section.radius, length = standard_length(scene);
+  if (main_section(scene.beam).type != Section::Type::circle) return;
+  const double radius = main_section(scene.beam).radius, length = standard_length(scene);
   if (radius > length) {
     warnings.push_back(
         {WarningKind::thick_elements,

@@ -12,6 +12,7 @@
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 
 namespace vlbeam {
 namespace {
@@ -245,7 +246,7 @@ void add_section_forces(Quantities& q, const Scene& scene) {
   if (has_frames(scene)) {
     both("torque", "N m", "torque along the beam, about its axis, right-handed", &SectionSample::torque);
   }
-  if (!has_sizes(scene.beam.section.type)) return;
+  if (!knows_stress(scene.beam)) return;
   number("stress", "max", "Pa", "largest stress along the beam, its magnitude: of axial force and bending",
          &SectionSample::stress, &AlongBeam::largest);
   number("stress", "x_max", "m", "material coordinate of the largest", &SectionSample::stress, &AlongBeam::at_largest);
@@ -302,7 +303,7 @@ void add_places(Quantities& q, const Scene& scene) {
     if (bends && !has_frames(scene)) force("shear_force", "N", "as along the beam", &SectionForce::shear);
     if (bends) force("bending_moment", "N m", "as along the beam", &SectionForce::moment);
     if (has_frames(scene)) force("torque", "N m", "about the axis, right-handed", &SectionForce::torque);
-    if (has_sizes(scene.beam.section.type)) {
+    if (knows_stress(scene.beam)) {
       force("stress", "Pa", "largest magnitude in the section, of axial force and bending", &SectionForce::stress);
     }
   }

@@ -156,10 +156,29 @@ enum class SpaceLaw {
   scalar,  ///< by the size of its curvature, whatever way it bends
 };
 
+/// Force per unstretched length against the velocity of the beam in still air, across and along its axis.
+struct DragSpec {
+  struct Coefficients {
+    double normal = 0, tangential = 0;
+  };
+
+  Coefficients linear = {};     ///< over the velocity [N s/m^2]
+  Coefficients quadratic = {};  ///< over its square [N s^2/m^3]
+};
+
+/// A piece of a beam that has several sections.
+struct BeamPieceSpec {
+  std::optional<double> to = {};      ///< material coordinate where it ends [m]; the last one's may be left out
+  Section section;                    ///< of the beam's material
+  std::optional<double> area = {};    ///< displaced per length [m^2], of a section that does not say it
+  std::optional<DragSpec> drag = {};  ///< in place of the scene's
+};
+
 /// The beam: its initial axis, section and material, and how it is divided into elements.
 struct BeamSpec {
   CurveSpec curve;
-  Section section;
+  Section section;                           ///< all along, where there are no `sections`
+  std::vector<BeamPieceSpec> sections = {};  ///< in order
   Material material;
   int elements = 20;
   ElementKind element = ElementKind::ale_rancf;
@@ -377,16 +396,6 @@ struct LoadSpec {
   Point direction{0, 1, 0};  ///< force, or axis of a moment in space; need not have unit length
   bool follows = false;      ///< moment in space: it turns with the section
   TimeSpec turn;             ///< force: angle by which the direction has turned about the initial axis [rad]
-};
-
-/// Force per unstretched length against the velocity of the beam in still air, across and along its axis.
-struct DragSpec {
-  struct Coefficients {
-    double normal = 0, tangential = 0;
-  };
-
-  Coefficients linear = {};     ///< over the velocity [N s/m^2]
-  Coefficients quadratic = {};  ///< over its square [N s^2/m^3]
 };
 
 /// The fluid around the beam.

@@ -227,21 +227,7 @@ struct SceneOptions : OptionLines<Visitor, SceneT> {
 
   void drag() {
     if (present("/drag", "of still air: a force per unstretched length against the beam's velocity", scene.drag)) {
-      auto& drag = *scene.drag;
-      const auto coefficient = [&](std::string_view pointer, std::string_view unit, std::string_view description,
-                                   auto& member) {
-        this->number(pointer, unit, Range::non_negative(), description, member);
-      };
-      section("/drag/linear", "in proportion to the velocity");
-      section("/drag/quadratic", "in proportion to the square of the velocity");
-      coefficient("/drag/linear/normal", "N s/m^2", "of the velocity across the axis", drag.linear.normal);
-      coefficient("/drag/linear/tangential", "N s/m^2", "of the velocity along the axis", drag.linear.tangential);
-      coefficient("/drag/quadratic/normal", "N s^2/m^3",
-                  "of the velocity across the axis: half the density of the air "
-                  "times the coefficient of drag and the width",
-                  drag.quadratic.normal);
-      coefficient("/drag/quadratic/tangential", "N s^2/m^3", "of the velocity along the axis",
-                  drag.quadratic.tangential);
+      this->drag_at("/drag", *scene.drag);
     }
   }
 

@@ -130,6 +130,11 @@ Section with_stiffness(const Section& section) {
   return {.type = Section::Type::stiffness, .EA = line.EA * d2, .EI = 0, .rhoA = line.rhoA * d2};
 }
 
+bool is_rope_section(const Section& section) {
+  const Section given = with_stiffness(section);
+  return given.type == Section::Type::stiffness && given.EI_y.value_or(given.EI) == 0;
+}
+
 Material named(const Material& material) {
   Material result = material;
   const auto set = [&result](double density, double E, double nu) {
@@ -169,14 +174,16 @@ std::string section_in_words(const BeamSpec& beam) {
 }
 
 BeamSpec with_mass(BeamSpec beam, double factor) {
-  if (has_sizes(beam.section.type)) {
-    beam.material = named(beam.material);
-    beam.material.name = MaterialName::own;
-    beam.material.density *= factor;
-  } else {
-    beam.section = with_stiffness(beam.section);
-    beam.section.rhoA *= factor;
-  }
+  beam.material = named(beam.material);
+  beam.material.name = MaterialName::own;
+  beam.material.density *= factor;
+  const auto enlarge = [factor](Section& section) {
+    if (has_sizes(section.type)) return;  // by its density
+    section = with_stiffness(section);
+    section.rhoA *= factor;
+  };
+  enlarge(beam.section);
+  for (BeamPieceSpec& piece : beam.sections) enlarge(piece.section);
   return beam;
 }
 

@@ -31,6 +31,9 @@ inline bool displaces(Section::Type type) {
 /// That, per length [m^2].
 double displaced_area(const Section& section);
 
+/// Whether it does not resist bending.
+bool is_rope_section(const Section& section);
+
 /// The stiffnesses and the mass of a rope or a chain, by its diameter; any other section as it is.
 Section with_stiffness(const Section& section);
 

@@ -8,6 +8,7 @@
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 
 namespace vlbeam {
 namespace {
@@ -47,9 +48,15 @@ SectionForces<D>::SectionForces(const Scene& scene, const Configuration& shape)
       axial_(elements_.count()),
       broken_(shape.x.size(), false),
       loaded_(elements_.count(), false) {
-  if (const auto sizes = sizes_of(scene.beam.section)) {
-    area_ = sizes->area;
-    modulus_ = {area_ * sizes->i2_y / sizes->half_z, area_ * sizes->i2_z / sizes->half_y};
+  if (knows_stress(scene.beam)) {
+    for (std::size_t k = 0; k < elements_.count(); ++k) {
+      const SectionSizes sizes = *sizes_of(section_at(scene.beam, (shape.x[k] + shape.x[k + 1]) / 2));
+      moduli_.push_back({sizes.area, sizes.area * sizes.i2_y / sizes.half_z, sizes.area * sizes.i2_z / sizes.half_y});
+    }
+  }
+  for (const double at : section_changes(scene.beam)) {  // the curvature jumps there
+    const auto node = std::ranges::min_element(shape.x, {}, [at](double x) { return std::abs(x - at); });
+    broken_[static_cast<std::size_t>(node - shape.x.begin())] = true;
   }
   broken_.front() = broken_.back() = true;
   for (const Configuration::Action& action : shape.actions) {
@@ -83,7 +90,7 @@ void SectionForces<D>::look_at(const Element& element) {
   for (std::size_t g = 0; g < 2; ++g) {
     const auto at = point(element, gauss[g]);
     stretches_[k][g] = std::sqrt(at.r_x.dot(at.r_x));
-    points_[k][g] = elements_.section().bends() && !frames_ ? moment_at(element, at) : Moment(Moment::Zero());
+    points_[k][g] = elements_.section().bends() && !frames_ ? moment_at(element, gauss[g], at) : Moment(Moment::Zero());
   }
   if (elements_.samples_axially()) {
     for (std::size_t n = 0; n < 3; ++n) axial_[k][n] = element.sampled[n].force.largest;
@@ -91,15 +98,15 @@ void SectionForces<D>::look_at(const Element& element) {
   }
   double mean = 0;
   for (std::size_t n = 0; n < 3; ++n) {
-    mean += mean_shares[n] * elements_.strains(element, point(element, mean_points[n])).force.largest;
+    mean += mean_shares[n] * elements_.strains(element, mean_points[n], point(element, mean_points[n])).force.largest;
   }
   axial_[k].fill(mean);
 }
 
 template <int D>
-typename SectionForces<D>::Moment SectionForces<D>::moment_at(const Element& element,
+typename SectionForces<D>::Moment SectionForces<D>::moment_at(const Element& element, double u,
                                                               const typename ShapeElements<D>::Point& at) const {
-  const BeamSection& section = elements_.section();
+  const BeamSection section = elements_.section_at(element.x(u));
   const auto curvature_of = [&section](const Vec<double, D>& r_x, const Vec<double, D>& r_xx) -> Vec<double, 3> {
     const double squared = r_x.dot(r_x), scale = section.stiffness.green() ? squared * std::sqrt(squared) : squared;
     return in_space<D>(r_x).cross(in_space<D>(r_xx)) / scale;
@@ -253,11 +260,12 @@ SectionForce SectionForces<D>::bending(std::size_t k, double u, const Recovered&
 }
 
 template <int D>
-void SectionForces<D>::add_stress(SectionForce& force, const Recovered& moment) const {
+void SectionForces<D>::add_stress(std::size_t k, SectionForce& force, const Recovered& moment) const {
   if (!has_stress()) return;
-  const double bent = frames_ ? std::abs(moment.value[0]) / modulus_[0] + std::abs(moment.value[1]) / modulus_[1]
-                              : std::abs(force.moment) / modulus_[0];
-  force.stress = std::abs(force.axial) / area_ + bent;
+  const Moduli& of = moduli_[k];
+  const double bent =
+      frames_ ? std::abs(moment.value[0]) / of.y + std::abs(moment.value[1]) / of.z : std::abs(force.moment) / of.y;
+  force.stress = std::abs(force.axial) / of.area + bent;
 }
 
 template <int D>
@@ -265,7 +273,7 @@ SectionForce SectionForces<D>::at(std::size_t k, double u) const {
   const Recovered moment = recovered(k, u, u);
   SectionForce force = bending(k, u, moment);
   force.axial = axial(k, u);
-  add_stress(force, moment);
+  add_stress(k, force, moment);
   return force;
 }
 
@@ -307,7 +315,7 @@ typename SectionForces<D>::Extremes SectionForces<D>::extremes() const {
     SectionForce force = bending(k, u, moment);
     const double x = x_at(k, u);
     force.axial = axial(k, u);
-    add_stress(force, moment);
+    add_stress(k, force, moment);
     add(extremes.axial, force.axial, x);
     add(extremes.stress, force.stress, x);
     add(extremes.moment, force.moment, x);

@@ -37,7 +37,7 @@ class SectionForces {
   };
   Extremes extremes() const;
   /// Whether the section has sizes, so that there is a stress.
-  bool has_stress() const { return area_ > 0; }
+  bool has_stress() const { return !moduli_.empty(); }
 
  private:
   using Moment = Vec<double, 3>;  ///< signed in the plane: the last one; of frames about y, z and the tangent
@@ -53,7 +53,8 @@ class SectionForces {
 
   void look_at(const Element& element);
   typename ShapeElements<D>::Point point(const Element& element, double u) const;
-  Moment moment_at(const Element& element, const typename ShapeElements<D>::Point& at) const;
+  /// At u.
+  Moment moment_at(const Element& element, double u, const typename ShapeElements<D>::Point& at) const;
   /// At u of element k, by the cubic of the half in which `towards` is.
   Recovered recovered(std::size_t k, double u, double towards) const;
   /// Takes out of the moments at Gauss points what the cubics of their elements err there.
@@ -63,7 +64,7 @@ class SectionForces {
   void add_clamped(std::size_t k, double u, Recovered& moment) const;
   /// But for the axial force.
   SectionForce bending(std::size_t k, double u, const Recovered& moment) const;
-  void add_stress(SectionForce& force, const Recovered& moment) const;
+  void add_stress(std::size_t k, SectionForce& force, const Recovered& moment) const;
   std::size_t element_before(double x) const;
   double x_at(std::size_t k, double u) const { return shape_.x[k] + u * (shape_.x[k + 1] - shape_.x[k]); }
 
@@ -75,8 +76,10 @@ class SectionForces {
   std::vector<std::array<double, 3>> axial_;      ///< at start, middle and end; of unsampled strain the mean [N]
   std::vector<bool> broken_, loaded_;             ///< nodes over which no cubic goes; elements in which something acts
   std::vector<Inside> inside_;
-  double area_ = 0;                  ///< [m^2]
-  std::array<double, 2> modulus_{};  ///< of the section about its axes y and z [m^3]
+  struct Moduli {
+    double area, y, z;  ///< [m^2], of the section about its axes y and z [m^3]
+  };
+  std::vector<Moduli> moduli_;  ///< of elements, by the section in their middle
 };
 
 extern template class SectionForces<2>;

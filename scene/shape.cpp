@@ -25,7 +25,7 @@ std::vector<ShapePoint> points_in(const Scene& scene, const Configuration& shape
       point.r = point_of<D>(at.r);
       point.r_x = point_of<D>(at.r_x);
       point.v = point_of<D>(at.v);
-      const StrainExtremes here = elements.strains(element, at);
+      const StrainExtremes here = elements.strains(element, u, at);
       point.curvature = here.curvature;
       const auto axial = elements.axial(element, u, here);
       point.strain = axial.strain;

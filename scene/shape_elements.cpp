@@ -8,9 +8,12 @@
 #include "scene/build_flow.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
+#include "scene/sections.hpp"
 
 namespace vlbeam {
 namespace {
+
+constexpr double at_end = 1e-9;  // of an element: where its section is its own, and not its neighbour's
 
 void check(const Configuration& shape) {
   const std::size_t nodes = shape.x.size();
@@ -28,6 +31,7 @@ template <int D>
 ShapeElements<D>::ShapeElements(const Scene& scene, const Configuration& shape)
     : shape_(shape),
       section_(build_section(scene)),
+      pieces_(build_pieces(scene)),
       transport_(weight_transport(scene)),
       curved_(has_rest_shape(scene)),
       sampled_(axial_strain(scene) == AxialStrain::lobatto),
@@ -84,21 +88,23 @@ typename ShapeElements<D>::Element ShapeElements<D>::element(std::size_t k) cons
   if (sampled_) {
     for (std::size_t n = 0; n < 3; ++n) {
       const double u = 0.5 * static_cast<double>(n);
-      result.sampled[n] = strains(result, section_.damping > 0 ? result.at(u) : result.bent(u));
+      result.sampled[n] = strains(result, u, section_.damping > 0 ? result.at(u) : result.bent(u));
     }
   }
   return result;
 }
 
 template <int D>
-StrainExtremes ShapeElements<D>::strains(const Element& element, const Point& at) const {
+StrainExtremes ShapeElements<D>::strains(const Element& element, double u, const Point& at) const {
   StrainExtremes strains;
+  const double x_a = element.x(0), x_b = element.x(1), inside = std::clamp(u, at_end, 1 - at_end);
+  const BeamSection section = section_at(x_a + inside * (x_b - x_a));
   if (element.rest) {
     const auto from =
         rest_strain<D>(combine_nodes(at.s_x, *element.rest), combine_nodes(at.s_xx, *element.rest), section_);
-    strains.add(section_, at, &from);
+    strains.add(section, at, &from);
   } else {
-    strains.add(section_, at, nullptr);
+    strains.add(section, at, nullptr);
   }
   return strains;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/element/moving_kinematics.hpp"
+#include "core/element/section_pieces.hpp"
 #include "core/element/strain_extremes.hpp"
 #include "scene/result.hpp"
 #include "scene/scene.hpp"
@@ -36,18 +37,21 @@ class ShapeElements {
   ShapeElements(const Scene& scene, const Configuration& shape);
 
   std::size_t count() const { return shape_.x.size() - 1; }
+  /// The model's: of all of the beam, or that of which its sections are shares.
   const BeamSection& section() const { return section_; }
+  BeamSection section_at(double x) const { return pieces_.empty() ? section_ : pieces_.at(x).of(section_); }
   /// Whether the axial strain is summed at start, middle and end of an element.
   bool samples_axially() const { return sampled_; }
   Element element(std::size_t k) const;
-  /// As the strain law measures them, from the rest shape.
-  StrainExtremes strains(const Element& element, const Point& at) const;
+  /// At u, as the strain law measures them, from the rest shape.
+  StrainExtremes strains(const Element& element, double u, const Point& at) const;
   /// At u, where strains() is known: by the parabola through the points at which the axial strain is sampled.
   Axial axial(const Element& element, double u, const StrainExtremes& there) const;
 
  private:
   const Configuration& shape_;
   BeamSection section_;
+  SectionPieces pieces_;
   WeightTransport transport_;
   bool curved_, sampled_;
   Configuration::Rest rest_;

@@ -7,6 +7,7 @@
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
+#include "scene/sections.hpp"
 #include "scene/time_function.hpp"
 
 namespace vlbeam {
@@ -78,11 +79,11 @@ Compression compression(const Scene& scene) {
 
 double slack_over(const Scene& scene) {
   if (scene.beam.slack_over) return *scene.beam.slack_over;
-  const BeamSection section = build_section(scene.beam);
-  const double g = size(scene.gravity), own = section.rhoA * beam_length(scene) * g;
+  const double g = size(scene.gravity), length = beam_length(scene);
+  const double own = mean_mass(scene.beam, length) * length * g;
   const double all = own + lumped_mass(scene) * g + applied(scene);
   const double share = is_loaded_gently(scene) ? of_what_grows : of_everything;
-  return all > 0 ? std::min(share * all / section.stiffness.EA, at_most) : without_loads;
+  return all > 0 ? std::min(share * all / stiffest_EA(scene.beam), at_most) : without_loads;
 }
 
 bool has_bare_end(const Scene& scene) {

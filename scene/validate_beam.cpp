@@ -11,6 +11,7 @@
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {
@@ -44,11 +45,11 @@ void check_knots(const Scene& scene) {
 /// Quantities whose squares and products must not leave the range of numbers.
 bool of_usual_size(double value) { return value > 1 / largest_quantity && value < largest_quantity; }
 
-/// Walls that leave something hollow.
-void check_walls(const Section& section) {
-  const auto at_most = [](const char* key, double value, double most, const char* of) {
+/// Walls that leave something hollow. `at` is the key of the section.
+void check_walls(const Section& section, const std::string& key) {
+  const auto at_most = [&key](const char* wall, double value, double most, const char* of) {
     if (value < most) return;
-    refuse(std::string("/beam/section/") + key, number_text(value),
+    refuse(key + "/" + wall, number_text(value),
            "it must be less than " + std::string(of) + ", " + number_text(most) + " m");
   };
   if (section.type == Section::Type::tube) at_most("wall", section.wall, section.radius, "the radius");
@@ -59,9 +60,9 @@ void check_walls(const Section& section) {
   at_most("web", section.web, section.width, "the width");
 }
 
-void check_sizes(const Scene& scene) {
-  const BeamSpec& beam = scene.beam;
-  check_walls(beam.section);
+/// Of a beam that has the section with that key all along.
+void check_sizes(const BeamSpec& beam, const std::string& key) {
+  check_walls(beam.section, key);
   const bool solid = has_sizes(beam.section.type);
   const BeamSection section = build_section(beam);
   const auto check = [&](const char* name, double value) {
@@ -69,19 +70,27 @@ void check_sizes(const Scene& scene) {
     const std::string bounds = "it must be between 1e-100 and 1e100";
     if (!solid) {
       const bool given = beam.section.type == Section::Type::stiffness;
-      refuse(given ? std::string("/beam/section/") + name : "/beam/section/diameter",
-             number_text(given ? value : beam.section.diameter), bounds);
+      refuse(key + "/" + (given ? name : "diameter"), number_text(given ? value : beam.section.diameter), bounds);
     }
     const bool circle = beam.section.type == Section::Type::circle || beam.section.type == Section::Type::tube;
     const Material material = named(beam.material);
-    refuse(circle ? "/beam/section/radius" : "/beam/section/height",
-           number_text(circle ? beam.section.radius : beam.section.height),
+    refuse(key + (circle ? "/radius" : "/height"), number_text(circle ? beam.section.radius : beam.section.height),
            "with /beam/material/density = " + number_text(material.density) + " and youngs_modulus = " +
                number_text(material.youngs_modulus) + " it makes " + name + " = " + number_text(value) + "; " + bounds);
   };
   check("rhoA", section.rhoA);
   check("EA", section.stiffness.EA);
   if (solid || section.stiffness.EI > 0) check("EI", section.stiffness.EI);
+}
+
+void check_sections(const BeamSpec& beam) {
+  if (beam.sections.empty()) return check_sizes(beam, "/beam/section");
+  for (std::size_t i = 0; i < beam.sections.size(); ++i) {
+    BeamSpec piece = beam;
+    piece.section = beam.sections[i].section;
+    piece.sections.clear();
+    check_sizes(piece, "/beam/sections/" + std::to_string(i) + "/section");
+  }
 }
 
 /// Each piece of a drawn axis with corners needs an element.
@@ -281,8 +290,9 @@ void check_beam(const Scene& scene) {
 }  // namespace
 
 void validate_beam(const Scene& scene) {
-  check_sizes(scene);
+  check_sections(scene.beam);
   check_curve(scene);
+  validate_sections(scene);
   check_beam(scene);
 }
 

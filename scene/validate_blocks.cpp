@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "scene/derived.hpp"
 #include "scene/model_errors.hpp"
 #include "scene/options.hpp"
 

@@ -131,13 +131,26 @@ void check_fluid(const Scene& scene) {
   if (fluid.velocity != Point{} && flows(scene)) {
     refuse("/fluid/velocity", "this key", "it goes together with neither /flow nor rotary inertia");
   }
+  if (scene.dimension == 2 && fluid.velocity[2] != 0) {
+    refuse("/fluid/velocity/2", number_text(fluid.velocity[2]), "a planar scene has two components");
+  }
+  const auto& pieces = scene.beam.sections;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::string at = "/beam/sections/" + std::to_string(i) + "/area";
+    if (displaces(pieces[i].section.type)) {
+      if (pieces[i].area) refuse(at, "this key", "the section has its own: leave it out");
+    } else if (fluid.density > 0 && !pieces[i].area) {
+      refuse(at, InvalidInput::missing, "in a fluid with a density it must be given for such a section, > 0 [m^2]");
+    }
+  }
+  if (!pieces.empty()) {
+    if (fluid.area) refuse("/fluid/area", "this key", "the pieces of /beam/sections have their own: leave it out");
+    return;
+  }
   const bool known = displaces(scene.beam.section.type);
   if (known && fluid.area) refuse("/fluid/area", "this key", "the section has its own: leave it out");
   if (!known && fluid.density > 0 && !fluid.area) {
     refuse("/fluid/area", InvalidInput::missing, "with a density and such a section it must be given, > 0 [m^2]");
-  }
-  if (scene.dimension == 2 && fluid.velocity[2] != 0) {
-    refuse("/fluid/velocity/2", number_text(fluid.velocity[2]), "a planar scene has two components");
   }
 }
 

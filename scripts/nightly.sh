@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The checks that take too long for each change, one after another; all run, whatever fails. What was found stands in
 # build-nightly/: a log for each, and last.txt, which .ci/run repeats.
-#   scripts/nightly.sh [STAGE...]   sanitizers, fuzzing, mutants, documents, studies (default: all)
+#   scripts/nightly.sh [STAGE...]   sanitizers, fuzzing, mutants, documents, studies, trust (default: all)
 set -uo pipefail
 cd "$(dirname "$0")/.."
 out=build-nightly
@@ -25,12 +25,20 @@ studies() {  # anew, and no byte of the committed reports differs
   done)
   [[ -z $differ ]] || { echo "reports differ from those that are committed:" $differ; return 1; }
 }
+trust() {  # all scenes of the study, of which its report has every fourth
+  make build || return 1
+  rm -rf $out/trust
+  mkdir $out/trust
+  cp -r studies reference $out/trust/
+  echo '{"every": 1, "fine_every": 12, "first": 2}' > $out/trust/studies/trust/study.full.json
+  build/vlbeam study trust --studies $out/trust/studies --out $out/trust/reports --jobs "$jobs"
+}
 
 scripts/packages.sh ci || exit 1
 failed=0
 {
   echo "$(date -u '+%F %R'), commit $(git rev-parse --short HEAD)"
-  for stage in "${@:-sanitizers fuzzing mutants documents studies}"; do
+  for stage in "${@:-sanitizers fuzzing mutants documents studies trust}"; do
     for name in $stage; do
       SECONDS=0
       verdict=passed

@@ -14,13 +14,17 @@ namespace {
 // What a pack's forces or inertia, and its tangents, cost, in numbers to be copied: where pieces of a span are to end.
 constexpr std::ptrdiff_t cost_of_forces = 8 * Pack::width, cost_of_tangents = 16 * Pack::width;
 
-/// Gives all elements of a pack as many points: those of fewer repeat their last one, with zero weight.
+/// Gives all elements of a pack as many points of either kind: those of fewer repeat their last one, with zero weight.
 void even_out(std::vector<FixedBasis<double>>& lanes) {
-  const auto most = std::ranges::max(lanes, {}, [](const auto& basis) { return basis.points.size(); }).points.size();
-  for (FixedBasis<double>& basis : lanes) {
-    FixedBasis<double>::Point last = basis.points.back();
-    last.weight = 0;
-    basis.points.resize(most, last);
+  for (const auto kind : {&FixedBasis<double>::points, &FixedBasis<double>::stretch}) {
+    std::size_t most = 0;
+    for (const FixedBasis<double>& basis : lanes) most = std::max(most, (basis.*kind).size());
+    for (FixedBasis<double>& basis : lanes) {
+      if ((basis.*kind).size() == most) continue;
+      FixedBasis<double>::Point last = (basis.*kind).back();
+      last.weight = 0;
+      (basis.*kind).resize(most, last);
+    }
   }
 }
 
@@ -87,17 +91,17 @@ const SpanKernels<D>& span_kernels() {
 }
 
 template <int D>
-Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
+Span<D>::Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSections& sections,
               const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses, Span* before,
               int unchanged)
     : outer_(outer),
       open_(open),
       step_(outer <= open ? 1 : -1),
       support_(support),
-      section_(section),
+      section_(sections.own),
       curved_at_rest_(rest != nullptr) {
   const int known = before != nullptr ? take_over(*before, unchanged) : 0;
-  build_packs(mesh, rules, rest, masses);
+  build_packs(mesh, rules, sections.pieces, rest, masses);
   factor(known);
 }
 
@@ -121,24 +125,27 @@ int Span<D>::take_over(Span& before, int unchanged) {
 }
 
 template <int D>
-void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest,
+void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const SectionPieces& pieces, const double* rest,
                           const std::vector<PointMass>& masses) {
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(mesh.x.back());
   auto length = [&](int k) { return mesh.x[static_cast<std::size_t>(k) + 1] - mesh.x[static_cast<std::size_t>(k)]; };
   std::shared_ptr<const PackTables> uniform;  // equal lengths and unit weights share one table
   double uniform_length = 0;
+  const SectionShare* uniform_share = nullptr;
   const auto bears_mass = [&](int k) {
     return std::any_of(masses.begin(), masses.end(),
                        [&](const PointMass& point) { return mesh.element_at(point.x) == k; });
   };
   for (int done = static_cast<int>(packs_.size()) * Pack::width; done < this->count(); done += Pack::width) {
     const int count = std::min(Pack::width, this->count() - done), first = first_of(done / Pack::width, count);
-    bool is_uniform = count == Pack::width && rest == nullptr;
+    const double start = mesh.x[static_cast<std::size_t>(first)], end = mesh.x[static_cast<std::size_t>(first + count)];
+    const SectionShare* const share = pieces.empty() ? nullptr : &pieces.at((start + end) / 2);
+    bool is_uniform = count == Pack::width && rest == nullptr && !pieces.change_between(start, end);
     for (int k = first; k < first + count; ++k) {
       is_uniform = is_uniform && mesh.weights[static_cast<std::size_t>(k)].w == unit_weights &&
                    std::abs(length(k) - length(first)) <= rounding && !bears_mass(k);
     }
-    if (is_uniform && uniform && std::abs(length(first) - uniform_length) <= rounding) {
+    if (is_uniform && uniform && share == uniform_share && std::abs(length(first) - uniform_length) <= rounding) {
       packs_.push_back({first, count, uniform});
       continue;
     }
@@ -147,8 +154,9 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double
     for (int k = first; k < first + count; ++k) {
       const auto& weights = mesh.weights[static_cast<std::size_t>(k)].w;
       const BeamRule& rule = rules.of(weights);
-      lanes.push_back(fixed_basis(length(k), weights, rule));
-      FixedInertia inertia = fixed_inertia(length(k), weights, rule);
+      const double a = mesh.x[static_cast<std::size_t>(k)], b = mesh.x[static_cast<std::size_t>(k) + 1];
+      lanes.push_back(fixed_basis(a, b, weights, rule, pieces));
+      FixedInertia inertia = fixed_inertia(a, b, weights, rule, pieces);
       for (auto& row : inertia.mass) {
         for (double& entry : row) entry *= section_.rhoA;
       }
@@ -170,6 +178,7 @@ void Span<D>::build_packs(const Mesh& mesh, const BeamRules& rules, const double
     if (is_uniform) {
       uniform = tables;
       uniform_length = length(first);
+      uniform_share = share;
     }
   }
 }

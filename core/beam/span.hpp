@@ -26,7 +26,7 @@ class Span {
   /// a mass matrix that is not positive definite (too few quadrature points).
   /// `before`, a span of the same beam on another mesh, gives away what holds for its first `unchanged` elements,
   /// counted from the outer node, which are as they were there, rest shapes included: the cost is that of the others.
-  Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSection& section,
+  Span(const Mesh& mesh, int outer, int open, const Support<D>& support, const BeamSections& sections,
        const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses = {}, Span* before = nullptr,
        int unchanged = 0);
 
@@ -106,13 +106,14 @@ class Span {
   }
   /// Takes from `before` what goes on to hold; returns for how many elements.
   int take_over(Span& before, int unchanged);
-  void build_packs(const Mesh& mesh, const BeamRules& rules, const double* rest, const std::vector<PointMass>& masses);
+  void build_packs(const Mesh& mesh, const BeamRules& rules, const SectionPieces& pieces, const double* rest,
+                   const std::vector<PointMass>& masses);
   void factor(int known);
   void add_pivot(const Pivot& pivot, int node);
 
   int outer_, open_, step_;  ///< step_ is +1 or -1: from the outer node towards the open one
   Support<D> support_;
-  BeamSection section_;
+  BeamSection section_;  ///< the beam's own: pieces of others are in the tables of their elements
   bool curved_at_rest_;
   std::vector<PackOfElements> packs_;
   std::vector<PivotRun> runs_;  ///< without the open node

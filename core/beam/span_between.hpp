@@ -14,15 +14,15 @@ class SpanBetween {
  public:
   using Coupling = CouplingBlock<double>;
 
-  SpanBetween(const Mesh& mesh, int low, int high, const BeamSection& section, const BeamRules& rules,
+  SpanBetween(const Mesh& mesh, int low, int high, const BeamSections& sections, const BeamRules& rules,
               const double* rest, const std::vector<PointMass>& masses)
-      : span_(mesh, low, high, low == high ? Support<D>::free_end() : Support<D>::clamp(), section, rules, rest,
+      : span_(mesh, low, high, low == high ? Support<D>::free_end() : Support<D>::clamp(), sections, rules, rest,
               masses),
         low_(low),
         high_(high),
         low_low_{0, 0, 0, 0},
         low_high_{0, 0, 0, 0} {
-    if (low < high) respond(mesh, section, rules, masses);
+    if (low < high) respond(mesh, sections, rules, masses);
   }
 
   const Span<D>& span() const { return span_; }
@@ -63,12 +63,13 @@ class SpanBetween {
  private:
   /// The accelerations that a unit one of `low` (its position in the first component, its slope in the second) makes
   /// of the inner nodes while `high` rests, and the forces that this takes.
-  void respond(const Mesh& mesh, const BeamSection& section, const BeamRules& rules,
+  void respond(const Mesh& mesh, const BeamSections& sections, const BeamRules& rules,
                const std::vector<PointMass>& masses) {
     const auto e = static_cast<std::size_t>(low_);
-    auto mass = fixed_inertia(mesh.x[e + 1] - mesh.x[e], mesh.weights[e].w, rules.of(mesh.weights[e].w)).mass;
+    const auto& weights = mesh.weights[e].w;
+    auto mass = fixed_inertia(mesh.x[e], mesh.x[e + 1], weights, rules.of(weights), sections.pieces).mass;
     for (auto& row : mass) {
-      for (double& entry : row) entry *= section.rhoA;
+      for (double& entry : row) entry *= sections.own.rhoA;
     }
     add_point_masses(masses, mesh, low_, mass);
     std::vector<double> nodal(static_cast<std::size_t>(node_size<D>) * static_cast<std::size_t>(high_ + 1), 0.0);

@@ -1,5 +1,7 @@
 #include "core/element/fixed_element.hpp"
 
+#include <cmath>
+
 namespace vlbeam {
 namespace {
 
@@ -21,7 +23,50 @@ FixedInertia inertia_by(const Rule& rule, double l, const Weights<double>& w) {
   return inertia;
 }
 
+/// The points of a rule on each piece of an element, those of the axial strain behind all others, with the shares of
+/// the section there.
+struct PiecewiseRule {
+  BeamRule rule;
+  std::vector<SectionShare> shares;
+
+  PiecewiseRule(double a, double b, const BeamRule& on_each, const SectionPieces& pieces) {
+    for (const bool stretch : {false, true}) {
+      pieces.visit(a, b, [&](const SectionPieces::Stretch& piece) {
+        const double from = (piece.low - a) / (b - a), size = (piece.high - piece.low) / (b - a);
+        for (const auto& [u, weight, feels] : on_each) {
+          if ((feels == Feels::stretch) != stretch) continue;
+          rule.push_back({from + u * size, weight * size, feels});
+          shares.push_back(*piece.share);
+        }
+      });
+    }
+  }
+};
+
 }  // namespace
+
+FixedBasis<double> fixed_basis(double a, double b, const Weights<double>& w, const BeamRule& rule,
+                               const SectionPieces& pieces) {
+  if (pieces.empty()) return fixed_basis(b - a, w, rule);
+  const PiecewiseRule piecewise(a, b, rule, pieces);
+  FixedBasis<double> basis = fixed_basis(b - a, w, piecewise.rule);
+  const auto scale = [](FixedBasis<double>::Point& point, const SectionShare& share) {
+    point.weight *= share.axial;
+    for (double& s_xx : point.s_xx) s_xx *= std::sqrt(share.bending / share.axial);
+  };
+  auto share = piecewise.shares.begin();
+  for (auto& point : basis.points) scale(point, *share++);
+  for (auto& point : basis.stretch) scale(point, *share++);
+  return basis;
+}
+
+FixedInertia fixed_inertia(double a, double b, const Weights<double>& w, const BeamRule& rule,
+                           const SectionPieces& pieces) {
+  if (pieces.empty()) return fixed_inertia(b - a, w, rule);
+  PiecewiseRule piecewise(a, b, rule, pieces);
+  for (std::size_t g = 0; g < piecewise.rule.size(); ++g) piecewise.rule[g].weight *= piecewise.shares[g].mass;
+  return fixed_inertia(b - a, w, piecewise.rule);
+}
 
 FixedBasis<double> fixed_basis(double l, const Weights<double>& w, const BeamRule& rule) {
   FixedBasis<double> basis;

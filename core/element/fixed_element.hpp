@@ -5,7 +5,7 @@
 
 #include "core/element/beam_rule.hpp"
 #include "core/element/quadrature.hpp"
-#include "core/element/section.hpp"
+#include "core/element/section_pieces.hpp"
 #include "core/element/shape_functions.hpp"
 
 namespace vlbeam {
@@ -57,6 +57,13 @@ struct FixedInertiaOf {
 using FixedInertia = FixedInertiaOf<double>;
 
 FixedInertia fixed_inertia(double l, const Weights<double>& w, const BeamRule& rule);
+
+// Of the element from `a` to `b` of a beam whose sections change along it. As the beam's own section is felt: weights
+// of points, curvatures and masses have the share that the section there has of it.
+FixedBasis<double> fixed_basis(double a, double b, const Weights<double>& w, const BeamRule& rule,
+                               const SectionPieces& pieces);
+FixedInertia fixed_inertia(double a, double b, const Weights<double>& w, const BeamRule& rule,
+                           const SectionPieces& pieces);
 FixedInertia fixed_inertia(double l, const Weights<double>& w, const QuadratureRule& rule);
 
 /// Elastic and viscous forces of a fixed-length element on (r_A, s_A, r_B, s_B); that on r_B is minus that on r_A.

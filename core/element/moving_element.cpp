@@ -24,6 +24,11 @@ MovingEquations<double, D> MovingElement<double, D, Ends>::equations(const Coord
                                                                      const WeightFunction& weights,
                                                                      const ShapeTabulation& table,
                                                                      const MovingLaw<D>& law) {
+  if (law.pieces != nullptr) {
+    const MovingLaw<D> here = law_between(law, q.x_a, q.x_b);
+    if (here.pieces == nullptr) return equations(q, rate, weights, table, here);
+    return moving_sums<double, D, Ends>(q, rate, AtAnyAcceleration{}, weights, table, here);
+  }
   if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, AtAnyAcceleration{}, weights, table, law);
   return fastest_moving_kernels<D, Ends>().equations(q, rate, weights, table, law);
 }
@@ -33,6 +38,11 @@ MovingEquations<double, D> MovingElement<double, D, Ends>::forces(const Coordina
                                                                   const Coordinates& a, const WeightFunction& weights,
                                                                   const ShapeTabulation& table,
                                                                   const MovingLaw<D>& law) {
+  if (law.pieces != nullptr) {
+    const MovingLaw<D> here = law_between(law, q.x_a, q.x_b);
+    if (here.pieces == nullptr) return forces(q, rate, a, weights, table, here);
+    return moving_sums<double, D, Ends>(q, rate, a, weights, table, here);
+  }
   if (law.rest != nullptr) return moving_sums<double, D, Ends>(q, rate, a, weights, table, law);
   return fastest_moving_kernels<D, Ends>().forces(q, rate, a, weights, table, law);
 }
@@ -41,6 +51,11 @@ template <int D, MovingEnds Ends>
 MovingEquations<double, D> MovingElement<double, D, Ends>::masses(const Coordinates& q, const WeightFunction& weights,
                                                                   const ShapeTabulation& table,
                                                                   const MovingLaw<D>& law) {
+  if (law.pieces != nullptr) {
+    const MovingLaw<D> here = law_between(law, q.x_a, q.x_b);
+    if (here.pieces == nullptr) return masses(q, weights, table, here);
+    return mass_sums<double, D, Ends>(q, weights, table, here);
+  }
   return fastest_moving_kernels<D, Ends>().masses(q, weights, table, law);
 }
 

@@ -7,6 +7,7 @@
 #include "core/element/beam_rule.hpp"
 #include "core/element/moving_kinematics.hpp"
 #include "core/element/rest_element.hpp"
+#include "core/element/section_pieces.hpp"
 #include "core/pack.hpp"
 
 namespace vlbeam {
@@ -69,6 +70,33 @@ struct ReferencePoint {
   Real weight_rate;    ///< rate of `weight` [m/s]
   Real mesh_velocity;  ///< of the point along the beam [m/s]
   Feels feels;         ///< what of the beam
+
+  // What its place and its weight change by as an end moves along the beam.
+  Parameter by_a() const { return 1 - u; }
+  Parameter by_b() const { return u; }
+  Parameter weight_by_a() const { return -share; }
+  Parameter weight_by_b() const { return share; }
+  const BeamSection& felt(const FeltSections& sections) const { return sections[feels]; }
+  const BeamSection& whole(const FeltSections& sections) const { return sections.everything; }
+};
+
+/// The same where the section changes inside the element: a point of one piece, which lies between an end of the
+/// element, which may move, and a place where the section changes, which does not.
+template <class Real>
+struct PiecePoint {
+  Real u, x, weight, weight_rate, mesh_velocity;
+  Feels feels;
+  double to_a, to_b;          ///< by_a(), by_b()
+  double weight_a, weight_b;  ///< weight_by_a(), weight_by_b()
+  const FeltSections* here;   ///< of the piece
+
+  double by_a() const { return to_a; }
+  double by_b() const { return to_b; }
+  double weight_by_a() const { return weight_a; }
+  double weight_by_b() const { return weight_b; }
+  const BeamSection& here_felt() const { return (*here)[feels]; }
+  const BeamSection& felt(const FeltSections& /*sections*/) const { return here_felt(); }
+  const BeamSection& whole(const FeltSections& /*sections*/) const { return here->everything; }
 };
 
 /// Calls `visit(point, motion, rest)` at the quadrature points of a variable-length element: a ReferencePoint, what
@@ -110,6 +138,54 @@ template <class Real, int D, MovingEnds Ends, class Rest, class Evaluate, class 
       visit(point, evaluate(point.u, shape), &strain);
     });
   }
+}
+
+/// A number without its derivatives.
+template <class Real>
+double number_of(const Real& number) {
+  if constexpr (std::is_arithmetic_v<Real>) {
+    return number;
+  } else if constexpr (requires { number.value(); }) {
+    return number_of(number.value());
+  } else {
+    return number_of(number.value);
+  }
+}
+
+/// for_each_point() of an element in which the section changes: the points of the table's rule on each of its pieces,
+/// as PiecePoint. Not with packs.
+template <class Real, int D, MovingEnds Ends, class Rest, class Evaluate, class Visit>
+void for_each_point_in_pieces(const MovingKinematics<Real, D, Ends>& kinematics, const BeamRule& rule,
+                              const BeamSection& own, const SectionPieces& pieces, const Rest* rest,
+                              const Evaluate& evaluate, const Visit& visit) {
+  const Real x_a = kinematics.coordinates().x_a, x_b = kinematics.coordinates().x_b;
+  const Real v_a = kinematics.rates().x_a, v_b = kinematics.rates().x_b;
+  pieces.visit(number_of(x_a), number_of(x_b), [&](const SectionPieces::Stretch& piece) {
+    const FeltSections here(piece.share->of(own));
+    const Real low = piece.at_start ? x_a : Real(piece.low), high = piece.at_end ? x_b : Real(piece.high);
+    const Real v_low = piece.at_start ? v_a : Real(0), v_high = piece.at_end ? v_b : Real(0);
+    for (const auto& [share, w, feels] : rule) {
+      PiecePoint<Real> point;
+      point.x = low + (high - low) * Real(share);
+      point.u = (point.x - x_a) / kinematics.length();
+      point.weight = (high - low) * Real(w);
+      point.weight_rate = (v_high - v_low) * Real(w);
+      point.mesh_velocity = v_low * Real(1 - share) + v_high * Real(share);
+      point.feels = feels;
+      point.to_a = piece.at_start ? 1 - share : 0;
+      point.to_b = piece.at_end ? share : 0;
+      point.weight_a = piece.at_start ? -w : 0;
+      point.weight_b = piece.at_end ? w : 0;
+      point.here = &here;
+      const ShapeTable<Real> shape = rational_shape(kinematics.weights(), point.u);
+      if (rest == nullptr) {
+        visit(point, evaluate(point.u, shape), static_cast<const RestStrain<Real>*>(nullptr));
+      } else if constexpr (D > 1 && std::is_same_v<Rest, RestKinematics<Real, D, Ends>>) {
+        const RestStrain<Real> strain = rest->at(point.u, shape);
+        visit(point, evaluate(point.u, shape), &strain);
+      }
+    }
+  });
 }
 
 }  // namespace vlbeam

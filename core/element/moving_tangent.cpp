@@ -2,6 +2,7 @@
 
 #include "core/element/moving_kernels.hpp"
 #include "core/element/moving_tangent_sums.hpp"
+#include "core/element/piece_tangent.hpp"
 
 namespace vlbeam {
 
@@ -11,6 +12,17 @@ MovingTangent<Ends, D, Unknown> moving_tangent(const MovingCoordinates<double, D
                                                const MovingCoordinates<double, D>& a, const TangentWeights& weigh,
                                                const WeightFunction& weights, const ShapeTabulation& table,
                                                const MovingLaw<D>& law) {
+  if (law.pieces != nullptr) {
+    const MovingLaw<D> here = law_between(law, q.x_a, q.x_b);
+    if (here.pieces == nullptr) return moving_tangent<Ends, D, Unknown>(q, rate, a, weigh, weights, table, here);
+    const auto whole = piece_tangent<D>(q, rate, a, weigh, weights, table, here);
+    MovingTangent<Ends, D, Unknown> tangent;
+    const auto of = [](int i) { return i < 4 * D ? i : 4 * D + (is_end_a<Ends>(i - 4 * D) ? 0 : 1); };
+    for (int i = 0; i < 4 * D + Unknown; ++i) {
+      for (int j = 0; j < 4 * D + Unknown; ++j) tangent(i, j) = whole(of(i), of(j));
+    }
+    return tangent;
+  }
   if (law.rest == nullptr && !law.section.damped()) {
     const auto& kernels = fastest_moving_kernels<D, Ends>();
     if constexpr (Unknown == 1) return kernels.tangent(q, rate, a, weigh, weights, table, law);

@@ -46,6 +46,12 @@ struct Stiffness {
   double curvature_power() const { return vlbeam::curvature_power(law); }
 };
 
+/// Of it what resists stretching.
+inline Stiffness axial_part(Stiffness stiffness) {
+  stiffness.EI = 0;
+  return stiffness;
+}
+
 /// Strain energy per length W = EA eps^2/2 + EI kappa^2/2 [J/m], or EA psi(eps) of a rope that goes slack (SlackLaw),
 /// and its gradients, the generalized stresses
 /// p = dW/dr_x [N] and m = dW/dr_xx [N m] (Ding & Ouyang 2022, Eq. 17-19).

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/element/piece_bending.hpp"
+#include "core/element/quadrature.hpp"
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/least_change.hpp"
 #include "core/length_control/rest_arc.hpp"
@@ -40,6 +42,56 @@ const Weights<double>& take_rest_arc(ChainState<D>& chain, int k, const LengthCo
 template <int D>
 void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
   if (takes_rest_arc(chain, control)) take_rest_arc(chain, k, control);
+}
+
+/// The kept place of an element that is nearest to the usual one, if one is well inside it; else that.
+double place_of_cut(const LengthControl& control, double x_low, double x_high, double usual) {
+  constexpr double well_inside = 0.1;  // of L_std
+  const double margin = well_inside * control.standard_length;
+  double found = usual, away = x_high - x_low;
+  for (const double at : control.kept) {
+    if (at < x_low + margin || at > x_high - margin || !(std::abs(at - usual) < away)) continue;
+    found = at;
+    away = std::abs(at - usual);
+  }
+  return found;
+}
+
+/// Where EI changes the element bends beyond its cubic: there is its new node, turned by as much.
+template <int D>
+void bend_at_change(const ChainState<D>& chain, int k, const MovingLaw<D>& law, Segmentation<D>& node) {
+  const auto element = kinematics_of(chain, k, law.transport);
+  const double x_a = element.coordinates().x_a, x_b = element.coordinates().x_b;
+  if (!law.pieces->change_between(x_a, x_b) || chain.curved_at_rest()) return;
+  constexpr int points = 10;
+  const auto bending = piece_bending(element, beam_rule(points), law.section, *law.pieces);
+  if (!bending) return;
+  Vec<double, 3> turn = Vec<double, 3>::Zero(), shift = Vec<double, 3>::Zero();
+  const auto in_space = [](const Vec<double, D>& v) {
+    Vec<double, 3> result = Vec<double, 3>::Zero();
+    result.template head<D>() = v;
+    return result;
+  };
+  const auto at_node = motion_at(element, node.x);
+  law.pieces->visit(x_a, node.x, [&](const SectionPieces::Stretch& piece) {
+    const double EI = piece.share->of(law.section).stiffness.EI;
+    for (const auto& [u, weight] : gauss_legendre(points)) {
+      const double x = piece.low + u * (piece.high - piece.low);
+      const auto at = motion_at(element, x);
+      const auto beyond = bending->beyond_cubic(x, EI);
+      Vec<double, 3> bends = Vec<double, 3>::Zero();
+      if constexpr (D == 2) {
+        bends[2] = beyond[0];
+      } else {
+        bends << beyond[0], beyond[1], beyond[2];
+      }
+      bends *= weight * (piece.high - piece.low) * at.r_x.norm();
+      turn += bends;
+      shift += bends.cross(in_space(at_node.r - at.r));
+    }
+  });
+  node.r += shift.template head<D>();
+  node.r_x += turn.cross(in_space(node.r_x)).template head<D>();
 }
 
 /// A node that a merge deletes.
@@ -115,10 +167,12 @@ MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Directi
     const auto& x = chain.mesh.x;
     const double x_low = x[static_cast<std::size_t>(cut)], x_high = x[static_cast<std::size_t>(cut) + 1];
     const bool between_joints = chain.joint_at(cut) != nullptr && chain.joint_at(at) != nullptr;
-    const double x_new = between_joints ? (x_low + x_high) / 2
+    const double usual = between_joints ? (x_low + x_high) / 2
                          : forward      ? x_low + control.standard_length
                                         : x_high - control.standard_length;
-    const auto node = segment(chain, cut, x_new, law.transport);
+    const double x_new = place_of_cut(control, x_low, x_high, usual);
+    auto node = segment(chain, cut, x_new, law.transport);
+    if (law.pieces != nullptr) bend_at_change(chain, cut, law, node);
     int now = at;
     if (what.merge) {
       now = chain.trade_node(at, deleted);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "core/element/moving_element.hpp"
 #include "core/length_control/chain_state.hpp"
@@ -24,6 +25,9 @@ struct LengthControl {
   double end_merge = 0;
   /// An element beside a joint, shorter than this share of L_std, is merged with the next one; 0: never by itself.
   double lower = 0;
+  /// Material coordinates that a cut of an element takes for its new node, where it holds one [m]: there the section
+  /// changes.
+  std::vector<double> kept = {};
   /// Of a beam of more elements than this, with one joint, events look at the part around it, and hand over that.
   int most_whole = 200;
 
@@ -46,7 +50,8 @@ enum class Direction { forward, backward };
 
 /// What an event does on the two sides of a joint that moves forward (backward is the mirror image).
 struct Remeshing {
-  bool cut = true;    ///< the element behind it, at L_std from its far end; between two joints in its middle
+  bool cut = true;    ///< the element behind it, at L_std from its far end, or at a kept place; between two joints in
+                      ///< its middle
   bool merge = true;  ///< the node ahead is deleted: the two elements there become one
 };
 

@@ -10,10 +10,10 @@ FreeTension<D>::FreeTension(const BeamSystem<D>& system)
     : system_(system), stiffness_(system.model().axis_section().stiffness) {}
 
 template <int D>
-std::array<double, 2> FreeTension<D>::pull_at(double strain) const {
-  if (!stiffness_.slackens()) return {stiffness_.EA * strain, stiffness_.EA};
-  const SlackLaw<double> rope(strain, stiffness_.slack_over);
-  return {stiffness_.EA * rope.pull, stiffness_.EA * rope.stiffness};
+std::array<double, 2> FreeTension<D>::pull_at(const Point& point) const {
+  if (!stiffness_.slackens()) return {point.EA * point.strain, point.EA};
+  const SlackLaw<double> rope(point.strain, stiffness_.slack_over);
+  return {point.EA * rope.pull, point.EA * rope.stiffness};
 }
 
 template <int D>
@@ -29,12 +29,15 @@ void FreeTension<D>::at_points(const Eigen::VectorXd& q, const Visit& visit) con
   const auto strain_of = [&](const Vec<double, D>& r_x) {
     return stiffness_.green() ? (r_x.squaredNorm() - 1) / 2 : r_x.norm() - 1;
   };
+  const SectionPieces& pieces = system_.model().pieces;
   for (int k = 0; k < system_.mesh().elements(); ++k) {
     const MovingKinematics<double, D> element = beam.kinematics(k);
+    const double x_a = element.coordinates().x_a;
     for (const BeamPoint& of : system_.rules().of(system_.mesh().weights[static_cast<std::size_t>(k)].w)) {
       if (of.feels == Feels::all_but_stretch) continue;
       const PointMotion<double, D> at = element.at(of.u, rational_shape(element.weights(), of.u));
-      Point point{k, at.s_x, of.weight * element.length(), at.r_x, strain_of(at.r_x)};
+      const double share = pieces.empty() ? 1 : pieces.at(x_a + of.u * element.length()).axial;
+      Point point{k, at.s_x, of.weight * element.length(), at.r_x, strain_of(at.r_x), stiffness_.EA * share};
       if (chain.curved_at_rest()) point.strain -= strain_of(combine_nodes(at.s_x, chain.rest_nodes(k)));
       visit(point);
     }
@@ -44,7 +47,7 @@ void FreeTension<D>::at_points(const Eigen::VectorXd& q, const Visit& visit) con
 template <int D>
 void FreeTension<D>::start(const Eigen::VectorXd& q, double least) {
   forces_.clear();
-  at_points(q, [&](const Point& point) { forces_.push_back(std::max(pull_at(point.strain)[0], least)); });
+  at_points(q, [&](const Point& point) { forces_.push_back(std::max(pull_at(point)[0], least)); });
 }
 
 template <int D>
@@ -52,7 +55,7 @@ void FreeTension<D>::add_to(const Eigen::VectorXd& q, BeamMatrix<D>& tangent) co
   const ChainView<D> beam = system_.view(q.data(), q.data());
   std::size_t which = 0;
   at_points(q, [&](const Point& point) {
-    const double more = forces_[which++] - pull_at(point.strain)[0];
+    const double more = forces_[which++] - pull_at(point)[0];
     Eigen::Matrix<double, D, D> by_slope = Eigen::Matrix<double, D, D>::Identity();  // second derivative of the strain
     if (!stiffness_.green()) {
       const double stretch = point.r_x.norm();
@@ -82,7 +85,7 @@ void FreeTension<D>::advance(Eigen::VectorXd& q, const Eigen::VectorXd& change, 
     }
     const double along = point.r_x.dot(slope) / (stiffness_.green() ? 1 : point.r_x.norm());
     double& force = forces_[which++];
-    const auto [pull, stiffness] = pull_at(point.strain);
+    const auto [pull, stiffness] = pull_at(point);
     force += share * (pull + stiffness * along - force);
     force = std::max(force, least);
   });
@@ -95,7 +98,7 @@ bool FreeTension<D>::pulls(const Eigen::VectorXd& q, double least) const {
   std::vector<double> lengths = means;
   at_points(q, [&](const Point& point) {
     const auto k = static_cast<std::size_t>(point.element);
-    means[k] += point.weight * pull_at(point.strain)[0];
+    means[k] += point.weight * pull_at(point)[0];
     lengths[k] += point.weight;
   });
   for (std::size_t k = 0; k < means.size(); ++k) {

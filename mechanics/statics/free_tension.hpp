@@ -37,10 +37,11 @@ class FreeTension {
     double weight;  ///< [m]
     Vec<double, D> r_x;
     double strain;  ///< from the rest shape
+    double EA;      ///< there [N]
   };
 
-  /// The axial force of a strain, and its derivative [N].
-  std::array<double, 2> pull_at(double strain) const;
+  /// The axial force there, and its derivative by the strain [N].
+  std::array<double, 2> pull_at(const Point& point) const;
   /// Calls visit(point) at q.
   template <class Visit>
   void at_points(const Eigen::VectorXd& q, const Visit& visit) const;

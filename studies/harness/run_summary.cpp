@@ -13,6 +13,7 @@
 #include "scene/names.hpp"
 #include "scene/options.hpp"
 #include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 #include "scene/slack.hpp"
 #include "studies/harness/messages.hpp"
 #include "studies/harness/quantity.hpp"
@@ -63,7 +64,14 @@ std::string beam_text(const Scene& scene) {
   }
   if (const auto count = knots(scene).size(); count > 0) {
     text += "; " + std::to_string(count) + (count == 1 ? " node" : " nodes") +
-            " with two slopes, at masses, loads and corners";
+            " with two slopes, at masses, loads, corners and changes of section";
+  }
+  if (const auto count = scene.bearings.size(); count > 0) {
+    text += "; " + std::to_string(count) + (count == 1 ? " support" : " supports") + " between its ends";
+  }
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    text += "; " + vehicle.name + " with " + std::to_string(vehicle.axles.size()) +
+            (vehicle.axles.size() == 1 ? " axle" : " axles") + " crosses it";
   }
   if (const auto count = scene.point_masses.size(); count > 0) {
     text += "; " + std::to_string(count) + (count == 1 ? " point mass" : " point masses");
@@ -242,7 +250,7 @@ template <class Line>
 void assembly_lines(const Scene& scene, const Line& line) {
   for (std::size_t i = 0; i < scene.assembly->beams.size(); ++i) {
     const Scene beam = beam_scene(scene, i);
-    const std::string section = section_in_words(beam.beam);
+    const std::string section = beam.beam.sections.empty() ? section_in_words(beam.beam) : "";
     line(i == 0 ? "beams" : "", scene.assembly->beams[i].name + ": " + beam_text(beam));
     line("", (section.empty() ? "" : section + "; ") + law_in_words(beam));
   }
@@ -263,7 +271,14 @@ template <class Line>
 void beam_lines(const Scene& scene, const Line& line) {
   if (scene.assembly) return assembly_lines(scene, line);
   line("beam", beam_text(scene));
-  if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
+  if (scene.beam.sections.empty()) {
+    if (const std::string section = section_in_words(scene.beam); !section.empty()) line("section", section);
+  }
+  const char* label = "sections";
+  for (const std::string& piece : pieces_in_words(scene.beam)) {
+    line(label, piece);
+    label = "";
+  }
   line("law", law_in_words(scene));
 }
 

@@ -465,6 +465,7 @@ Scene scene_with_every_part() {
   scene.vehicles.push_back({.name = "train", .axles = {AxleSpec{}}});
   scene.contact.emplace().joints = AtSupport::rebound;
   scene.point_masses.emplace_back();
+  scene.beam.sections.emplace_back().drag.emplace();
   PlaceSpec& place = scene.places.emplace_back();
   place.name = "here";
   place.end.emplace();
@@ -483,6 +484,15 @@ bool is_line_without_end(const Json& json) {
   };
   const Json curve = part(part(json, "beam"), "curve");
   return curve.is_object() && !curve.contains("end") && curve.value("type", Json("line")) == "line";
+}
+
+/// A beam has one section all along, or several.
+void refuse_two_kinds_of_sections(const Json& json) {
+  const bool both = json.is_object() && json.contains("beam") && json.at("beam").is_object() &&
+                    json.at("beam").contains("section") && json.at("beam").contains("sections");
+  if (!both) return;
+  throw InvalidInput("/beam/section", "this key",
+                     "each piece of /beam/sections has a section: leave out one of the two");
 }
 
 /// Whether an integrator is asked for by the accuracy alone. Throws InvalidInput where other keys stand beside it.
@@ -515,6 +525,7 @@ Scene scene_from_json(Json json) {
     throw InvalidInput("/integrator/type", "\"auto\"",
                        "what the scene chooses has no options: write \"integrator\": \"auto\", or name a method");
   }
+  refuse_two_kinds_of_sections(json);
   const bool endless = is_line_without_end(json);
   const Reader reader(std::move(json));
   if (endless) {
@@ -549,14 +560,26 @@ std::string left_out_of_material(const Json& scene) {
   const auto part = [](const Json& of, const char* key) {
     return of.is_object() && of.contains(key) ? of.at(key) : Json::object();
   };
-  const Json beam = part(scene, "beam"), section = part(beam, "section"), material = part(beam, "material");
-  const Json type = section.value("type", Json("circle"));
-  if (type == "stiffness" || type == "rope" || type == "chain") return "";
+  const Json beam = part(scene, "beam"), material = part(beam, "material");
   std::vector<std::string> keys;
-  const bool round = type == "circle" || type == "tube";
-  if (round && !section.contains("radius")) keys.emplace_back("/beam/section/radius");
+  bool sized = false;
+  const auto look_at = [&](const Json& section, const std::string& key) {
+    const Json type = section.value("type", Json("circle"));
+    if (type == "stiffness" || type == "rope" || type == "chain") return;
+    sized = true;
+    if ((type == "circle" || type == "tube") && !section.contains("radius")) keys.push_back(key + "/radius");
+  };
+  if (const Json pieces = part(beam, "sections"); pieces.is_array()) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      look_at(part(pieces[i], "section"), "/beam/sections/" + std::to_string(i) + "/section");
+    }
+  } else {
+    look_at(part(beam, "section"), "/beam/section");
+  }
   for (const char* key : {"density", "youngs_modulus"}) {
-    if (!material.contains(key) && !material.contains("name")) keys.push_back(std::string("/beam/material/") + key);
+    if (sized && !material.contains(key) && !material.contains("name")) {
+      keys.push_back(std::string("/beam/material/") + key);
+    }
   }
   std::string text;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -617,7 +640,9 @@ Json scene_to_json(const Scene& scene) {
   if (filled.flow) filled.flow->velocity = initial_velocity(scene);
   Writer writer;
   visit_options(writer, std::as_const(filled));
-  return writer.json();
+  Json json = writer.json();
+  if (!scene.beam.sections.empty()) json.at("beam").erase("section");
+  return json;
 }
 
 }  // namespace vlbeam

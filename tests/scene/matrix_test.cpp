@@ -115,6 +115,11 @@ const std::vector<Feature>& features() {
          s.beam.weights = {1, 0.95, 1.05, 1};
        }},
       {"transported weights", [](Scene& s) { s.weights = WeightTransport::transported; }},
+      {"two sections",
+       [](Scene& s) {
+         const Section section{.type = Section::Type::stiffness, .EA = 6000, .EI = 0.2, .rhoA = 2};
+         s.beam.sections = {{.to = 0.5, .section = s.beam.section}, {.section = section}};
+       }},
       {"roller", [](Scene& s) { s.bearings.push_back({.name = "roller", .x = 0.35}); }},
       {"spring to the ground",
        [](Scene& s) {

@@ -15,7 +15,7 @@ void BeamMass<D>::adopt() {
     for (const std::size_t end : {0, 1}) {
       const std::size_t k = end == 0 ? 0 : static_cast<std::size_t>(mesh.elements()) - 1;
       const Weights<double>& w = mesh.weights[k].w;
-      end_inertia_[end] = fixed_inertia(mesh.x[k + 1] - mesh.x[k], w, beam_.rules().of(w));
+      end_inertia_[end] = fixed_inertia(mesh.x[k], mesh.x[k + 1], w, beam_.rules().of(w), model.pieces);
     }
   }
   if (!chained()) return;

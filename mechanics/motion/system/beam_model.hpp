@@ -52,6 +52,7 @@ inline constexpr int own_points = 0;
 template <int D>
 struct BeamModel {
   BeamSection section;
+  SectionPieces pieces = {};  ///< of a beam that has more than one: which share of `section` there is where
   Formulation formulation = Formulation::variational;
   WeightTransport transport = WeightTransport::frozen;
   int quadrature_points = 5;  ///< Gauss points an element
@@ -99,6 +100,11 @@ struct BeamModel {
     if (frames) axis.stiffness.EI = 0;
     return axis;
   }
+  BeamSections sections() const { return {axis_section(), pieces}; }
+  /// Null for a beam of one section all along.
+  const SectionPieces* several_sections() const { return pieces.empty() ? nullptr : &pieces; }
+  /// Mass per length at a material coordinate [kg/m].
+  double mass_at(double x) const { return pieces.empty() ? section.rhoA : section.rhoA * pieces.at(x).mass; }
   /// Whether one of its own parts may take or give power.
   bool parts_work() const {
     return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part->works(); });

@@ -127,7 +127,7 @@ const SumTables& CurrentBeam<D>::tables(int points) const {
 
 template <int D>
 void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
-  const BeamSection section = model_.axis_section();
+  const BeamSections sections = model_.sections();
   const int middle = mesh_.elements() / 2;
   const int left_open = prescribed_ ? 0 : has_joint() ? std::max(0, places_.front().node - 1) : middle;
   const int right_open = prescribed_   ? mesh_.last()
@@ -136,14 +136,14 @@ void CurrentBeam<D>::adopt_elements(const UnchangedElements& unchanged) {
   const double* rest = rest_.empty() ? nullptr : rest_.data();
   const auto& masses = model_.masses.points;
   const auto renew = [&](std::optional<Span<D>>& span, int outer, int open, const Support<D>& support, int known) {
-    span = Span<D>(mesh_, outer, open, support, section, rules_, rest, masses, span ? &*span : nullptr, known);
+    span = Span<D>(mesh_, outer, open, support, sections, rules_, rest, masses, span ? &*span : nullptr, known);
   };
   renew(spans_.left, 0, left_open, model_.start, unchanged.at_start);
   renew(spans_.right, mesh_.last(), right_open, model_.end, unchanged.at_end);
   spans_.between.clear();
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const int low = places_[i].node + 1, high = places_[i + 1].node - 1;
-    if (low <= high) spans_.between.emplace_back(mesh_, low, high, section, rules_, rest, masses);
+    if (low <= high) spans_.between.emplace_back(mesh_, low, high, sections, rules_, rest, masses);
   }
   parts_.clear();
   const auto joint_at = [&](int node) {

@@ -228,7 +228,9 @@ class CurrentBeam {
   /// The elements at the joints, in the order of the chain.
   const std::vector<MovingPart>& moving_parts() const { return parts_; }
   MovingLaw<D> moving_law(double t) const {
-    return {model_.axis_section(), model_.formulation, model_.transport, beam_gravity(t)};
+    MovingLaw<D> law{model_.axis_section(), model_.formulation, model_.transport, beam_gravity(t)};
+    law.pieces = model_.several_sections();
+    return law;
   }
   /// The rest shape of an element at joints whose coordinates are in `q`; nothing if it is straight.
   std::optional<RestElement<D>> rest_of(const MovingPart& part, const double* q) const;

@@ -29,8 +29,8 @@ struct CubicRule {
   }
 };
 
-/// The change of the kinetic energy from an element of one chain to the same one of another, for mass 1 per length, by
-/// several rules.
+/// The change of the kinetic energy from an element of one chain to the same one of another, over the beam's
+/// own mass per length, by several rules.
 template <int D, std::size_t Rules>
 class KineticChange {
  public:
@@ -46,8 +46,10 @@ class KineticChange {
     const Mesh& mesh = after_.mesh;
     const auto k = static_cast<std::size_t>(k_after);
     const Weights<double>& weights = mesh.weights[k].w;
-    const bool cubic = weights == unit_weights && !after_.moves(k_after);
-    const double exact = cubic ? of_cubics(was.e, change, mesh.x[k + 1] - mesh.x[k]) : 0;
+    const bool cubic =
+        weights == unit_weights && !after_.moves(k_after) && !model_.pieces.change_between(mesh.x[k], mesh.x[k + 1]);
+    const double exact =
+        cubic ? share_at(mesh.x[k], mesh.x[k + 1], 0.5) * of_cubics(was.e, change, mesh.x[k + 1] - mesh.x[k]) : 0;
     for (std::size_t i = 0; i < Rules; ++i) {
       const auto points = with_mass(tables_[i]->of(weights).rule);
       sums[i] += cubic && points.size() >= exact_points ? exact : by_points(k_before, k_after, points);
@@ -75,9 +77,14 @@ class KineticChange {
     for (const auto& [u, weight, feels] : points) {
       const auto shape = rational_shape(is.weights(), u);
       const Vec<double, D> v0 = was.at(u, shape).v, v1 = is.at(u, shape).v;
-      sum += weight * (v1 - v0).dot(v1 + v0);
+      sum += weight * share_at(is.coordinates().x_a, is.coordinates().x_b, u) * (v1 - v0).dot(v1 + v0);
     }
     return sum * is.length() / 2;
+  }
+
+  /// Of the mass per length.
+  double share_at(double x_a, double x_b, double u) const {
+    return model_.pieces.empty() ? 1 : model_.pieces.at(x_a + u * (x_b - x_a)).mass;
   }
 
   const BeamModel<D>& model_;

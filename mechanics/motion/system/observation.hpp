@@ -92,9 +92,9 @@ struct OuterForces {
 template <int D>
 class Observer {
  public:
-  /// `section`, `tables` and `rotary` (null without) must outlive this object.
+  /// All but `gravity` must outlive this object; `rotary` and `pieces` are null without.
   Observer(const BeamSection& section, const Vec<double, D>& gravity, const SumTables& tables,
-           const RotaryInertia<D>* rotary = nullptr);
+           const RotaryInertia<D>* rotary = nullptr, const SectionPieces* pieces = nullptr);
 
   /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
   /// where `seen` has a place for them.
@@ -103,15 +103,18 @@ class Observer {
   Energy energies(const SummedElement<D>& element, const NodalCubic<double, D>* rest) const;
 
  private:
-  /// Sums of any element, point by point.
-  ElementSums<double, D> sums(const SummedElement<D>& element, const NodalCubic<double, D>* rest,
+  ElementSums<double, D> sums(const SummedElement<D>& element, const NodalCubic<double, D>* rest, bool energies_alone,
                               StrainExtremes* extremes) const;
+  /// Of any element, point by point, in which the section changes, or is that of `sections`.
+  ElementSums<double, D> by_points(const SummedElement<D>& element, const FeltSections& sections,
+                                   const NodalCubic<double, D>* rest, StrainExtremes* extremes) const;
 
   const BeamSection& section_;
   FeltSections sections_;
   Vec<double, D> gravity_;
   const SumTables& tables_;
   const RotaryInertia<D>* rotary_;
+  const SectionPieces* pieces_;
 };
 
 extern template class Observer<2>;

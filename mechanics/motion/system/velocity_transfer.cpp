@@ -38,7 +38,10 @@ void VelocityProjection<D>::find_excess_momentum(const ChainState<D>& before, co
   beam_.clear(momentum_.data(), after.part);
   const double start = after.mesh.x[static_cast<std::size_t>(first)],
                end = after.mesh.x[static_cast<std::size_t>(last)];
-  const std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
+  std::vector<double> pieces = common_pieces(before.mesh, after.mesh, start, end);
+  const std::vector<double> changes = beam_.model().pieces.changes_between(start, end);  // of the section
+  pieces.insert(pieces.end(), changes.begin(), changes.end());
+  std::ranges::sort(pieces);
   const ChainView<D> places = beam_.view(nullptr, nullptr);
   const auto add = [&](int element, const auto& is, const Vector& excess) {
     const int to = after.part.before + element;
@@ -57,7 +60,7 @@ void VelocityProjection<D>::find_excess_momentum(const ChainState<D>& before, co
     for (const auto& [u, weight] : gauss_legendre(cubic ? cubic_points : rational_points)) {
       const double x = a + u * length;
       const CarriedPoint<D> now = carried_at(is, x);
-      add(to, now, (carried_at(was, x).v - now.v) * (weight * length * beam_.model().section.rhoA));
+      add(to, now, (carried_at(was, x).v - now.v) * (weight * length * beam_.model().mass_at(x)));
     }
   }
   for (const PointMass& point : beam_.model().masses.points) {
