@@ -126,7 +126,15 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
   void material() {
     auto& beam = scene.beam;
     using enum Section::Type;
-    const Condition sized = only_if(section_type, beam.section.type, circle, rectangle, tube, box, profile);
+    Condition sized = only_if(section_type, beam.section.type, circle, rectangle, tube, box, profile);
+    if (!beam.sections.empty()) {
+      sized.holds = false;
+      for (const auto& piece : beam.sections) {
+        const Section::Type type = piece.section.type;
+        sized.holds =
+            sized.holds || type == circle || type == rectangle || type == tube || type == box || type == profile;
+      }
+    }
     const std::string_view name = "/beam/material/name";
     choice(name,
            "steel (7850 kg/m^3, 2.1e11 Pa, 0.3), aluminium (2700, 7e10, 0.33) or timber (420, 1.1e10 along the grain, "

@@ -7,8 +7,8 @@
 #include "scene/build.hpp"
 #include "scene/corners.hpp"
 #include "scene/options.hpp"
-#include "scene/shared_checks.hpp"
 #include "scene/sections.hpp"
+#include "scene/shared_checks.hpp"
 #include "scene/slack.hpp"
 
 namespace vlbeam {

@@ -101,7 +101,7 @@ StrainExtremes ShapeElements<D>::strains(const Element& element, double u, const
   const BeamSection section = section_at(x_a + inside * (x_b - x_a));
   if (element.rest) {
     const auto from =
-        rest_strain<D>(combine_nodes(at.s_x, *element.rest), combine_nodes(at.s_xx, *element.rest), section_);
+        rest_strain<D>(combine_nodes(at.s_x, *element.rest), combine_nodes(at.s_xx, *element.rest), section);
     strains.add(section, at, &from);
   } else {
     strains.add(section, at, nullptr);

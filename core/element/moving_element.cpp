@@ -54,7 +54,11 @@ MovingEquations<double, D> MovingElement<double, D, Ends>::masses(const Coordina
   if (law.pieces != nullptr) {
     const MovingLaw<D> here = law_between(law, q.x_a, q.x_b);
     if (here.pieces == nullptr) return masses(q, weights, table, here);
-    return mass_sums<double, D, Ends>(q, weights, table, here);
+    auto eq = mass_sums<double, D, Ends>(q, weights, table, here);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) eq.mass[i][j] = eq.mass[j][i];
+    }
+    return eq;
   }
   return fastest_moving_kernels<D, Ends>().masses(q, weights, table, law);
 }

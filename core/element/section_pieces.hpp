@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -13,11 +14,13 @@ namespace vlbeam {
 struct SectionShare {
   double mass = 1, axial = 1, bending = 1;
 
-  /// That section.
+  /// That section. What regularizes its curvature goes with the curvature at which it is as stiff as the beam's own: so
+  /// tables of elements that scale curvatures have it, too.
   BeamSection of(BeamSection section) const {
     section.rhoA *= mass;
     section.stiffness.EA *= axial;
     section.stiffness.EI *= bending;
+    if (bending > 0) section.curvature_regularization *= std::sqrt(axial / bending);
     return section;
   }
 };

@@ -34,6 +34,7 @@ constexpr double most_work = 2;             // of a companion, in steps times el
 constexpr double mesh_share = 0.01;         // of the motion
 constexpr double whole_motion_share = 0.1;  // of the length: motion from which the accuracy is one of the length
 constexpr double least_motion = 1e-6;
+constexpr double nothing = 1e-10;  // of the length: what rounding lets a beam at rest move by
 constexpr int most_repeats = 2;
 constexpr double aimed_share = 0.8;   // of what is allowed, when a run is done again
 constexpr double most_growth = 3;     // of the steps of a repetition, over what its ratio would make of them
@@ -359,11 +360,18 @@ class Checked {
       error_.quantities.push_back({row.quantity, row.unit, {}, told(row, first, second, orders).last()});
     }
     error_.mesh = mesh_places_.largest;
-    const double most = mesh_share * error_.motion;
+    const double most = most_of_mesh();
     if (*error_.mesh > most && most > 0) {
       const double finer = portable::pow(*error_.mesh / most, 1 / mesh_places_.order);
       error_.elements_wanted = static_cast<int>(std::min(std::ceil(main_.scene.beam.elements * finer), 1e9));
     }
+  }
+
+  /// What the mesh may make wrong unwarned: a share of the motion; where nothing moves, of what would be a large one
+  /// [m].
+  double most_of_mesh() const {
+    const double length = longest(main_);
+    return mesh_share * (error_.motion > nothing * length ? error_.motion : whole_motion_share * length);
   }
 
   /// The beam's length, the largest that there was where it is fed [m].
@@ -453,7 +461,7 @@ class Checked {
   void conclude(Seen& last) {
     if (!ended_well(last.result)) return;
     const Scene& scene = main_.scene;
-    const double most = mesh_share * error_.motion;
+    const double most = most_of_mesh();
     const bool judged_time = error_.time && scene.integrator.automatic;
     for (const Sample& sample : last.result.samples) {
       if (judged_time && time_places_.at(sample.t) > error_.allowed) break;

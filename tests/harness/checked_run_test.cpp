@@ -114,6 +114,25 @@ TEST(CheckedRun, HasTheDigitsOfTheRunAloneWhateverTheJobs) {
   EXPECT_EQ(one.error->mesh, two.error->mesh);
 }
 
+TEST(CheckedRun, MeasuresTheMeshByNoMotionOfRounding) {
+  Scene scene;
+  scene.gravity = {0, -9.81, 0};
+  scene.beam.curve = {.type = CurveType::polyline, .points = {{0, 0, 0}, {0.5, -0.3, 0}, {1, 0, 0}}};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 1e4, .EI = 0, .rhoA = 0.1};
+  scene.beam.elements = 8;
+  scene.start.type = scene.end.type = SupportType::pin;
+  scene.initial_shape = InitialShape::equilibrium;
+  scene.duration = 0.5;
+  scene.output.interval = 0.1;
+  scene.integrator = automatic_integrator(scene);
+  const RunResult result = checked(scene);
+  ASSERT_TRUE(result.error && result.error->mesh) << result.failure;
+  EXPECT_LT(result.error->motion, 1e-10);
+  EXPECT_GT(*result.error->mesh, 1e-10) << "which is what the elements make of a rope at rest";
+  EXPECT_EQ(result.error->elements_wanted, 0);
+  EXPECT_EQ(std::ranges::count(result.warnings, WarningKind::error_of_mesh, &Warning::kind), 0);
+}
+
 // A load hangs askew on a light rope that is drawn unstrained: the jolt sets its stretch swinging, and that shakes the
 // rope to and fro like a string whose tension is wound up and down. Runs with shorter steps shake as much, but
 // otherwise.

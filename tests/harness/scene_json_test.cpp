@@ -95,6 +95,33 @@ TEST(SceneJson, SectionByStiffness) {
   EXPECT_FALSE(scene_to_json(scene)["beam"]["material"].contains("density"));
 }
 
+TEST(SceneJson, SectionsStandInPlaceOfOne) {
+  Json json = example_scene();
+  json["beam"].erase("section");
+  json["beam"].erase("material");
+  const Json chain = {{"type", "chain"}, {"diameter", 0.02}};
+  json["beam"]["sections"] = {{{"to", 0.5}, {"section", chain}},
+                              {{"section", {{"type", "stiffness"}, {"EA", 1e5}, {"EI", 0}, {"rhoA", 1}}},
+                               {"drag", {{"quadratic", {{"normal", 2}}}}}}};
+  const Scene scene = scene_from_json(json);
+  ASSERT_EQ(scene.beam.sections.size(), 2U);
+  EXPECT_EQ(scene.beam.sections[0].to, 0.5);
+  EXPECT_EQ(scene.beam.sections[0].section.type, Section::Type::chain);
+  EXPECT_FALSE(scene.beam.sections[1].to);
+  EXPECT_EQ(scene.beam.sections[1].drag->quadratic.normal, 2);
+  const Json echo = scene_to_json(scene);
+  EXPECT_FALSE(echo["beam"].contains("section"));
+  EXPECT_FALSE(echo["beam"]["material"].contains("density"));
+  EXPECT_EQ(scene_to_json(scene_from_json(echo)), echo);
+  json["beam"]["section"] = chain;
+  EXPECT_EQ(error_of(json)->field, "/beam/section");
+  json["beam"].erase("section");
+  json["beam"]["sections"][0]["section"]["diametre"] = 1;
+  EXPECT_EQ(error_of(json)->field, "/beam/sections/0/section/diametre");
+  json["beam"]["sections"][0]["section"] = {{"type", "chain"}};
+  EXPECT_EQ(error_of(json)->field, "/beam/sections/0/section/diameter");
+}
+
 TEST(SceneJson, AutoStandsForTheIntegratorThatTheEchoShows) {
   Json json = {{"beam", {{"material", {{"youngs_modulus", 2.1e11}}}}}, {"duration", 0.5}, {"integrator", "auto"}};
   EXPECT_EQ(scene_to_json(scene_from_json(json))["integrator"]["type"], "generalized-alpha");

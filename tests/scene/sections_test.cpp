@@ -160,7 +160,7 @@ double error_of_crossing(int elements, double step, IntegratorType type) {
 
 TEST(Sections, AMassPassesFromOneToTheNext) {
   const double coarse = error_of_crossing(16, 2.5e-4, IntegratorType::generalized_alpha),
-               fine = error_of_crossing(32, 1.25e-4, IntegratorType::generalized_alpha);
+               fine = error_of_crossing(32, 6e-5, IntegratorType::generalized_alpha);
   EXPECT_LT(coarse, 5e-4);
   EXPECT_LT(fine, 1e-4);
 }

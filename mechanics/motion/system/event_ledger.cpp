@@ -49,7 +49,7 @@ class KineticChange {
     const bool cubic =
         weights == unit_weights && !after_.moves(k_after) && !model_.pieces.change_between(mesh.x[k], mesh.x[k + 1]);
     const double exact =
-        cubic ? share_at(mesh.x[k], mesh.x[k + 1], 0.5) * of_cubics(was.e, change, mesh.x[k + 1] - mesh.x[k]) : 0;
+        cubic ? share_between(mesh.x[k], mesh.x[k + 1]) * of_cubics(was.e, change, mesh.x[k + 1] - mesh.x[k]) : 0;
     for (std::size_t i = 0; i < Rules; ++i) {
       const auto points = with_mass(tables_[i]->of(weights).rule);
       sums[i] += cubic && points.size() >= exact_points ? exact : by_points(k_before, k_after, points);
@@ -74,17 +74,26 @@ class KineticChange {
     const auto was = kinematics_of(before_, k_before, model_.transport),
                is = kinematics_of(after_, k_after, model_.transport);
     double sum = 0;
-    for (const auto& [u, weight, feels] : points) {
+    const auto add = [&](double u, double weight) {
       const auto shape = rational_shape(is.weights(), u);
       const Vec<double, D> v0 = was.at(u, shape).v, v1 = is.at(u, shape).v;
-      sum += weight * share_at(is.coordinates().x_a, is.coordinates().x_b, u) * (v1 - v0).dot(v1 + v0);
+      sum += weight * (v1 - v0).dot(v1 + v0);
+    };
+    const double x_a = is.coordinates().x_a, x_b = is.coordinates().x_b;
+    if (model_.pieces.empty()) {
+      for (const auto& [u, weight, feels] : points) add(u, weight);
+    } else {
+      model_.pieces.visit(x_a, x_b, [&](const SectionPieces::Stretch& piece) {
+        const double from = (piece.low - x_a) / (x_b - x_a), size = (piece.high - piece.low) / (x_b - x_a);
+        for (const auto& [u, weight, feels] : points) add(from + u * size, weight * size * piece.share->mass);
+      });
     }
     return sum * is.length() / 2;
   }
 
-  /// Of the mass per length.
-  double share_at(double x_a, double x_b, double u) const {
-    return model_.pieces.empty() ? 1 : model_.pieces.at(x_a + u * (x_b - x_a)).mass;
+  /// Of the mass per length, of an element of one section.
+  double share_between(double x_a, double x_b) const {
+    return model_.pieces.empty() ? 1 : model_.pieces.at((x_a + x_b) / 2).mass;
   }
 
   const BeamModel<D>& model_;

@@ -16,9 +16,10 @@ template <int D>
 ElementSums<double, D> Observer<D>::by_points(const SummedElement<D>& of, const FeltSections& sections,
                                               const NodalCubic<double, D>* rest, StrainExtremes* extremes) const {
   const MovingKinematics<double, D> element = of.kinematics();
-  const auto at_rest = [&](const PointMotion<double, D>& at) -> std::optional<RestStrain<double>> {
+  const auto at_rest = [&](const BeamSection& section,
+                           const PointMotion<double, D>& at) -> std::optional<RestStrain<double>> {
     if (rest == nullptr) return std::nullopt;
-    return rest_strain<D>(combine_nodes(at.s_x, *rest), combine_nodes(at.s_xx, *rest), section_);
+    return rest_strain<D>(combine_nodes(at.s_x, *rest), combine_nodes(at.s_xx, *rest), section);
   };
   const auto look = [&](const BeamSection& section, const PointMotion<double, D>& at,
                         const std::optional<RestStrain<double>>& strain, Feels feels) {
@@ -36,7 +37,7 @@ ElementSums<double, D> Observer<D>::by_points(const SummedElement<D>& of, const 
   const auto add = [&](const auto& point, const PointMotion<double, D>& at, const auto*) {
     const BeamSection& section = point.felt(sections);
     const double wl = point.weight;
-    const auto strain = at_rest(at);
+    const auto strain = at_rest(section, at);
     if (strain) {
       const RestStress<double, D> stress(at.r_x, at.r_xx, *strain, section);
       sums.axial += wl * stress.axial;
@@ -66,7 +67,8 @@ ElementSums<double, D> Observer<D>::by_points(const SummedElement<D>& of, const 
   for (const double u : {0.0, 1.0}) {
     const PointMotion<double, D> at = element.at(u, rational_shape(element.weights(), u));
     const SectionShare share = changes ? pieces_->at(u == 0 ? x_a : x_b) : SectionShare{};
-    look(share.of(sections.everything), at, at_rest(at), Feels::everything);
+    const BeamSection section = share.of(sections.everything);
+    look(section, at, at_rest(section, at), Feels::everything);
   }
   return sums;
 }

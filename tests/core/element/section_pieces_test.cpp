@@ -149,5 +149,47 @@ TEST(SectionPieces, PowerIsTheChangeOfEnergy) {
   power_is_the_change_of_energy<3>();
 }
 
+TEST(SectionPieces, MassesAreThoseOfTheEquations) {
+  std::mt19937 random(11);
+  for_each_kind([&](StrainLaw law, double EI, AxialStrain axial, const Weights<double>& weights) {
+    const PiecewiseElement<2> element(law, EI, axial, weights);
+    const auto q = element.coordinates(bent<2>(random)), rate = element.coordinates(random_array<2>(random, 1));
+    using Element = MovingElement<double, 2, MovingEnds::both>;
+    const auto all = Element::equations(q, rate, element.weights(), element.table(), element.law());
+    const auto masses = Element::masses(q, element.weights(), element.table(), element.law());
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(masses.mass_a[i], all.mass_a[i]);
+      EXPECT_EQ(masses.mass_b[i], all.mass_b[i]);
+      for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(masses.mass[i][j], all.mass[i][j]) << i << j;
+    }
+    EXPECT_EQ(masses.mass_aa, all.mass_aa);
+    EXPECT_EQ(masses.mass_ab, all.mass_ab);
+    EXPECT_EQ(masses.mass_bb, all.mass_bb);
+  });
+}
+
+/// Where the section does not change after all, the element is that of one section.
+TEST(SectionPieces, AnElementOfOneSectionIsAsWithoutPieces) {
+  std::mt19937 random(13);
+  const SectionPieces pieces({{jumps_at, {1, 1, 1}}, {10, {1, 1, 1}}});
+  for (const StrainLaw strain : {StrainLaw::green, StrainLaw::engineering}) {
+    MovingLaw<3> law;
+    law.section.rhoA = 1.3;
+    law.section.stiffness = {200, 3, strain};
+    const ShapeTabulation table(beam_rule(20), unit_weights);
+    const auto q = bent<3>(random), rate = random_array<3>(random, 1), a = random_array<3>(random, 10);
+    const auto residual = [&] {
+      using Element = PiecewiseElement<3>;
+      return moving_residual<MovingEnds::both, double, 3>(Element::coordinates(q), Element::coordinates(rate),
+                                                          Element::coordinates(a), {unit_weights, 0, 1}, table, law);
+    };
+    const auto one = residual();
+    law.pieces = &pieces;
+    const auto two = residual();
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((one.nodes[i] - two.nodes[i]).norm(), 1e-9 * one.nodes[0].norm());
+    for (std::size_t e = 0; e < 2; ++e) EXPECT_NEAR(one.ends[e], two.ends[e], 1e-9 * std::abs(one.ends[0]));
+  }
+}
+
 }  // namespace
 }  // namespace vlbeam::test
