@@ -60,6 +60,7 @@ void refuse_missing_rooms(const Scene& scene) {
     if (scene.drag) refuse_room("ropes", "/drag", "an object");
     if (scene.fluid) refuse_room("ropes", "/fluid", "an object");
     if (scene.ground) refuse_room("ropes", "/ground", "an object");
+    if (!scene.beam.sections.empty()) refuse_room("ropes", "/beam/sections", "an array");
     if (scene.beam.material.mass_damping > 0) {
       refuse_room("ropes", "/beam/material/mass_damping", number_text(scene.beam.material.mass_damping));
     }
