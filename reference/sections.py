@@ -15,6 +15,7 @@ from pathlib import Path
 
 import mpmath as mp
 import numpy as np
+from bearings import shape
 from scipy.sparse import csc_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
@@ -112,13 +113,6 @@ def elastica(EA_behind):
 BRIDGE = {"EI": [3e7, 8e6], "rhoA": [1500.0, 900.0], "change": 8.0, "length": 16.0, "mass": 4000.0, "speed": 20.0,
           "from": 2.0, "gravity": 0.01, "gravity_ramp": 0.1}
 TIMES = [0.1, 0.2, 0.25, 0.29, 0.3, 0.31, 0.35, 0.4, 0.5, 0.6]
-
-
-def shape(xi, h):
-    n = np.array([1 - 3 * xi**2 + 2 * xi**3, h * (xi - 2 * xi**2 + xi**3), 3 * xi**2 - 2 * xi**3, h * (xi**3 - xi**2)])
-    d = np.array([-6 * xi + 6 * xi**2, h * (1 - 4 * xi + 3 * xi**2), 6 * xi - 6 * xi**2, h * (3 * xi**2 - 2 * xi)]) / h
-    dd = np.array([-6 + 12 * xi, h * (-4 + 6 * xi), 6 - 12 * xi, h * (6 * xi - 2)]) / h**2
-    return n, d, dd
 
 
 def crossing(elements, step):
