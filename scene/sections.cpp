@@ -64,6 +64,9 @@ void check_beside_sections(const Scene& scene) {
   const auto without = [&](bool there, const std::string& what) {
     if (there) refuse(key, "this key", "sections that change do not go together with " + what + " yet");
   };
+  const auto bends = [](const BeamPieceSpec& piece) { return !is_rope_section(piece.section); };
+  const bool mixed = !is_rope(scene.beam) && !std::ranges::all_of(scene.beam.sections, bends);
+  without(mixed && !sliding_joints(scene).empty(), "joints, where some of them bend and others (EI = 0) do not,");
   without(has_frames(scene), "sections that have frames (/beam/space_law)");
   without(scene.spin.has_value(), "/spin");
   without(flows(scene), "/flow and rotary inertia");

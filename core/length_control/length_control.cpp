@@ -44,15 +44,26 @@ void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
   if (takes_rest_arc(chain, control)) take_rest_arc(chain, k, control);
 }
 
-/// The kept place of an element that is nearest to the usual one, if one is well inside it; else that.
-double place_of_cut(const LengthControl& control, double x_low, double x_high, double usual) {
-  constexpr double well_inside = 0.1;  // of L_std
-  const double margin = well_inside * control.standard_length;
+/// Where an element is cut: at the kept place that is nearest to the usual one, but not so near to a joint that what is
+/// left there is merged again. A kept place that is too near stays on the joint's side of the cut.
+double place_of_cut(const LengthControl& control, double x_low, double x_high, double usual, bool joint_low,
+                    bool joint_high) {
+  constexpr double beside_end = 0.01, beside_joint = 0.1, beyond = 0.4;  // of L_std
+  const double unit = control.standard_length, near = control.merge_length() + beside_joint * unit;
+  const double least = x_low + (joint_low ? near : beside_end * unit);
+  const double most = x_high - (joint_high ? near : beside_end * unit);
   double found = usual, away = x_high - x_low;
   for (const double at : control.kept) {
-    if (at < x_low + margin || at > x_high - margin || !(std::abs(at - usual) < away)) continue;
+    if (at < least || at > most || !(std::abs(at - usual) < away)) continue;
     found = at;
     away = std::abs(at - usual);
+  }
+  if (away < x_high - x_low || (joint_low && joint_high)) return found;
+  for (const double at : control.kept) {
+    if (joint_high && at > x_low && at < x_high)
+      found = std::min(found, std::max(at - beyond * unit, (x_low + at) / 2));
+    if (joint_low && at > x_low && at < x_high)
+      found = std::max(found, std::min(at + beyond * unit, (x_high + at) / 2));
   }
   return found;
 }
@@ -170,7 +181,8 @@ MergedWeights segment_and_merge(ChainState<D>& chain, std::size_t which, Directi
     const double usual = between_joints ? (x_low + x_high) / 2
                          : forward      ? x_low + control.standard_length
                                         : x_high - control.standard_length;
-    const double x_new = place_of_cut(control, x_low, x_high, usual);
+    const double x_new =
+        place_of_cut(control, x_low, x_high, usual, chain.joint_at(cut) != nullptr, chain.joint_at(at) != nullptr);
     auto node = segment(chain, cut, x_new, law.transport);
     if (law.pieces != nullptr) bend_at_change(chain, cut, law, node);
     int now = at;

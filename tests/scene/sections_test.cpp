@@ -203,6 +203,24 @@ TEST(Sections, ABeadPassesWithoutLoss) {
   EXPECT_LT(std::abs(x[2] - x[1]), 0.7 * std::abs(x[1] - x[0]));
 }
 
+TEST(Sections, CutsAndMergesComeToAnEndWhereverItChanges) {
+  for (const double to : {1.37, 1.45, 1.5, 1.6}) {
+    Scene scene = bead(16, 2);
+    scene.beam.sections[0].to = to;
+    scene.beam.sections.insert(scene.beam.sections.begin() + 1, piece(to + 0.12, 8e5, 100, 2));
+    scene.integrator = {.type = IntegratorType::generalized_alpha, .step = 1e-3};
+    for (const double speed : {2.0, -2.0}) {
+      scene.sliding_mass->position = speed > 0 ? 1.2 : 1.9;
+      scene.sliding_mass->velocity = speed;
+      const RunResult run = simulate(scene);
+      EXPECT_EQ(run.status, RunStatus::completed) << to << ' ' << speed << ' ' << run.failure;
+      EXPECT_EQ(std::ranges::count(run.events, EventType::passage, &Event::type), 2);
+      EXPECT_LT(run.events.size(), 40U);
+      EXPECT_LT(run.max_energy_drift, 1e-2 * run.max_kinetic);
+    }
+  }
+}
+
 TEST(Sections, ImplicitAndExplicitMotionsAgreeAcrossAChange) {
   for (const int dimension : {2, 3}) {
     Scene scene = bead(12, dimension);
@@ -305,6 +323,11 @@ TEST(Sections, WhatCannotBeIsRefusedByItsKey) {
   wrong = scene;
   wrong.fluid = FluidSpec{.density = 1000};
   EXPECT_EQ(refused(wrong), "/beam/sections/0/area");
+  wrong = scene;
+  wrong.beam.sections[1].section.EI = 0;
+  EXPECT_EQ(refused(wrong), "");
+  wrong.sliding_mass.emplace().position = 5;
+  EXPECT_EQ(refused(wrong), "/beam/sections");
   wrong = scene;
   wrong.dimension = 3;
   wrong.beam.space_law = SpaceLaw::frames;
