@@ -41,9 +41,9 @@ class Patch {
       const auto* const joint = chain.joint_at(k);
       if (joint != nullptr && joint->kink) element.unknown[1] = -1;  // the slope behind a kink is not the node's
       if (std::ranges::all_of(element.unknown, [](int u) { return u < 0; })) continue;
-      element.basis = fixed_basis(chain.mesh.x[i], chain.mesh.x[i + 1], current_weights(chain, k, law.transport),
-                                  rules.of(chain.mesh.weights[i].w),
-                                  law.pieces != nullptr ? *law.pieces : SectionPieces());
+      element.basis =
+          fixed_basis(chain.mesh.x[i], chain.mesh.x[i + 1], current_weights(chain, k, law.transport),
+                      rules.of(chain.mesh.weights[i].w), law.pieces != nullptr ? *law.pieces : SectionPieces());
       if (chain.curved_at_rest()) {
         const auto rest = chain.rest_nodes(k);
         element.basis.visit(section_, [&](const auto& point, const BeamSection& felt, std::size_t /*index*/) {
