@@ -113,7 +113,6 @@ class PieceBending {
     }
   };
 
- private:
   Real at(const Real& x) const { return (x - Real(origin_)) * Real(1 / length_); }
   Real over_slope(const Vector& r_x) const {
     using std::sqrt;
