@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "bench/clamped_beam.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "scene/build.hpp"
 
 namespace {
@@ -109,10 +111,11 @@ void flowing(benchmark::State& state, bool spins) {
   const CircularShaft shaft{.radius = 0.01, .density = 7200, .youngs_modulus = 2e7};
   BeamModel<D> model;
   model.section = shaft.section();
-  if (spins) model.spin.emplace().section = shaft.spin();
-  model.motion = MeshMotion({{0, steadily(0, -0.1)}, {elements / 2, steadily(0.5, 1)}, {elements, steadily(1, 0.1)}});
+  if (spins) spin_in(model).section = shaft.spin();
+  flow_in(model).motion =
+      MeshMotion({{0, steadily(0, -0.1)}, {elements / 2, steadily(0.5, 1)}, {elements, steadily(1, 0.1)}});
   model.start = model.end = Support<D>::pin();
-  model.books_flow = false;
+  flow_in(model).books = false;
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0), dydt(y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += 1e-6 * std::sin(static_cast<double>(i));

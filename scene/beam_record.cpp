@@ -150,7 +150,7 @@ std::shared_ptr<const FlowSample> BeamRecord<D>::flow_sample(const Eigen::Vector
   if constexpr (has_room("spin")) {
     if (spin_of(system_) != nullptr) {
       flow.end_angles = {y[angle_of(system_, 0)], y[angle_of(system_, scene_.beam.elements)]};
-      flow.spin_momentum = seen.spin_momentum;
+      flow.spin_momentum = seen.momentum_about_axis;
       flow.torques = forces.drives;
     }
   }

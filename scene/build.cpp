@@ -8,9 +8,15 @@
 #include "core/length_control/chain_motion.hpp"
 #include "core/length_control/rest_arc.hpp"
 #include "core/length_control/segmentation.hpp"
+#include "mechanics/contact/contact_room.hpp"
+#include "mechanics/frames/frame_room.hpp"
+#include "mechanics/frames/frame_sections.hpp"
+#include "mechanics/remesh/giving_way.hpp"
 #include "mechanics/rooms.hpp"
 #include "mechanics/ropes/ground.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "scene/bearings.hpp"
+#include "scene/build_drag.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/build_frames.hpp"
 #include "scene/build_loads.hpp"
@@ -25,14 +31,31 @@
 namespace vlbeam {
 namespace {
 
+MergeShape build_merge(const Scene& scene) {
+  switch (merge_policy(scene)) {
+    case MergePolicy::unit:
+      return MergeShape::unit;
+    case MergePolicy::rest_arc:
+      return MergeShape::rest_arc;
+    case MergePolicy::least_change:
+      return MergeShape::least_change;
+    case MergePolicy::own:
+      return MergeShape::own;
+    case MergePolicy::relaxed:
+      return has_rest_shape(scene) ? MergeShape::rest_arc : MergeShape::point_fit;
+    case MergePolicy::point_fit:
+      break;
+  }
+  return MergeShape::point_fit;
+}
+
 LengthControl build_length_control(const Scene& scene) {
   const auto& control = scene.length_control;
   return {control.enabled,
           standard_length(scene),
           control.upper,
           control.hysteresis,
-          merge_policy(scene),
-          cut_policy(scene),
+          build_merge(scene),
           control.merge_rule,
           merges_rationally(scene),
           scene.analysis == Analysis::statics ? VelocityTransfer::nodal : control.velocities,
@@ -260,10 +283,10 @@ void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& ch
     position<D>(chain.rate.data(), k) += initial_velocity<D>(scene, position<D>(chain.q.data(), k));
     slope<D>(chain.rate.data(), k) += turning(slope<D>(chain.q.data(), k));
     if constexpr (D == 3) {
-      if (chain.sections.empty()) continue;
+      if (chain.kept == nullptr) continue;
       const Vec<double, 3> spin =
           scene.initial_velocity->rotation * vector_of<3>(scene.initial_velocity->axis).normalized();
-      chain.sections[static_cast<std::size_t>(k)].spin += spin.dot(slope<3>(chain.q.data(), k).normalized());
+      own_sections(chain).now[static_cast<std::size_t>(k)].spin += spin.dot(slope<3>(chain.q.data(), k).normalized());
     }
   }
   for (auto& joint : chain.joints) {
@@ -277,7 +300,9 @@ void add_rigid_motion(const Scene& scene, const Axis<D>& axis, ChainState<D>& ch
     };
     keep(position<D>(chain.rate.data(), k), support.free_position);
     keep(slope<D>(chain.rate.data(), k), support.free_slope);
-    if (!chain.sections.empty() && !support.free_angle) chain.sections[static_cast<std::size_t>(k)].spin = 0;
+    if constexpr (D == 3) {
+      if (chain.kept && !support.free_angle) own_sections(chain).now[static_cast<std::size_t>(k)].spin = 0;
+    }
   }
 }
 
@@ -307,6 +332,49 @@ std::shared_ptr<const Part<D>> build_ground(const Scene& scene, const BeamModel<
                                                  .friction = ground.friction},
                                      model.quadrature_points, model.masses, model.section.rhoA);
 }
+
+namespace {
+
+template <int D>
+void add_drag(const Scene& scene, BeamModel<D>& model) {
+  const auto drag = build_drag<D>(scene, scene.drag.value_or(DragSpec{}), model.section.rhoA, model.quadrature_points);
+  if (drag.present()) model.parts.push_back(std::make_shared<ActingDrag<D>>(drag));
+}
+
+/// Where joints, or a joint and a support, do not end the run when they meet.
+template <int D>
+void add_contacts(const Scene& scene, BeamModel<D>& model) {
+  const ContactSpec contact = scene.contact.value_or(ContactSpec{});
+  const auto joints = sliding_joints(scene);
+  const auto strikes = [](const SlidingJointSpec& joint) { return joint.at_support != AtSupport::stop; };
+  if (contact.joints == AtSupport::stop && std::ranges::none_of(joints, strikes)) return;
+  auto& room = bring<ContactRoom<D>>(model);
+  for (const SlidingJointSpec& joint : joints) room.at_support.push_back({joint.at_support, joint.restitution});
+  room.at_meeting = {contact.joints, contact.restitution};
+  room.joints_rest = joints_may_rest(scene);
+}
+
+template <int D>
+void add_giving_way(const Scene& scene, BeamModel<D>& model) {
+  const bool cuts = cut_policy(scene) == CutPolicy::relaxed, merges = merge_policy(scene) == MergePolicy::relaxed;
+  if (!cuts && !merges) return;
+  auto& room = bring<RemeshRoom<D>>(model);
+  room.cuts = cuts;
+  room.merges = merges;
+}
+
+template <int D>
+void add_spin(const Scene& scene, Torques torques, BeamModel<D>& model) {
+  SpinModel& spin = spin_in(model);
+  spin.section = build_spin(scene.beam);
+  spin.field = scene.spin->angles;
+  spin.rate = initial_spin(scene);
+  for (const auto& drive : scene.spin->drives) spin.drives.push_back({drive.node, time_function(drive.angle)});
+  spin.torques = std::move(torques);
+  for (const SlidingJointSpec& joint : sliding_joints(scene)) spin.pitch.push_back(joint.pitch.value_or(0));
+}
+
+}  // namespace
 
 template <int D>
 BeamModel<D> build_model(const Scene& scene) {
@@ -354,9 +422,7 @@ BeamModel<D> build_model(const Scene& scene) {
     }
     joint.motion = motion_of(spec.motion);
     joint.separation_distance = separation_distance(scene, spec);
-    joint.at_support = {spec.at_support, spec.restitution};
     if (spec.x) joint.x = travelling(x, acting(*spec.x, scene.analysis));
-    joint.pitch = spec.pitch.value_or(0);
   }
   for (const BlockSpec& block : scene.blocks) {
     model.blocks.push_back(block.joints);  // the block only shifts: any of its joints may have its mass
@@ -364,18 +430,11 @@ BeamModel<D> build_model(const Scene& scene) {
       model.joints[static_cast<std::size_t>(tied)].law.mass += block.mass / static_cast<double>(block.joints.size());
     }
   }
-  const ContactSpec contact = scene.contact.value_or(ContactSpec{});
-  model.at_meeting = {contact.joints, contact.restitution};
-  model.joints_rest = joints_may_rest(scene);
-  model.contact_distance = contact.distance;
+  model.contact_distance = contact_distance(scene);
+  if constexpr (has_room("contact")) add_contacts(scene, model);
   model.masses.points = build_point_masses(scene, axis.breaks());
-  const double of_mass = scene.beam.material.mass_damping * model.section.rhoA;
-  const DragSpec drag = scene.drag.value_or(DragSpec{});
-  model.drag = {{drag.linear.normal + of_mass, drag.linear.tangential + of_mass},
-                {drag.quadratic.normal, drag.quadratic.tangential},
-                model.quadrature_points};
-  if (scene.fluid) model.drag.stream = vector_of<D>(scene.fluid->velocity);
   if constexpr (has_room("ropes")) {
+    if (scene.beam.sections.empty()) add_drag(scene, model);
     if (scene.ground) model.parts.push_back(build_ground<D>(scene, model));
   }
   add_bearings(scene, axis, model);
@@ -383,6 +442,7 @@ BeamModel<D> build_model(const Scene& scene) {
   model.time_is_load_factor = scene.analysis == Analysis::statics;
   model.constraints = scene.constraints;
   model.length_control = build_length_control(scene);
+  if constexpr (has_room("remesh")) add_giving_way(scene, model);
   for (const auto& piece : model.pieces.pieces()) model.length_control.kept.push_back(piece.end);
   if (has_rest_shape(scene)) model.rest = std::make_shared<const Axis<D>>(axis.straightened());
   auto [loads, torques, moments] = build_loads<D>(scene);
@@ -395,15 +455,14 @@ BeamModel<D> build_model(const Scene& scene) {
   };
   stay(loads.points);
   stay(torques.points);
-  if (has_frames(scene)) {
-    model.frames = FrameModel{build_frames(scene.beam), std::move(torques), std::move(moments)};
-  } else if (scene.spin) {
-    SpinModel& spin = model.spin.emplace();
-    spin.section = build_spin(scene.beam);
-    spin.field = scene.spin->angles;
-    spin.rate = initial_spin(scene);
-    for (const auto& drive : scene.spin->drives) spin.drives.push_back({drive.node, time_function(drive.angle)});
-    spin.torques = std::move(torques);
+  if constexpr (D == 3 && has_room("frames")) {
+    if (has_frames(scene)) {
+      model.rooms.push_back(
+          std::make_shared<FrameRoom>(FrameModel{build_frames(scene.beam), torques, std::move(moments)}));
+    }
+  }
+  if constexpr (has_room("spin")) {
+    if (scene.spin && !has_frames(scene)) add_spin(scene, std::move(torques), model);
   }
   model.loads = std::move(loads);
   add_laws_along(scene, model);
@@ -452,8 +511,7 @@ ChainState<D> build_shape(const Scene& scene) {
   }
   if constexpr (D == 3) {
     if (has_frames(scene)) {
-      chain.sections = chain.rest_sections = sections_along(scene, chain);
-      chain.rest_triads = rest_triads(scene, chain);
+      add_frames(scene, chain);
     }
   }
   const auto joints = sliding_joints(scene);
@@ -471,8 +529,7 @@ ChainState<D> build_shape(const Scene& scene) {
   std::ranges::sort(chain.joints, {}, [](const auto& joint) { return joint.node; });
   const LengthControl control = build_length_control(scene);
   const bool even = has_rest_shape(scene) && axis_form(scene) == AxisForm::even;
-  if (even && control.enabled && takes_rest_arc(chain, control) &&
-      weight_transport(scene) == WeightTransport::transported) {
+  if (even && control.enabled && control.takes_rest_arc() && weight_transport(scene) == WeightTransport::transported) {
     for (int k = 0; k < chain.mesh.elements(); ++k) {
       if (!chain.moves(k)) continue;
       chain.mesh.weights[static_cast<std::size_t>(k)] = rest_arc(axis, chain, k, control.trigger_length());
@@ -543,7 +600,8 @@ void set_in_motion(const Scene& scene, ChainState<D>& chain) {
     if (held) position<D>(chain.rate.data(), j).setZero();
     if constexpr (D == 3) {  // triads of the node are those of the material points that pass it
       if (has_frames(scene))
-        chain.sections[static_cast<std::size_t>(j)].spin += rate * turning_along(chain, axis.straightened(), j);
+        own_sections(chain).now[static_cast<std::size_t>(j)].spin +=
+            rate * turning_along(chain, axis.straightened(), j);
     }
     if (joints[i].support != SupportType::clamp) continue;
     const auto sleeve = Support<D>::direction_clamp(axis.tangent(x));

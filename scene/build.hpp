@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/geometry/axis.hpp"
+#include "mechanics/frames/frame_table.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
+#include "mechanics/spin/spin_element.hpp"
 #include "scene/derived.hpp"
 
 namespace vlbeam {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/rooms.hpp"
 #include "mechanics/time/stepper.hpp"
@@ -41,17 +42,21 @@ double initial_velocity(const Scene& scene) {
 }
 
 template <int D>
-void add_flow(const Scene& scene, const Vec<double, D>& along, BeamModel<D>& model) {
-  if (scene.beam.rotary_inertia != BendingInertia::none) {
-    const double rhoIp = build_spin(scene.beam).rhoIp;
-    model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = 0, .direction = along};
-    if (scene.beam.rotary_inertia == BendingInertia::gyroscopic) model.rotary.gyroscopic = rhoIp * initial_spin(scene);
-  }
-  model.motion = MeshMotion(build_guides(scene));
-  if (!scene.flow) return;
-  for (const auto& guide : scene.flow->nodes) {
-    if (guide.support == SupportType::free) continue;
-    model.held_nodes.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
+void add_flow([[maybe_unused]] const Scene& scene, [[maybe_unused]] const Vec<double, D>& along,
+              [[maybe_unused]] BeamModel<D>& model) {
+  if constexpr (has_room("flow")) {
+    FlowRoom<D>& room = flow_in(model);
+    if (scene.beam.rotary_inertia != BendingInertia::none) {
+      const double rhoIp = build_spin(scene.beam).rhoIp;
+      room.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = 0, .direction = along};
+      if (scene.beam.rotary_inertia == BendingInertia::gyroscopic) room.rotary.gyroscopic = rhoIp * initial_spin(scene);
+    }
+    room.motion = MeshMotion(build_guides(scene));
+    if (!scene.flow) return;
+    for (const auto& guide : scene.flow->nodes) {
+      if (guide.support == SupportType::free) continue;
+      model.held_nodes.push_back({guide.node, build_support<D>({guide.support, ClampType::direction}, along)});
+    }
   }
 }
 
@@ -61,7 +66,7 @@ namespace {
 template <int D>
 ChainState<D> curved_chain(const Scene& scene, const Axis<D>& axis, const BeamModel<D>& model) {
   std::vector<Prescribed> marks;
-  model.motion.at(0, marks);
+  room_of<FlowRoom<D>>(model)->motion.at(0, marks);
   ChainState<D> chain;
   for (const Prescribed& x : marks) {
     chain.mesh.x.push_back(x.value);
@@ -87,18 +92,18 @@ ChainState<D> curved_chain(const Scene& scene, const Axis<D>& axis, const BeamMo
 }  // namespace
 
 template <int D>
-ChainState<D> flowing_chain(const Scene& scene, const BeamModel<D>& model) {
-  const Axis<D> axis = build_axis<D>(scene);
-  if (!axis.straight()) return curved_chain(scene, axis, model);
-  const Vec<double, D> along = axis.tangent(0).normalized();
-  const double stretch = initial_stretch(scene), first = model.motion.first(0).value;
+ChainState<D> flowing_chain([[maybe_unused]] const Scene& scene, [[maybe_unused]] const BeamModel<D>& model) {
   ChainState<D> chain;
   if constexpr (has_room("flow")) {
+    const Axis<D> axis = build_axis<D>(scene);
+    if (!axis.straight()) return curved_chain(scene, axis, model);
+    const Vec<double, D> along = axis.tangent(0).normalized();
+    const double stretch = initial_stretch(scene), first = room_of<FlowRoom<D>>(model)->motion.first(0).value;
     const Vec<double, D> start = axis.position(0) + along * (stretch * first);
     chain = straight_chain<D>(model, start, along, stretch, initial_velocity(scene));
+    for (WeightFunction& weights : chain.mesh.weights) weights.w = scene.beam.weights;
+    if (model.rest) chain.rest = chain.q;
   }
-  for (WeightFunction& weights : chain.mesh.weights) weights.w = scene.beam.weights;
-  if (model.rest) chain.rest = chain.q;
   return chain;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mechanics/frames/frame_element.hpp"
+#include "mechanics/frames/frame_sections.hpp"
 #include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 
@@ -17,10 +18,10 @@ double twist_rate_at(const ChainState<3>& chain, int node) {
     const double l = chain.mesh.x[i + 1] - chain.mesh.x[i];
     const auto e = element_nodes<3>(chain.q.data(), k);
     if constexpr (has_room("frames")) {
+      const auto& sections = sections_of(chain).now;
       const FrameTable table(l, chain.mesh.weights[i].w);
-      const FrameEnds<double> ends{
-          e.r_b - e.r_a,          e.s_a, e.s_b, chain.sections[i].direction, chain.sections[i + 1].direction,
-          chain.sections[i].ahead};
+      const FrameEnds<double> ends{e.r_b - e.r_a,    e.s_a, e.s_b, sections[i].direction, sections[i + 1].direction,
+                                   sections[i].ahead};
       sum += FrameElement<double>(table, {}, ends).twist() / l;
     }
     ++sides;
@@ -33,17 +34,20 @@ double turning_along(const ChainState<3>& chain, const Axis<3>& rest, int node) 
   if (!chain.curved_at_rest()) return twist;
   ChainState<3> at_rest = chain;
   at_rest.q = chain.rest;
-  at_rest.sections = chain.rest_sections;
+  own_sections(at_rest).now = sections_of(chain).at_rest;
   const double x = chain.mesh.x[static_cast<std::size_t>(node)];
-  const double turning = chain.rest_triads->turning(x, rest.derivatives(x))[0];
+  const double turning = sections_of(chain).rest_triads->turning(x, rest.derivatives(x))[0];
   return twist + turning - twist_rate_at(at_rest, node);
 }
 
-std::shared_ptr<const RestTriads> rest_triads(const Scene& scene, const ChainState<3>& chain) {
+namespace {
+
+std::shared_ptr<const RestTriads> rest_triads(const Scene& scene, const ChainState<3>& chain,
+                                              const std::vector<SectionState>& sections) {
   std::vector<TriadReference> at;
   for (int k = 0; k <= chain.mesh.last(); ++k) {
     at.push_back({slope<3>(chain.rest.empty() ? chain.q.data() : chain.rest.data(), k).normalized(),
-                  chain.rest_sections[static_cast<std::size_t>(k)].direction});
+                  sections[static_cast<std::size_t>(k)].direction});
   }
   return std::make_shared<const RestTriads>(vector_of<3>(scene.beam.section.orientation), chain.mesh.x, std::move(at));
 }
@@ -63,6 +67,15 @@ std::vector<SectionState> sections_along(const Scene& scene, const ChainState<3>
     }
   }
   return sections;
+}
+
+}  // namespace
+
+void add_frames(const Scene& scene, ChainState<3>& chain) {
+  const auto sections = std::make_shared<FrameSections>();
+  sections->now = sections->at_rest = sections_along(scene, chain);
+  sections->rest_triads = rest_triads(scene, chain, sections->at_rest);
+  chain.kept = sections;
 }
 
 }  // namespace vlbeam

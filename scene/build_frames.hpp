@@ -1,18 +1,12 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "core/length_control/chain_state.hpp"
 #include "scene/scene.hpp"
 
 namespace vlbeam {
 
-/// How sections stand at the nodes: as the scene says, or else turned by nothing from one node to the next.
-std::vector<SectionState> sections_along(const Scene& scene, const ChainState<3>& chain);
-
-/// How they stand at rest all along the beam, from how they do at the nodes.
-std::shared_ptr<const RestTriads> rest_triads(const Scene& scene, const ChainState<3>& chain);
+/// Lets sections stand at the nodes of a chain as the scene says, or else turned by nothing from one node to the next.
+void add_frames(const Scene& scene, ChainState<3>& chain);
 
 /// The twist per length beside a node, the mean of both sides [rad/m].
 double twist_rate_at(const ChainState<3>& chain, int node);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/geometry/elementary.hpp"
+#include "mechanics/frames/frame_sections.hpp"
 #include "scene/build.hpp"
 #include "scene/section_data.hpp"
 #include "scene/time_function.hpp"
@@ -43,7 +44,7 @@ SectionMoment build_moment(const Scene& scene, const LoadSpec& spec) {
   if (spec.follows) {
     const ChainState<3> built = build_shape<3>(scene);
     const Vec<double, 3> t = slope<3>(built.q.data(), spec.node).normalized(),
-                         y = built.sections[static_cast<std::size_t>(spec.node)].direction;
+                         y = sections_of(built).now[static_cast<std::size_t>(spec.node)].direction;
     direction = Vec<double, 3>(t.dot(direction), y.dot(direction), t.cross(y).dot(direction));
   }
   return {spec.node == scene.beam.elements ? -1 : spec.node, direction, spec.follows,

@@ -1,6 +1,7 @@
 #include "scene/initial_equilibrium.hpp"
 
 #include "core/error.hpp"
+#include "mechanics/frames/frame_room.hpp"
 #include "mechanics/rooms.hpp"
 #include "scene/build.hpp"
 
@@ -26,13 +27,16 @@ BeamModel<D> at_start(BeamModel<D> model) {
     grow(load.moment);
   }
   grow(model.loads.line_force);
-  if (model.frames) {
-    for (Torques::Point& point : model.frames->torques.points) {
-      hold(point.x);
-      grow(point.torque);
+  if constexpr (D == 3 && has_room("frames")) {
+    if (frame_model(model) != nullptr) {
+      FrameModel& frames = bring<FrameRoom>(model);
+      for (Torques::Point& point : frames.torques.points) {
+        hold(point.x);
+        grow(point.torque);
+      }
+      grow(frames.torques.line);
+      for (SectionMoment& moment : frames.moments) grow(moment.size);
     }
-    grow(model.frames->torques.line);
-    for (SectionMoment& moment : model.frames->moments) grow(moment.size);
   }
   model.time_is_load_factor = true;
   model.start_motion = model.end_motion = {};

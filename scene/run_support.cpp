@@ -73,24 +73,57 @@ bool Stops::end_at(double t) {
   return true;
 }
 
+namespace {
+
+/// Of a method that is no room's.
+IntegrationMethod method_of(IntegratorType type) {
+  using Method = IntegrationMethod;
+  switch (type) {
+    case IntegratorType::cash_karp:
+      return Method::cash_karp;
+    case IntegratorType::fehlberg78:
+      return Method::fehlberg78;
+    case IntegratorType::bulirsch_stoer:
+      return Method::bulirsch_stoer;
+    case IntegratorType::adams_bashforth_moulton:
+      return Method::adams_bashforth_moulton;
+    case IntegratorType::rosenbrock4:
+      return Method::rosenbrock4;
+    case IntegratorType::generalized_alpha:
+      return Method::generalized_alpha;
+    default:
+      return Method::dopri5;
+  }
+}
+
+}  // namespace
+
+void set_method(IntegratorType type, double step, IntegrationOptions& options) {
+  options.step = step;
+  options.type = method_of(type);
+  if constexpr (has_room("conserving")) {
+    if (type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = step});
+  }
+  if constexpr (has_room("sundials")) {
+    if (of_sundials(type)) {
+      options.other = method_of_sundials(type == IntegratorType::ida     ? SundialsMethod::ida
+                                         : type == IntegratorType::cvode ? SundialsMethod::cvode
+                                                                         : SundialsMethod::arkode);
+    }
+  }
+}
+
 IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest) {
   const double stiffness = std::max(section.stiffness.EA, section.stiffness.EI / (shortest * shortest));
   const double wave_time = shortest * std::sqrt(section.rhoA / stiffness);
   const auto& integrator = scene.integrator;
   IntegrationOptions options;
-  options.type = integrator.type;
   options.tolerances = tolerances_of(scene);
   options.first_step = first_step_courant * wave_time;
   options.timetable = timetable(scene);
   options.locate_events = integrator.locate_events;
   if (options.tolerances.motion > 0) options.largest_overshoot = largest_overshoot;
-  options.step = integrator.step;
-  if constexpr (has_room("conserving")) {
-    if (integrator.type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = integrator.step});
-  }
-  if constexpr (has_room("sundials")) {
-    if (of_sundials(integrator.type)) options.other = method_of_sundials(integrator.type);
-  }
+  set_method(integrator.type, integrator.step, options);
   options.generalized_alpha = {.step = integrator.step,
                                .rho_inf = integrator.rho_inf,
                                .newton = integrator.newton,

@@ -58,6 +58,9 @@ struct Stops {
   bool keeps_shape_at(double t) const { return std::binary_search(configurations.begin(), configurations.end(), t); }
 };
 
+/// Chooses a method, of a fixed step if it takes one.
+void set_method(IntegratorType type, double step, IntegrationOptions& options);
+
 /// `shortest` is the length of the shortest element at t = 0 [m].
 IntegrationOptions integration_options(const Scene& scene, const BeamSection& section, double shortest);
 

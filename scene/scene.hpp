@@ -9,14 +9,14 @@
 #include "core/element/beam_rule.hpp"
 #include "core/element/strain_law.hpp"
 #include "core/element/transport.hpp"
-#include "core/length_control/merge_policy.hpp"
+#include "core/length_control/merge_shape.hpp"
 #include "mechanics/contact/at_support.hpp"
 #include "mechanics/motion/joint/axial_friction.hpp"
 #include "mechanics/motion/joint/joint_slopes.hpp"
 #include "mechanics/motion/system/constraints.hpp"
 #include "mechanics/ropes/winding.hpp"
 #include "mechanics/spin/angle_field.hpp"
-#include "mechanics/time/integrator_type.hpp"
+#include "scene/integrator_type.hpp"
 
 namespace vlbeam {
 
@@ -412,6 +412,22 @@ struct GroundSpec {
   std::optional<double> depth = {};            ///< over which it sets in [m]; if not given, the beam's weight over it
   double damping = 0;                          ///< per length, of the velocity into it [N s/m^2]
   std::optional<AxialFriction> friction = {};  ///< against the velocity along it
+};
+
+/// How the shape of a merged element is found: as MergeShape says.
+enum class MergePolicy {
+  point_fit,
+  unit,
+  rest_arc,
+  least_change,
+  own,
+  relaxed,  ///< weights by rest_arc where the beam is curved at rest, else by point_fit; then the outer nodes give way
+};
+
+/// Where the new node of a cut element is.
+enum class CutPolicy {
+  exact,    ///< on its curve (Ding & Ouyang 2022, Eq. 21-28)
+  relaxed,  ///< at the least strain energy of the two halves
 };
 
 /// How the lengths of the elements beside the sliding mass are controlled.

@@ -8,6 +8,7 @@
 #include "mechanics/rooms.hpp"
 #include "mechanics/ropes/laws_along.hpp"
 #include "scene/build.hpp"
+#include "scene/build_drag.hpp"
 #include "scene/corners.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
@@ -171,13 +172,9 @@ void add_laws_along(const Scene& scene, BeamModel<D>& model) {
     for (const BeamPieceSpec& piece : scene.beam.sections) {
       LawAlong<D> law{.end = piece_end(piece, beam_length(scene)), .drag = {}, .push = line_force};
       const double rhoA = build_section(with_section(scene.beam, piece.section)).rhoA;
-      const double of_mass = scene.beam.material.mass_damping * rhoA;
       const DragSpec drag = piece.drag ? *piece.drag : scene.drag.value_or(DragSpec{});
-      law.drag = {{drag.linear.normal + of_mass, drag.linear.tangential + of_mass},
-                  {drag.quadratic.normal, drag.quadratic.tangential},
-                  model.quadrature_points};
+      law.drag = build_drag<D>(scene, drag, rhoA, model.quadrature_points);
       if (scene.fluid) {
-        law.drag.stream = vector_of<D>(scene.fluid->velocity);
         const double area = displaces(piece.section.type) ? displaced_area(piece.section) : piece.area.value_or(0);
         const Vec<double, D> lift = -scene.fluid->density * area * vector_of<D>(scene.gravity);
         if (!lift.isZero(0)) {
@@ -190,7 +187,6 @@ void add_laws_along(const Scene& scene, BeamModel<D>& model) {
       acts = acts || law.drag.present() || law.push;
       laws.push_back(std::move(law));
     }
-    model.drag = {};
     if (acts) model.parts.push_back(laws_along<D>(std::move(laws), model.quadrature_points));
   }
 }

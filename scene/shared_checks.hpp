@@ -7,7 +7,7 @@
 
 #include "core/geometry/vec.hpp"
 #include "mechanics/motion/system/beam_model.hpp"
-#include "mechanics/time/integrator_type.hpp"
+#include "scene/integrator_type.hpp"
 
 namespace vlbeam {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "mechanics/time/integrator_type.hpp"
 #include "scene/build.hpp"
+#include "scene/integrator_type.hpp"
 #include "scene/options.hpp"
 #include "scene/time_function.hpp"
 

@@ -8,9 +8,10 @@
 #include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/rooms.hpp"
-#include "mechanics/time/integrator_type.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
+#include "scene/integrator_type.hpp"
 #include "scene/options.hpp"
 #include "scene/section_data.hpp"
 #include "scene/stretch.hpp"
@@ -121,8 +122,9 @@ void check_model(const Scene& scene) {
                "it must be that of /beam/curve, " + number_text(curve) + " m, within 1 %");
       }
     }
-    if (model.rest && scene.beam.curve.type != CurveType::line) check_within_curve(scene, model.motion);
-    if (model.spin) check_drives(model.spin->drives, chain.mesh.last());
+    if (model.rest && scene.beam.curve.type != CurveType::line)
+      check_within_curve(scene, room_of<FlowRoom<D>>(model)->motion);
+    if (const SpinModel* const spin = spin_model(model)) check_drives(spin->drives, chain.mesh.last());
     mesh.check_motion(scene.duration);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/rooms.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "scene/build.hpp"
 #include "scene/build_flow.hpp"
 #include "scene/corners.hpp"
@@ -105,13 +106,16 @@ void check_resting_parts(const Scene& scene) {
   } else {
     check_that_loads_come(scene, beyond);
   }
-  if (!model.spin) return;
-  if constexpr (has_room("spin")) check_drives(model.spin->drives, scene.beam.elements);
-  for (const LoadSpec& load : scene.loads) {
-    const auto at_drive = [&load](const DrivenAngle& drive) { return drive.node == load.node; };
-    if (load.type != LoadType::torque || load.at != LoadPlace::node) continue;
-    if (std::ranges::any_of(model.spin->drives, at_drive)) {
-      refuse("/loads", "a torque at node " + std::to_string(load.node), "the angle there is prescribed already");
+  if constexpr (has_room("spin")) {
+    const SpinModel* const spin = spin_model(model);
+    if (spin == nullptr) return;
+    check_drives(spin->drives, scene.beam.elements);
+    for (const LoadSpec& load : scene.loads) {
+      const auto at_drive = [&load](const DrivenAngle& drive) { return drive.node == load.node; };
+      if (load.type != LoadType::torque || load.at != LoadPlace::node) continue;
+      if (std::ranges::any_of(spin->drives, at_drive)) {
+        refuse("/loads", "a torque at node " + std::to_string(load.node), "the angle there is prescribed already");
+      }
     }
   }
 }

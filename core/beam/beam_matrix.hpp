@@ -63,7 +63,7 @@ class BeamMatrix : public BorderedBlockTridiagonal<node_size<D>> {
   /// The same where ends of it are joints: rows and columns 14 and 15 belong to the material coordinates of the joints
   /// marks[e], if to any.
   template <class Matrix>
-  void add_moving_frame(int k, const Matrix& matrix, const std::array<int, 2>& marks) requires(D == 3) {
+  void add_turning_at_joints(int k, const Matrix& matrix, const std::array<int, 2>& marks) requires(D == 3) {
     constexpr int W = B + 1, X = 2 * W;
     add_turning_element(k, matrix);
     of_angles_.resize(border.size());

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "core/beam/mesh.hpp"
-#include "core/beam/mesh_motion.hpp"
 #include "core/beam/node_map.hpp"
 #include "core/element/transport.hpp"
+#include "core/geometry/prescribed.hpp"
 
 namespace vlbeam {
+
+/// Index of the element, between nodes at `marks`, that holds the material point x. Beyond the ends it is that of the
+/// first or the last element.
+inline int element_at(const std::vector<Prescribed>& marks, double x) {
+  const auto next = std::upper_bound(marks.begin() + 1, marks.end() - 1, x,
+                                     [](double at, const Prescribed& node) { return at < node.value; });
+  return static_cast<int>(next - marks.begin()) - 1;
+}
 
 /// Where the coordinates of a joint stand: of a node that moves along the beam freely. The slope behind
 /// it stands apart if the beam may be kinked there.
@@ -80,16 +89,16 @@ struct ChainView {
     return x >= first - beyond && x <= last + beyond;
   }
   /// Rate at which the integral of r along the beam grows because matter comes in through its ends [m^2/s].
-  Vec<double, D> inflow() const {
+  Vec<double, D> entering() const {
     Vec<double, D> sum = Vec<double, D>::Zero();
     if (marks != nullptr) {
       return marks->back().rate * position<D>(q, mesh.last()) - marks->front().rate * position<D>(q, 0);
     }
-    for (const JointPlace& joint : joints) sum += inflow_at(joint);
+    for (const JointPlace& joint : joints) sum += entering_at(joint);
     return sum;
   }
   /// What of it a joint at an end lets in; that of others is 0.
-  Vec<double, D> inflow_at(const JointPlace& joint) const {
+  Vec<double, D> entering_at(const JointPlace& joint) const {
     if (joint.node == 0) return -rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q);
     if (joint.node != mesh.last()) return Vec<double, D>::Zero();
     return rate[joint.mark] * Eigen::Map<const Vec<double, D>>(q + vector(joint.node - 1, 2));

@@ -9,10 +9,15 @@
 
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_map.hpp"
-#include "core/element/rest_triads.hpp"
 #include "core/geometry/axis.hpp"
 
 namespace vlbeam {
+
+/// What a feature keeps of a chain's nodes besides. Cuts and merges leave it as it was: who keeps it brings it up to
+/// date.
+struct KeptAtNodes {
+  virtual ~KeptAtNodes() = default;
+};
 
 /// A beam's mesh with its motion, and the nodes that move along it, the joints.
 /// Rates at a joint are those of the node, at all other nodes those of the material point. Where the beam may be kinked
@@ -25,11 +30,8 @@ struct ChainState {
   std::vector<double> q, rate;     ///< nodal arrays
   std::vector<double> mark_rates;  ///< of the nodes' material coordinates, where all of them travel [m/s]
   std::vector<double> rest;        ///< where the nodes are when nothing stresses the beam; empty: straight, unstrained
-  const Axis<D>* rest_curve = nullptr;  ///< what new nodes follow then
-  /// How sections are turned at the nodes, and are at rest, where they have frames. Cuts and merges leave them as they
-  /// were, and CurrentBeam brings them up to date.
-  std::vector<SectionState> sections, rest_sections;
-  std::shared_ptr<const RestTriads> rest_triads = {};  ///< what new nodes, and those that move, follow at rest then
+  const Axis<D>* rest_curve = nullptr;           ///< what new nodes follow then
+  std::shared_ptr<const KeptAtNodes> kept = {};  ///< what a feature has at the nodes besides
   /// The beam's slope behind a joint.
   struct Kink {
     Vec<double, D> slope, rate;
@@ -49,18 +51,18 @@ struct ChainState {
   };
   std::vector<Joint> joints;  ///< in the order of the chain
   /// A sliding mass that has left the beam.
-  struct Departed {
+  struct FreeMass {
     int index;  ///< which of the joints it was
     Vec<double, D> r, v;
   };
-  std::vector<Departed> departed;
+  std::vector<FreeMass> free_masses;
   /// A mass inside the first or the last element, instead of a moving node.
-  struct Rider {
+  struct Loose {
     int element;
     double x, rate;     ///< material coordinate [m] and its rate [m/s]
     bool held = false;  ///< at the end of the beam, by a support
   };
-  std::optional<Rider> rider;
+  std::optional<Loose> loose;
 
   /// Coordinates and rates of element k, its moving ends included.
   MovingCoordinates<double, D> coordinates(int k) const {

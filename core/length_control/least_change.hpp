@@ -14,7 +14,7 @@ namespace vlbeam {
 /// K = max(EI, EA l^2/1000), c = 0.03 (derived; not in the paper). Where the beam is straight, weights change nothing;
 /// the last term fixes them there, so that they depend continuously on the curve. If the beam is curved at rest, eps
 /// and kappa count from the rest shape; r is the displacement from the rest shape, turned as the beam is; w is relative
-/// to the weights of MergePolicy::rest_arc. So a beam in its rest shape remains there. If no shape keeps the strain
+/// to the weights of MergeShape::rest_arc. So a beam in its rest shape remains there. If no shape keeps the strain
 /// energy, as with two slopes alone, it takes the one that changes it least. Returns the weights.
 template <int D>
 MergedWeights least_change(ChainState<D>& chain, const ChainState<D>& before, int merged, bool rational,

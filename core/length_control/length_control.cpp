@@ -41,7 +41,7 @@ const Weights<double>& take_rest_arc(ChainState<D>& chain, int k, const LengthCo
 /// The same for an element that a cut has left, where the merge policy says so.
 template <int D>
 void renew_cut(ChainState<D>& chain, int k, const LengthControl& control) {
-  if (takes_rest_arc(chain, control)) take_rest_arc(chain, k, control);
+  if (control.takes_rest_arc()) take_rest_arc(chain, k, control);
 }
 
 /// Where an element is cut: at the kept place that is nearest to the usual one, but not so near to a joint that what is
@@ -140,7 +140,7 @@ MergedWeights by_rule(const MergeRule& rule, const MovingCoordinates<double, D>&
 /// The beam before a merge, where its rule looks at more of it than the node it deletes.
 template <int D>
 std::optional<ChainState<D>> seen_by_merge(const ChainState<D>& chain, const LengthControl& control) {
-  return control.merge == MergePolicy::least_change ? std::optional(chain) : std::nullopt;
+  return control.merge == MergeShape::least_change ? std::optional(chain) : std::nullopt;
 }
 
 /// Gives element k of `chain` the shape of one that has lost a node of the chain `before`, see seen_by_merge().
@@ -148,15 +148,14 @@ template <int D>
 MergedWeights merge_into(ChainState<D>& chain, int k, const std::optional<ChainState<D>>& before, const Lost<D>& lost,
                          const LengthControl& control, const MovingLaw<D>& law) {
   if (before) return least_change(chain, *before, k, control.rational, law);
-  if (takes_rest_arc(chain, control)) {
+  if (control.takes_rest_arc()) {
     const auto& weights = take_rest_arc(chain, k, control);
     return {{weights[0], weights[1], weights[2]}};
   }
   const auto q = chain.coordinates(k);
   MergedWeights merged;
-  if (control.merge == MergePolicy::own) merged = by_rule<D>(control.rule, q, lost);
-  const bool fits = control.merge == MergePolicy::point_fit || control.merge == MergePolicy::relaxed;
-  if (fits && control.rational) {
+  if (control.merge == MergeShape::own) merged = by_rule<D>(control.rule, q, lost);
+  if (control.merge == MergeShape::point_fit && control.rational) {
     const double l = q.x_b - q.x_a;
     merged = point_fit<D>(q.e, l, (lost.x - q.x_a) / l, lost.r);
   }
@@ -220,7 +219,7 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
   place_node(chain, j, node);
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.left : node.right;
   chain.joints.clear();
-  chain.rider = {merged, x[i], before.joints.front().rate, false};
+  chain.loose = {merged, x[i], before.joints.front().rate, false};
   renew_cut(chain, cut, control);
   return merge_into(chain, merged, seen_by_merge(before, control), Lost<D>(before, j), control, law);
 }
@@ -228,17 +227,17 @@ MergedWeights merge_at_end(ChainState<D>& chain, Direction direction, const Leng
 template <int D>
 MergedWeights cut_at_end(ChainState<D>& chain, const LengthControl& control, const MovingLaw<D>& law) {
   const ChainState<D> before = chain;
-  const auto& rider = *before.rider;
-  const bool forward = rider.element > 0;
-  const int cut = rider.element, j = forward ? cut : cut + 1, merged = forward ? cut - 1 : cut + 1;
-  const auto node = segment(before, cut, rider.x, law.transport);
-  const auto at = motion_at(before, cut, rider.x, law.transport);
+  const auto& loose = *before.loose;
+  const bool forward = loose.element > 0;
+  const int cut = loose.element, j = forward ? cut : cut + 1, merged = forward ? cut - 1 : cut + 1;
+  const auto node = segment(before, cut, loose.x, law.transport);
+  const auto at = motion_at(before, cut, loose.x, law.transport);
   place_node(chain, j, node);
-  position<D>(chain.rate.data(), j) += rider.rate * at.r_x;
-  slope<D>(chain.rate.data(), j) += rider.rate * at.r_xx;
+  position<D>(chain.rate.data(), j) += loose.rate * at.r_x;
+  slope<D>(chain.rate.data(), j) += loose.rate * at.r_xx;
   chain.mesh.weights[static_cast<std::size_t>(cut)] = forward ? node.right : node.left;
-  chain.joints = {{.node = j, .rate = rider.rate}};
-  chain.rider.reset();
+  chain.joints = {{.node = j, .rate = loose.rate}};
+  chain.loose.reset();
   renew_cut(chain, cut, control);
   return merge_into(chain, merged, seen_by_merge(before, control), Lost<D>(before, j), control, law);
 }

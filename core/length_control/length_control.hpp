@@ -5,7 +5,7 @@
 
 #include "core/element/moving_element.hpp"
 #include "core/length_control/chain_state.hpp"
-#include "core/length_control/merge_policy.hpp"
+#include "core/length_control/merge_shape.hpp"
 #include "core/length_control/merging.hpp"
 
 namespace vlbeam {
@@ -16,8 +16,7 @@ struct LengthControl {
   double standard_length = 0;  ///< L_std [m]
   double upper = 1.5;          ///< an element longer than upper (1 + hysteresis) L_std is cut
   double hysteresis = 1e-3;
-  MergePolicy merge = MergePolicy::point_fit;
-  CutPolicy cut = CutPolicy::exact;
+  MergeShape merge = MergeShape::point_fit;
   MergeRule rule = {};   ///< with the policy `own`
   bool rational = true;  ///< merged elements may have weights other than 1
   VelocityTransfer velocities = VelocityTransfer::nodal;
@@ -34,16 +33,10 @@ struct LengthControl {
   /// Where what rides inside the last element gets a node again, so that no other event is due at once.
   double end_cut() const { return std::max(end_merge, 2 - upper) + 0.01; }
   double trigger_length() const { return upper * (1 + hysteresis) * standard_length; }
+  /// Whether elements have the weights of rest_arc().
+  bool takes_rest_arc() const { return merge == MergeShape::rest_arc && rational; }
   double merge_length() const { return lower * standard_length; }
 };
-
-/// Whether elements have the weights of rest_arc().
-template <int D>
-bool takes_rest_arc(const ChainState<D>& chain, const LengthControl& control) {
-  const bool wanted =
-      control.merge == MergePolicy::rest_arc || (control.merge == MergePolicy::relaxed && chain.curved_at_rest());
-  return wanted && control.rational;
-}
 
 /// Which way a moving node goes relative to the fixed ones.
 enum class Direction { forward, backward };

@@ -7,7 +7,7 @@
 
 namespace vlbeam {
 
-/// Weights of MergePolicy::rest_arc for element k of `chain`, which lies along `curve` at rest. They are those of an
+/// Weights of MergeShape::rest_arc for element k of `chain`, which lies along `curve` at rest. They are those of an
 /// arc with even parametrization that turns as much as the curve does there; beside a joint, as much as over the
 /// `longest` length that the element reaches before it is cut. Why the longest: weights that are not symmetric about
 /// the element's middle displace all its matter to one side, by theta^4 of its length. Transported weights are

@@ -99,7 +99,7 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     position<D>(out, k + 1) += part.nodes[2];
     slope<D>(out, k + 1) += part.nodes[3];
     r[extra] = part.x;
-  } else if (!beam_.departed().empty()) {
+  } else if (!beam_.free_masses().empty()) {
     r.segment<D>(extra) =
         model.joints.front().law.mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
   }

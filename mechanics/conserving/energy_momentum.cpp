@@ -39,10 +39,10 @@ class ConservingBeam final : public ConservingResidual {
  private:
   void check() const {
     const auto refuse = [](const char* why) { throw ModelError("integrator", "\"energy-momentum\"", why); };
-    const BeamModel<D>& model = accelerations_.beam().model();
-    if (model.spin) refuse("it knows no spin: take any other integrator");
-    if (model.frames) refuse("it knows no frames in space: take any other integrator");
-    if (model.driven() || model.travels() || model.loads.present() || model.drag.present()) {
+    const CurrentBeam<D>& beam = accelerations_.beam();
+    const BeamModel<D>& model = beam.model();
+    if (beam.unknowns() != nullptr) refuse("it knows neither spin nor frames in space: take any other integrator");
+    if (model.driven() || beam.prescribed_mesh() != nullptr || model.loads.present() || model.parts_work()) {
       refuse("it keeps an energy that moving supports and nodes, loads and drag change: take any other integrator");
     }
   }
@@ -156,9 +156,9 @@ std::unique_ptr<Stepper> make_energy_momentum(SecondOrderSystem& system, const E
 }
 
 OtherMethod energy_momentum(const EnergyMomentumOptions& options) {
-  return {.make = [options](SecondOrderSystem* system, const Tolerances&, NewtonCounters&) {
-    return make_energy_momentum(*system, options);
-  }};
+  return {.fixed_step = true, .make = [options](SecondOrderSystem* system, const Tolerances&, NewtonCounters&) {
+            return make_energy_momentum(*system, options);
+          }};
 }
 
 }  // namespace vlbeam

@@ -1,5 +1,6 @@
 #include "mechanics/contact/contact_events.hpp"
 
+#include "mechanics/contact/contact_room.hpp"
 #include "mechanics/motion/system/event_limits.hpp"
 
 namespace vlbeam {
@@ -55,7 +56,14 @@ std::vector<MergedWeights> ContactEvents<D>::apply(const std::vector<PendingEven
   return {{}};
 }
 
+template <int D>
+void ContactRoom<D>::add_sources(const BeamInside<D>& inside, EventSources<D>& sources) const {
+  sources.push_back(std::make_unique<ContactEvents<D>>(inside));
+}
+
 template class ContactEvents<2>;
 template class ContactEvents<3>;
+template class ContactRoom<2>;
+template class ContactRoom<3>;
 
 }  // namespace vlbeam

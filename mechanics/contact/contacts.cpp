@@ -1,5 +1,6 @@
 #include "mechanics/contact/contacts.hpp"
 
+#include "mechanics/contact/contact_room.hpp"
 #include "mechanics/motion/system/event_limits.hpp"
 
 namespace vlbeam {
@@ -22,11 +23,11 @@ std::vector<NodeContact<D>> Contacts<D>::all() const {
       const double distance = touch.distance > 0 ? touch.distance : touching;
       found.push_back({{behind, behind + 1, distance, {}, {}}, i, support, impact, touch.rests});
     };
-    const Impact& at_support = beam_.joint(i).at_support;
+    const Impact at_support = impact_at_support(model, beam_.joint_index(i));
     const bool strikes = at_support.law != AtSupport::stop && model.length_control.end_merge == 0;
     if (strikes && node == 1 && !model.start_releases) add(0, -1, at_support);
-    if (model.at_meeting.law != AtSupport::stop && beam_.at_joint(node + 1) && !beam_.feeds(i + 1)) {
-      add(node, 0, model.at_meeting);
+    if (!model.joints_stop_each_other() && beam_.at_joint(node + 1) && !beam_.feeds(i + 1)) {
+      add(node, 0, room_of<ContactRoom<D>>(model)->at_meeting);
     }
     if (strikes && node + 1 == beam_.mesh().last() && !model.end_releases) add(node, 1, at_support);
   }

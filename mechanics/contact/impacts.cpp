@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "mechanics/contact/contact_room.hpp"
 #include "mechanics/motion/system/event_limits.hpp"
 
 namespace vlbeam {
@@ -81,7 +82,7 @@ void Impacts<D>::strike(Eigen::VectorXd& y, double t) {
     const double falls =
         -gap.direction.dot(contact.difference(rates.data() + beam_.coordinates())) - across / gap.distance;
     if (!(falls > 0 && gap.rate * gap.rate < 2 * falls * least_bounce * unit)) continue;
-    if (!beam_.model().joints_rest) comes_to_rest(contact, t);
+    if (!room_of<ContactRoom<D>>(beam_.model())->joints_rest) comes_to_rest(contact, t);
     contact.impact.restitution = 0;
     lower = true;
   }

@@ -2,6 +2,7 @@
 
 #include "core/element/moving_tangent.hpp"
 #include "mechanics/flow/driven_residual.hpp"
+#include "mechanics/ropes/drag.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 
 namespace vlbeam {
@@ -11,7 +12,7 @@ double Flow<D>::add_residual(const double* q, const double* rate, const double* 
   beam_.fill_elements(q, rate, t, elements_);
   mesh().add_residual(elements_, a, r);
   forces_.setZero(beam_.coordinates());
-  mesh().add_inflow(beam_.view(q, rate), forces_.data());
+  mesh().add_entering(beam_.view(q, rate), forces_.data());
   Eigen::Map<Eigen::VectorXd>(r, beam_.layout().mark()) -= forces_.head(beam_.layout().mark());
   double lost = 0;
   for (const auto& element : elements_) lost += element.dissipation;
@@ -20,7 +21,8 @@ double Flow<D>::add_residual(const double* q, const double* rate, const double* 
 
 template <int D>
 Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, const double* a, double t) {
-  if (!beam_.model().books_flow) return {};
+  const FlowRoom<D>& room = *room_of<FlowRoom<D>>(beam_.model());
+  if (!room.books) return {};
   const Elements& elements = of == nullptr ? elements_ : *of;
   const std::vector<Prescribed>& marks = mesh().marks();
   const ChainView<D> beam = beam_.view(q, rate);
@@ -59,7 +61,7 @@ Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, co
         power += work;
       }
     }
-    if (beam_.model().rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
+    if (room.rotary.present()) {  // what its nodes' residual does not supply comes in along the beam
       power += mesh().rotary_power(beam, part, a);
     }
     drive(k, force_a);
@@ -73,8 +75,8 @@ Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, co
     loads += spin->add_torques(q + turns, rate + turns, t, forces_.data() + turns, on_marks_.data());
   }
   double taken = 0;
-  if (beam_.model().drag.present())
-    taken = beam_.model().drag.add_forces(beam, forces_.data(), on_marks_.data()).dissipated;
+  if (const Drag<D>* const drag = drag_of(beam_.model()))
+    taken = drag->add_forces(beam, forces_.data(), on_marks_.data()).dissipated;
   for (int k = 1; k < beam_.mesh().last(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     meshed -= on_marks_[i] * marks[i].rate;
@@ -89,7 +91,7 @@ Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, co
   for (int k = 0; k <= beam_.mesh().last(); ++k) impulse += position<D>(residual_.data(), k);
   result.impulse.template head<D>() = impulse;
   for (int k = 0; spin != nullptr && k <= beam_.mesh().last(); ++k)
-    result.spin_impulse += residual_[angle_of(beam_, k)];
+    result.impulse_about_axis += residual_[angle_of(beam_, k)];
   return result;
 }
 
@@ -97,7 +99,7 @@ Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, co
 template <int D>
 void Flow<D>::add_tangent(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const {
   beam_.move_nodes(now.t);
-  const BeamModel<D>& model = beam_.model();
+  const RotaryInertia<D>& rotary = room_of<FlowRoom<D>>(beam_.model())->rotary;
   const MovingMesh<D>& mesh = this->mesh();
   const ChainView<D>& beam = now.beam;
   MovingLaw<D> law = beam_.moving_law(now.t);
@@ -109,10 +111,9 @@ void Flow<D>::add_tangent(const Motion<D>& now, const TangentWeights& by, BeamMa
         beam, k,
         moving_tangent<MovingEnds::both, D, 0>(beam.coordinates(k), beam.rates(k), mesh.accelerations(now.a, k), by,
                                                beam.weights(k), part.table, law));
-    if (!model.rotary.present()) continue;
+    if (!rotary.present()) continue;
     const auto i = static_cast<std::size_t>(k);
-    tangent.add_element(beam, k,
-                        RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(model.rotary, by));
+    tangent.add_element(beam, k, RotaryElement(mesh.marks()[i], mesh.marks()[i + 1], part.table).tangent(rotary, by));
   }
   mesh.add_inflow_tangent(beam, by, [&](int row, int column, const auto& block) {
     auto& band = column == row ? tangent.diagonal : column > row ? tangent.upper : tangent.lower;

@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 #include "mechanics/flow/flow.hpp"
+#include "mechanics/flow/travel_events.hpp"
+#include "mechanics/spin/spin_room.hpp"
 
 namespace vlbeam {
 namespace {
@@ -14,9 +16,10 @@ constexpr double least_share = 1e-6;  // of an element's mean length at t = 0: b
 }  // namespace
 
 template <int D>
-MovingMesh<D>::MovingMesh(const BeamModel<D>& model, const std::vector<WeightFunction>& weights) : model_(model) {
+MovingMesh<D>::MovingMesh(const BeamModel<D>& model, const std::vector<WeightFunction>& weights)
+    : model_(model), flow_(*room_of<FlowRoom<D>>(model)) {
   check_model(weights);
-  model_.motion.at(0, marks_);
+  flow_.motion.at(0, marks_);
   reference_length_ = (marks_.back().value - marks_.front().value) / last();
   adopt_supports();
   rotary_.reserve(weights.size());
@@ -28,7 +31,7 @@ void MovingMesh<D>::check_model(const std::vector<WeightFunction>& weights) cons
     throw ModelError("weights", std::to_string(weights.size()) + " of them", "there must be one an element");
   }
   std::vector<Prescribed> nodes;
-  model_.motion.at(0, nodes);
+  flow_.motion.at(0, nodes);
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
     const double length = nodes[k + 1].value - nodes[k].value;
     if (length > 0) continue;
@@ -57,17 +60,17 @@ void MovingMesh<D>::check_model(const std::vector<WeightFunction>& weights) cons
     check_nodes("loads", at_nodes, 0, last(), false);
   };
   check_loads(model_.loads.points);
-  if (model_.spin) {
-    check_loads(model_.spin->torques.points);
-    for (const Torques::Point& load : model_.spin->torques.points) {
-      if (load.x || std::ranges::count(model_.spin->drives, load.node, &DrivenAngle::node) == 0) continue;
+  if (const SpinModel* const spin = spin_model(model_)) {
+    check_loads(spin->torques.points);
+    for (const Torques::Point& load : spin->torques.points) {
+      if (load.x || std::ranges::count(spin->drives, load.node, &DrivenAngle::node) == 0) continue;
       throw ModelError("loads", "a torque at node " + std::to_string(load.node),
                        "the angle there is prescribed already");
     }
   }
 
-  if (!model_.rotary.present()) return;
-  if (!(std::abs(model_.rotary.direction.norm() - 1) < 1e-9)) {
+  if (!flow_.rotary.present()) return;
+  if (!(std::abs(flow_.rotary.direction.norm() - 1) < 1e-9)) {
     throw ModelError("rotary inertia", "without direction", "it needs a unit vector");
   }
   if (model_.formulation == Formulation::virtual_work) {
@@ -83,9 +86,9 @@ void MovingMesh<D>::check_model(const std::vector<WeightFunction>& weights) cons
 template <int D>
 void MovingMesh<D>::adopt_supports() {
   free_.assign(marks_.size(), {Components::Ones(), Components::Ones()});
-  bool oriented = model_.rotary.present();
+  bool oriented = flow_.rotary.present();
   if (oriented) {
-    const Support<D> along = Support<D>::slide(model_.rotary.direction);
+    const Support<D> along = Support<D>::slide(flow_.rotary.direction);
     frame_ = along.frame;
     aligned_ = along.aligned;
   }
@@ -108,7 +111,7 @@ void MovingMesh<D>::adopt_supports() {
 
 template <int D>
 bool MovingMesh<D>::move(double t) {
-  model_.motion.at(t, marks_);
+  flow_.motion.at(t, marks_);
   for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
     if (!(length(k) > 0)) return false;
   }
@@ -131,7 +134,7 @@ void MovingMesh<D>::check_reach(double t) const {
     }
   };
   check(model_.loads.points);
-  if (model_.spin) check(model_.spin->torques.points);
+  if (const SpinModel* const spin = spin_model(model_)) check(spin->torques.points);
 }
 
 template <int D>
@@ -139,11 +142,11 @@ void MovingMesh<D>::take_inertia(const ChainView<D>& beam, const std::vector<Mov
   rotary_.clear();
   for (std::size_t k = 0; k < elements.size(); ++k) {
     MovingEquations<double, D>& eq = elements[k];
-    if (model_.rotary.present()) {
+    if (flow_.rotary.present()) {
       const RotaryElement& rotary = rotary_.emplace_back(marks_[k], marks_[k + 1], parts[k].table);
       const int element = static_cast<int>(k);
       const auto residual =
-          rotary.residual(model_.rotary, element_nodes<D>(beam.q, element), element_nodes<D>(beam.rate, element));
+          rotary.residual(flow_.rotary, element_nodes<D>(beam.q, element), element_nodes<D>(beam.rate, element));
       for (std::size_t row = 0; row < 4; ++row) eq.force[row] -= residual[row];
     }
     const double a = marks_[k].acceleration, b = marks_[k + 1].acceleration;
@@ -153,8 +156,8 @@ void MovingMesh<D>::take_inertia(const ChainView<D>& beam, const std::vector<Mov
 
 template <int D>
 void MovingMesh<D>::add_rows(int k, Rows rows, const double* a, double* r) const {
-  if (model_.rotary.present()) {
-    const auto inertia = rotary_[static_cast<std::size_t>(k)].inertia(model_.rotary, element_nodes<D>(a, k));
+  if (flow_.rotary.present()) {
+    const auto inertia = rotary_[static_cast<std::size_t>(k)].inertia(flow_.rotary, element_nodes<D>(a, k));
     for (std::size_t i = 0; i < 4; ++i) rows[i] += inertia[i];
   }
   position<D>(r, k) += rows[0];
@@ -185,8 +188,8 @@ double MovingMesh<D>::rotary_power(const ChainView<D>& beam, const MovingPart& p
   const auto k = static_cast<std::size_t>(part.element);
   const auto e = element_nodes<D>(beam.q, part.element), e_rate = element_nodes<D>(beam.rate, part.element),
              e_a = element_nodes<D>(a, part.element);
-  double power = vlbeam::rotary_power(model_.rotary, marks_[k], marks_[k + 1], part.table, e, e_rate, e_a);
-  const auto r = rotary_[k].residual(model_.rotary, e, e_rate), inertia = rotary_[k].inertia(model_.rotary, e_a);
+  double power = vlbeam::rotary_power(flow_.rotary, marks_[k], marks_[k + 1], part.table, e, e_rate, e_a);
+  const auto r = rotary_[k].residual(flow_.rotary, e, e_rate), inertia = rotary_[k].inertia(flow_.rotary, e_a);
   const auto rates = RotaryElement::nodal(e_rate);
   for (std::size_t row = 0; row < 4; ++row) power -= (r[row] + inertia[row]).dot(rates[row]);
   return power;
@@ -199,12 +202,12 @@ std::array<typename MovingMesh<D>::Inlet, 2> MovingMesh<D>::inlets() const {
 }
 
 template <int D>
-void MovingMesh<D>::add_inflow(const ChainView<D>& beam, double* f) const {
+void MovingMesh<D>::add_entering(const ChainView<D>& beam, double* f) const {
   if (model_.formulation == Formulation::virtual_work) return;  // its forces are those of the matter that is there
   for (const Inlet& at : inlets()) {
     position<D>(f, at.node) +=
         (model_.section.rhoA * at.in) * (position<D>(beam.rate, at.node) - at.rate * slope<D>(beam.q, at.node));
-    if (model_.rotary.present()) slope<D>(f, at.node) += at.in * rotary_momentum(beam, at);
+    if (flow_.rotary.present()) slope<D>(f, at.node) += at.in * rotary_momentum(beam, at);
   }
 }
 
@@ -212,19 +215,18 @@ template <int D>
 Vec<double, D> MovingMesh<D>::rotary_momentum(const ChainView<D>& beam, const Inlet& inlet) const {
   const MovingKinematics<double, D> axis = beam.kinematics(inlet.element);
   const PointMotion<double, D> at = axis.at(inlet.u, rational_shape(axis.weights(), inlet.u));
-  return model_.rotary.rhoJ * model_.rotary.across(at.v_x) -
-         0.5 * model_.rotary.gyroscopic * model_.rotary.turned(at.r_x);
+  return flow_.rotary.rhoJ * flow_.rotary.across(at.v_x) - 0.5 * flow_.rotary.gyroscopic * flow_.rotary.turned(at.r_x);
 }
 
 template <int D>
 bool MovingMesh<D>::solve(const Elements& elements, double* f) {
   mass_.reset(last() + 1);
   for (std::size_t k = 0; k < elements.size(); ++k) mass_.add(static_cast<int>(k), elements[k].mass);
-  if (model_.rotary.present()) {
+  if (flow_.rotary.present()) {
     Components across = Components::Ones();
     across[0] = 0;  // of the frame, whose first axis is the direction then
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      mass_.add_to(across, static_cast<int>(k), model_.rotary.rhoJ * rotary_[k].mass());
+      mass_.add_to(across, static_cast<int>(k), flow_.rotary.rhoJ * rotary_[k].mass());
     }
   }
   if (!mass_.factor(free_)) return false;
@@ -270,7 +272,7 @@ double MovingMesh<D>::least_weight(const std::vector<WeightFunction>& weights) c
 
 template <int D>
 void MovingMesh<D>::check_motion(double until) const {
-  if (const auto tangle = model_.motion.tangle(0, until, least_share * reference_length_)) {
+  if (const auto tangle = flow_.motion.tangle(0, until, least_share * reference_length_)) {
     throw ModelError(
         "mesh motion",
         "a motion by which element " + std::to_string(tangle->element) +
@@ -279,7 +281,7 @@ void MovingMesh<D>::check_motion(double until) const {
   }
   std::vector<Prescribed> nodes;
   check_places<D>(model_.loads.points, until, 1e-9 * reference_length_, [&](double t) {
-    model_.motion.at(t, nodes);
+    flow_.motion.at(t, nodes);
     return std::pair{nodes.front().value, nodes.back().value};
   });
 }
@@ -289,7 +291,20 @@ std::unique_ptr<MeshEquations<D>> MovingMesh<D>::new_equations(CurrentBeam<D>& b
   return std::make_unique<Flow<D>>(beam);
 }
 
+template <int D>
+std::unique_ptr<PrescribedMesh<D>> FlowRoom<D>::prescribed_mesh(const CurrentBeam<D>& beam,
+                                                                const std::vector<WeightFunction>& weights) const {
+  return std::make_unique<MovingMesh<D>>(beam.model(), weights);
+}
+
+template <int D>
+void FlowRoom<D>::add_sources(const BeamInside<D>& inside, EventSources<D>& sources) const {
+  sources.push_back(std::make_unique<TravelEvents<D>>(inside));
+}
+
 template class MovingMesh<2>;
 template class MovingMesh<3>;
+template class FlowRoom<2>;
+template class FlowRoom<3>;
 
 }  // namespace vlbeam

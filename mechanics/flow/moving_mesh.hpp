@@ -7,6 +7,7 @@
 #include "core/beam/chain_view.hpp"
 #include "core/tangent_weights.hpp"
 #include "mechanics/flow/chain_mass.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/motion/system/current_beam.hpp"
 
 namespace vlbeam {
@@ -15,13 +16,13 @@ namespace vlbeam {
 /// guides, a span that is only what lies between two supports at any time. It knows where the nodes are, the mass
 /// matrix, which changes with time, and what comes in with the matter at the ends.
 template <int D>
-class MovingMesh final : public PrescribedMesh<D> {
+class MovingMesh final : public PrescribedMesh<D>, private SectionInertia<D> {
  public:
   using Vector = Vec<double, D>;
   using typename PrescribedMesh<D>::Elements;
 
-  /// `model` must outlive this object. Throws ModelError where it makes no sense: nodes that do not exist, elements
-  /// of no length at t = 0, supports with oblique frames of their own.
+  /// `model`, which has a FlowRoom, must outlive this object. Throws ModelError where it makes no sense: nodes that do
+  /// not exist, elements of no length at t = 0, supports with oblique frames of their own.
   explicit MovingMesh(const BeamModel<D>& model, const std::vector<WeightFunction>& weights);
 
   /// The nodes are where they are at time t; false where they tangle. Throws ComputationFailed where a load is beyond
@@ -29,7 +30,7 @@ class MovingMesh final : public PrescribedMesh<D> {
   bool move(double t) override;
   /// Material coordinates of the nodes, as they were moved last.
   const std::vector<Prescribed>& marks() const override { return marks_; }
-  int last() const { return model_.motion.last(); }
+  int last() const { return flow_.motion.last(); }
 
   /// An array of accelerations as element k sees it, its ends included.
   MovingCoordinates<double, D> accelerations(const double* a, int k) const {
@@ -45,10 +46,11 @@ class MovingMesh final : public PrescribedMesh<D> {
   /// Power of rotary inertia in an element that does not come in by its nodal residual [W].
   double rotary_power(const ChainView<D>& beam, const MovingPart& part, const double* a) const;
   /// Adds the momentum that comes in with the matter at the ends.
-  void add_inflow(const ChainView<D>& beam, double* f) const override;
+  void add_entering(const ChainView<D>& beam, double* f) const override;
   /// Solves M a = f in place; false where the mass matrix is not positive.
   bool solve(const Elements& elements, double* f) override;
   std::unique_ptr<MeshEquations<D>> new_equations(CurrentBeam<D>& beam) const override;
+  const SectionInertia<D>* section_inertia() const override { return flow_.rotary.present() ? this : nullptr; }
   /// Adds the tangent of the inflow, times minus one, by blocks: add(row node, column node, matrix).
   template <class Add>
   void add_inflow_tangent(const ChainView<D>& beam, const TangentWeights& by, const Add& add) const;
@@ -63,6 +65,10 @@ class MovingMesh final : public PrescribedMesh<D> {
   void check_motion(double until) const;
 
  private:
+  double kinetic(double weight, const Vector& v_x) const override {
+    return 0.5 * weight * flow_.rotary.rhoJ * flow_.rotary.across(v_x).squaredNorm();
+  }
+
   using Components = typename Support<D>::Components;
   using Rows = std::array<Vector, 4>;  // of an element's positions and slopes
 
@@ -84,6 +90,7 @@ class MovingMesh final : public PrescribedMesh<D> {
   Vector rotary_momentum(const ChainView<D>& beam, const Inlet& at) const;
 
   const BeamModel<D>& model_;
+  const FlowRoom<D>& flow_;
   std::vector<Prescribed> marks_;
   double reference_length_;                      ///< [m], of an element at t = 0
   std::vector<std::array<Components, 2>> free_;  ///< of position and slope, in the frame
@@ -99,7 +106,7 @@ void MovingMesh<D>::add_inflow_tangent(const ChainView<D>& beam, const TangentWe
   if (model_.formulation == Formulation::virtual_work) return;
   constexpr int B = node_size<D>;
   using Block = Eigen::Matrix<double, B, B>;
-  const RotaryInertia<D>& rotary = model_.rotary;
+  const RotaryInertia<D>& rotary = flow_.rotary;
   for (const Inlet& at : inlets()) {
     Block own = Block::Zero();
     own.template topLeftCorner<D, D>().diagonal().array() -= model_.section.rhoA * at.in * by.v;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/motion/system/implicit_beam.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 
@@ -20,7 +21,7 @@ template <int D>
 ChainState<D> straight_chain(const BeamModel<D>& model, const Vec<double, D>& start, const Vec<double, D>& along,
                              double stretch, double velocity, double t) {
   std::vector<Prescribed> marks;
-  model.motion.at(t, marks);
+  room_of<FlowRoom<D>>(model)->motion.at(t, marks);
   ChainState<D> chain;
   chain.q.resize(marks.size() * static_cast<std::size_t>(node_size<D>));
   chain.rate.assign(chain.q.size(), 0);

@@ -6,9 +6,9 @@
 #include <type_traits>
 
 #include "core/element/active.hpp"
-#include "core/element/triad.hpp"
 #include "core/pack.hpp"
 #include "mechanics/frames/frame_table.hpp"
+#include "mechanics/frames/triad.hpp"
 
 namespace vlbeam {
 

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mechanics/frames/frame_sections.hpp"
+
 namespace vlbeam {
 namespace {
 
@@ -47,13 +49,16 @@ void FrameEvents::complete(const ChainState<3>& before, const Eigen::VectorXd& y
   const Frames& frames = *frames_of(beam_);
   const auto& rest = beam_.model().rest;
   const std::vector<double> turned = frames.twists_to(q, after.mesh.x);
-  std::vector<SectionState> sections, rest_sections;
+  const FrameSections& was_so = sections_of(before);
+  const auto kept = std::make_shared<FrameSections>();
+  kept->rest_triads = was_so.rest_triads;
+  std::vector<SectionState>&sections = kept->now, &rest_sections = kept->at_rest;
   for (int k = 0; k <= after.mesh.last(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (k > 0) sections.back().ahead = turned[i] - turned[i - 1];
     if (const int was = same_node(before, after, k); was >= 0) {
-      sections.push_back(before.sections[static_cast<std::size_t>(was)]);
-      rest_sections.push_back(before.rest_sections[static_cast<std::size_t>(was)]);
+      sections.push_back(was_so.now[static_cast<std::size_t>(was)]);
+      rest_sections.push_back(was_so.at_rest[static_cast<std::size_t>(was)]);
       continue;
     }
     const double x = after.mesh.x[i];
@@ -62,18 +67,21 @@ void FrameEvents::complete(const ChainState<3>& before, const Eigen::VectorXd& y
     const auto* const joint = after.joint_at(k);
     const double spin = frames.spin_at(q, rate, x, joint != nullptr ? joint->rate : 0);
     sections.push_back({carried<double>(at.t, t, at.d), spin});
-    rest_sections.push_back({rest ? before.rest_triads->direction<double>(x, rest->derivatives(x)[1])
-                                  : before.rest_sections.front().direction});
+    rest_sections.push_back(
+        {rest ? was_so.rest_triads->direction<double>(x, rest->derivatives(x)[1]) : was_so.at_rest.front().direction});
   }
   sections.back().ahead = 0;
-  after.sections = std::move(sections);
-  after.rest_sections = std::move(rest_sections);
+  after.kept = kept;
 }
 
 void FrameEvents::transfer(const Eigen::VectorXd& old, Eigen::VectorXd& y) const {
-  if (!(beam_.model().frames->section.rhoIp > 0)) return;
+  if (!(frame_model(beam_.model())->section.rhoIp > 0)) return;
   const Eigen::Index before = (old.size() - beam_.layout().tallies.count()) / 2;
   frames_of(beam_)->project_spins(*before_, old.data(), old.data() + before, y.data(), y.data() + beam_.coordinates());
+}
+
+void FrameRoom::add_sources(const BeamInside<3>& inside, EventSources<3>& sources) const {
+  sources.push_back(std::make_unique<FrameEvents>(inside));
 }
 
 }  // namespace vlbeam

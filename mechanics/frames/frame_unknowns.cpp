@@ -1,13 +1,16 @@
 #include "mechanics/frames/frame_unknowns.hpp"
 
+#include "mechanics/frames/frame_sections.hpp"
+
 namespace vlbeam {
 
 void FrameUnknowns::take(const ChainState<3>& chain) {
-  frames_ =
-      std::make_shared<Frames>(*beam_.model().frames, chain.mesh, chain.rest.empty() ? nullptr : chain.rest.data(),
-                               chain.rest_sections, chain.q.data(), chain.sections);
-  rest_ = chain.rest_sections;
-  rest_triads_ = chain.rest_triads;
+  const FrameSections& sections = sections_of(chain);
+  frames_ = std::make_shared<Frames>(*frame_model(beam_.model()), chain.mesh,
+                                     chain.rest.empty() ? nullptr : chain.rest.data(), sections.at_rest, chain.q.data(),
+                                     sections.now);
+  rest_ = sections.at_rest;
+  rest_triads_ = sections.rest_triads;
 }
 
 void FrameUnknowns::adopt() {
@@ -21,8 +24,9 @@ void FrameUnknowns::adopt() {
 
 void FrameUnknowns::write(const ChainState<3>& chain, const double* /*old_q*/, const double* /*old_rate*/, double* q,
                           double* rate) const {
+  const FrameSections& sections = sections_of(chain);
   for (Eigen::Index k = 0; k < count(); ++k) {
-    const SectionState& section = chain.sections[static_cast<std::size_t>(k)];
+    const SectionState& section = sections.now[static_cast<std::size_t>(k)];
     q[beam_.angles() + k] = section.angle;
     rate[beam_.angles() + k] = section.spin;
   }
@@ -30,14 +34,16 @@ void FrameUnknowns::write(const ChainState<3>& chain, const double* /*old_q*/, c
 
 /// Sections of joints at rest are those of where the joints are.
 void FrameUnknowns::read(const double* q, const double* rate, ChainState<3>& chain) const {
-  chain.sections = frames_->sections(q, rate);
-  chain.rest_sections = rest_;
-  chain.rest_triads = rest_triads_;
+  const auto sections = std::make_shared<FrameSections>();
+  sections->now = frames_->sections(q, rate);
+  sections->at_rest = rest_;
+  sections->rest_triads = rest_triads_;
   for (std::size_t i = 0; chain.curved_at_rest() && i < chain.joints.size(); ++i) {
     const int node = chain.joints[i].node;
-    chain.rest_sections[static_cast<std::size_t>(node)].direction = rest_triads_->direction<double>(
+    sections->at_rest[static_cast<std::size_t>(node)].direction = rest_triads_->direction<double>(
         chain.mesh.x[static_cast<std::size_t>(node)], slope<3>(chain.rest.data(), node));
   }
+  chain.kept = sections;
 }
 
 bool FrameUnknowns::load(const double* /*q*/, const double* /*rate*/, double* /*a*/,
@@ -53,6 +59,10 @@ void FrameUnknowns::observe(const double* q, const double* rate, int /*points*/,
   seen.energy.torsion += bent.torsion;
   seen.angular_momentum += bent.momentum;
   if (seen.extremes) seen.extremes->curvature = bent.curvature;
+}
+
+std::unique_ptr<Unknowns<3>> FrameRoom::unknowns(const CurrentBeam<3>& beam, const std::vector<double>& /*x*/) const {
+  return std::make_unique<FrameUnknowns>(beam);
 }
 
 }  // namespace vlbeam

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/frames/frames.hpp"
+#include "mechanics/frames/frame_room.hpp"
 #include "mechanics/motion/system/current_beam.hpp"
 
 namespace vlbeam {

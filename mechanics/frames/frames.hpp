@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "core/element/triad.hpp"
 #include "core/geometry/axis.hpp"
 #include "mechanics/frames/frame_damping.hpp"
 #include "mechanics/frames/frame_packs.hpp"
 #include "mechanics/frames/frame_table.hpp"
 #include "mechanics/frames/moving_frame_spin.hpp"
 #include "mechanics/frames/section_moment.hpp"
+#include "mechanics/frames/triad.hpp"
 #include "mechanics/motion/parts/part.hpp"
 #include "mechanics/spin/spin.hpp"
 #include "mechanics/time/memory.hpp"

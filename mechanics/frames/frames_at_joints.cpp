@@ -153,7 +153,7 @@ void Frames::add_sliding_tangent(const Motion<3>& motion, const TangentWeights& 
         push(Active<16>(0.5), (at[15] - at[14]) * model_.torques.line(motion.t));
       }
     }
-    tangent.add_moving_frame(sliding.element, matrix, sliding.joints);
+    tangent.add_turning_at_joints(sliding.element, matrix, sliding.joints);
   }
 }
 

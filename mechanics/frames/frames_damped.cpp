@@ -58,9 +58,9 @@ void Frames::add_damping_tangent(const Motion<3>& motion, const TangentWeights& 
   }
   for (const Sliding& sliding : sliding_) {
     const FrameDamping damping = damping_of(sliding.unit, q, sliding.element);
-    tangent.add_moving_frame(sliding.element,
-                             tangent_of<16>(damping, gathered(sliding, q, false), gathered(sliding, rate, true), by),
-                             sliding.joints);
+    tangent.add_turning_at_joints(
+        sliding.element, tangent_of<16>(damping, gathered(sliding, q, false), gathered(sliding, rate, true), by),
+        sliding.joints);
   }
 }
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "core/element/rest_triads.hpp"
 #include "core/element/twice_active.hpp"
 #include "mechanics/frames/frame_element.hpp"
+#include "mechanics/frames/rest_triads.hpp"
 
 namespace vlbeam {
 

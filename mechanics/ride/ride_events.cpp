@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mechanics/contact/contact_room.hpp"
 #include "mechanics/motion/system/event_limits.hpp"
 #include "mechanics/motion/system/joint_limits.hpp"
 #include "mechanics/motion/system/joint_neighbours.hpp"
@@ -122,20 +123,20 @@ std::vector<MergedWeights> RideEvents<D>::apply(const std::vector<PendingEvent>&
       return {merged};
     }
     case EventType::separation:
-      chain.rider.reset();
+      chain.loose.reset();
       let_go(beam_, due.joint, y, chain);
       break;
     case EventType::contact: {
       const bool rests = hit(y, t);
       chain = beam_.chain(y, t);
-      chain.rider->held = rests;
-      chain.rider->x = rests ? rider_of(beam_)->end() : clear_of_end();
-      if (rests) chain.rider->rate = 0;
+      chain.loose->held = rests;
+      chain.loose->x = rests ? rider_of(beam_)->end() : clear_of_end();
+      if (rests) chain.loose->rate = 0;
       break;
     }
     default:
-      chain.rider->held = false;
-      chain.rider->x = clear_of_end();
+      chain.loose->held = false;
+      chain.loose->x = clear_of_end();
   }
   return {{}};
 }
@@ -144,7 +145,7 @@ template <int D>
 Reshaped RideEvents<D>::reshaped(const PendingEvent& due, const ChainState<D>& after) const {
   const bool forward = due.direction == Direction::forward;
   if (due.type == EventType::end_merge) {
-    const int element = after.rider->element;
+    const int element = after.loose->element;
     return {forward ? element : element + 1, element};
   }
   if (due.type != EventType::end_cut) return {};
@@ -154,7 +155,7 @@ Reshaped RideEvents<D>::reshaped(const PendingEvent& due, const ChainState<D>& a
 
 template <int D>
 bool RideEvents<D>::hit(Eigen::VectorXd& y, double t) {
-  const Impact& impact = beam_.model().joints.front().at_support;
+  const Impact impact = impact_at_support(beam_.model(), 0);
   const int outwards = rider_of(beam_)->at_end() ? 1 : -1;
   if (impact.law == AtSupport::stop) {
     throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);

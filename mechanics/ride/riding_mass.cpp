@@ -3,7 +3,7 @@
 namespace vlbeam {
 
 template <int D>
-RidingMass<D>::RidingMass(const CurrentBeam<D>& beam, const typename ChainState<D>::Rider& rider)
+RidingMass<D>::RidingMass(const CurrentBeam<D>& beam, const typename ChainState<D>::Loose& rider)
     : beam_(beam),
       element_(rider.element),
       held_(rider.held),

@@ -14,7 +14,7 @@ class RidingMass final : public LooseMass<D> {
   using typename LooseMass<D>::Place;
 
   /// `beam`, whose spans share their open node, must outlive this object.
-  RidingMass(const CurrentBeam<D>& beam, const typename ChainState<D>::Rider& rider);
+  RidingMass(const CurrentBeam<D>& beam, const typename ChainState<D>::Loose& rider);
 
   int element() const { return element_; }
   bool at_end() const { return element_ > 0; }
@@ -25,7 +25,7 @@ class RidingMass final : public LooseMass<D> {
   RiderMotion<double, D> motion(const double* q, const double* rate) const;
 
   void update() override { mass_.update(beam_.left(), beam_.right()); }
-  void write(ChainState<D>& chain, double x, double rate) const override { chain.rider = {element_, x, rate, held_}; }
+  void write(ChainState<D>& chain, double x, double rate) const override { chain.loose = {element_, x, rate, held_}; }
   Place place(const double* q, const double* rate) const override {
     const auto at = motion(q, rate);
     return {at.r, at.v, at.r_x};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/motion/parts/part.hpp"
+#include "mechanics/motion/system/beam_model.hpp"
 #include "mechanics/ropes/line_force.hpp"
 
 namespace vlbeam {
@@ -66,11 +67,14 @@ struct Drag {
   PointMatrix<D> proportional_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
 };
 
-/// Drag as a part of the equations; `drag` must outlive it.
+/// Drag as a part of the equations.
 template <int D>
 class ActingDrag final : public Part<D> {
  public:
   explicit ActingDrag(const Drag<D>& drag) : drag_(drag) {}
+  const Drag<D>& drag() const { return drag_; }
+  bool gives() const override { return drag_.streams(); }
+  bool takes_evenly() const override { return true; }
   Tally add_force(const Motion<D>& motion, double* force) const override {
     return drag_.add_forces(motion.beam, force);
   }
@@ -83,8 +87,17 @@ class ActingDrag final : public Part<D> {
   }
 
  private:
-  const Drag<D>& drag_;
+  Drag<D> drag_;
 };
+
+/// The drag among the parts of a model, or null.
+template <int D>
+const Drag<D>* drag_of(const BeamModel<D>& model) {
+  for (const auto& part : model.parts) {
+    if (const auto* const acting = dynamic_cast<const ActingDrag<D>*>(part.get())) return &acting->drag();
+  }
+  return nullptr;
+}
 
 extern template class ActingDrag<2>;
 extern template class ActingDrag<3>;

@@ -129,7 +129,7 @@ class Drum final : public Part<D> {
     slope<D>(force, end->node) -= damping;
     return {.dissipated = drag * rate + damping.dot(s_rate),
             .loads = (push - (law_.store ? matter.kinetic : 0)) * rate +
-                     line.dot(motion.beam.inflow_at(*end))};  // matter has no potential of the line
+                     line.dot(motion.beam.entering_at(*end))};  // matter has no potential of the line
   }
   double load_power(const Motion<D>& motion, double* scratch) const override {
     return place(motion.beam) == nullptr ? 0 : add_force(motion, scratch).loads;

@@ -40,7 +40,12 @@ struct SpinModel {
   double rate = 0;  ///< of the whole beam at t = 0 [rad/s]
   std::vector<DrivenAngle> drives = {};
   Torques torques = {};
+  std::vector<double> pitch = {};  ///< of the model's joints that are nuts [m a turn], right-handed where > 0; else 0
 
+  double pitch_of(int joint) const {
+    const auto i = static_cast<std::size_t>(joint);
+    return i < pitch.size() ? pitch[i] : 0;
+  }
   /// Whether energy comes in.
   bool supplied() const { return torques.present() || !drives.empty(); }
 };

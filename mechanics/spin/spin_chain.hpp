@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/beam/block_tridiagonal.hpp"
-#include "core/beam/mesh_motion.hpp"
+#include "core/beam/chain_view.hpp"
 #include "core/element/moving_element.hpp"
 #include "core/tangent_weights.hpp"
 #include "mechanics/flow/chain_mass.hpp"

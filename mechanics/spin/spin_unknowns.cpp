@@ -128,7 +128,7 @@ std::vector<Prescribed> resting(const std::vector<double>& x) {
 template <int D>
 SpinUnknowns<D>::SpinUnknowns(const CurrentBeam<D>& beam, const std::vector<double>& x)
     : beam_(beam),
-      spin_(checked(beam.model().spin.value(), static_cast<int>(x.size()) - 1),
+      spin_(checked(*spin_model(beam.model()), static_cast<int>(x.size()) - 1),
             beam.marks() != nullptr ? *beam.marks() : resting(x), beam.model().formulation,
             beam.model().points_of_polynomials()) {}
 
@@ -141,7 +141,7 @@ template <int D>
 void SpinUnknowns<D>::start(double* q, double* rate) {
   spin_.start(q + at(), rate + at());
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
-    const double pitch = beam_.joint(i).pitch, x = q[beam_.places()[i].mark];
+    const double pitch = spin_.model().pitch_of(beam_.joint_index(i)), x = q[beam_.places()[i].mark];
     if (pitch != 0) nut_.emplace(pitch, x, spin_.section(q + at(), rate + at(), x).at.angle);
   }
 }
@@ -219,7 +219,7 @@ void SpinUnknowns<D>::observe(const double* q, const double* rate, int points, O
   const Spin::Seen turning = spin_.observe(q + at(), rate + at(), points);
   seen.energy.kinetic += turning.kinetic;
   seen.energy.torsion += turning.torsion;
-  seen.spin_momentum += turning.momentum;
+  seen.momentum_about_axis += turning.momentum;
 }
 
 template <int D>
@@ -234,7 +234,21 @@ void SpinUnknowns<D>::observe_forces(const double* q, const double* v, const dou
   forces.drives = spin_.drive_torques(torques.data());
 }
 
+template <int D>
+void SpinRoom<D>::count(Tallies& tallies) const {
+  tallies.dissipated = tallies.dissipated || section.damping != 0;
+  tallies.loads = tallies.loads || torques.present();
+  tallies.ends = tallies.ends || !drives.empty();
+}
+
+template <int D>
+std::unique_ptr<Unknowns<D>> SpinRoom<D>::unknowns(const CurrentBeam<D>& beam, const std::vector<double>& x) const {
+  return std::make_unique<SpinUnknowns<D>>(beam, x);
+}
+
 template class SpinUnknowns<2>;
 template class SpinUnknowns<3>;
+template class SpinRoom<2>;
+template class SpinRoom<3>;
 
 }  // namespace vlbeam

@@ -4,7 +4,7 @@
 
 #include "mechanics/motion/system/current_beam.hpp"
 #include "mechanics/spin/nut.hpp"
-#include "mechanics/spin/spin.hpp"
+#include "mechanics/spin/spin_room.hpp"
 
 namespace vlbeam {
 
@@ -26,7 +26,7 @@ class SpinUnknowns final : public Unknowns<D> {
              double* rate) const override;
   void move() override { spin_.move(*beam_.marks()); }
 
-  bool ties(std::size_t joint) const override { return nut_ && beam_.joint(joint).pitch != 0; }
+  bool ties(std::size_t joint) const override { return nut_ && spin_.model().pitch_of(beam_.joint_index(joint)) != 0; }
   typename Unknowns<D>::Tied tied(std::size_t joint, const double* q, const double* rate) const override;
 
   bool accelerate(const double* q, const double* rate, double t, double* a, double& dissipated) override;

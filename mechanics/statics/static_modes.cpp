@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/geometry/dense.hpp"
 #include "core/geometry/elementary.hpp"
+#include "mechanics/motion/system/room.hpp"
 #include "mechanics/statics/equilibrium.hpp"
 #include "mechanics/statics/linear_motion.hpp"
 
@@ -105,8 +106,8 @@ std::vector<double> natural_frequencies(BeamSystem<D>& system, const Equilibrium
   const Modes modes = modes_at<D>(equations, u, at.factor);
   const bool follow =
       std::ranges::any_of(system.model().loads.points, [](const auto& load) { return bool{load.follower}; });
-  const auto& frames = system.model().frames;
-  if (follow || (frames && frames->loaded())) {
+  const bool rooms = std::ranges::any_of(system.model().rooms, [](const auto& room) { return room->follows(); });
+  if (follow || rooms) {
     return frequencies_without_potential(modes, count, at.factor);
   }
   const Eigen::VectorXd squares = generalized_eigenvalues(modes.stiffness, modes.mass);

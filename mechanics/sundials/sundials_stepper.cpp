@@ -362,12 +362,12 @@ class Ida final : public SundialsStepper {
 
 bool have_sundials() { return true; }
 
-std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType type, const Tolerances& tolerances,
+std::unique_ptr<Stepper> make_sundials_stepper(SundialsMethod type, const Tolerances& tolerances,
                                                SecondOrderSystem* system, NewtonCounters* counters) {
-  if (type == IntegratorType::ida) {
+  if (type == SundialsMethod::ida) {
     return std::make_unique<Ida>(tolerances, dynamic_cast<ConstrainedSystem&>(*system), counters);
   }
-  if (type == IntegratorType::cvode) return std::make_unique<Cvode>(tolerances);
+  if (type == SundialsMethod::cvode) return std::make_unique<Cvode>(tolerances);
   return std::make_unique<Arkode>(tolerances);
 }
 
@@ -375,14 +375,14 @@ std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType type, const Tolera
 
 bool have_sundials() { return false; }
 
-std::unique_ptr<Stepper> make_sundials_stepper(IntegratorType, const Tolerances&, SecondOrderSystem*, NewtonCounters*) {
+std::unique_ptr<Stepper> make_sundials_stepper(SundialsMethod, const Tolerances&, SecondOrderSystem*, NewtonCounters*) {
   return nullptr;
 }
 
 #endif
 
-OtherMethod method_of_sundials(IntegratorType type) {
-  return {.second_order = type == IntegratorType::ida,
+OtherMethod method_of_sundials(SundialsMethod type) {
+  return {.second_order = type == SundialsMethod::ida,
           .can_be_restarted = false,
           .make = [type](SecondOrderSystem* system, const Tolerances& tolerances, NewtonCounters& counters) {
             return make_sundials_stepper(type, tolerances, system, &counters);

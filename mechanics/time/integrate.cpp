@@ -22,9 +22,9 @@ constexpr int longest_cascade = 8;     // events at one instant
 constexpr int most_looks_beyond = 10;  // steps beyond the end of the run: there may be nothing behind it
 
 double first_step(const IntegrationOptions& options) {
-  if (!has_fixed_step(options.type)) return options.first_step;
+  if (!options.has_fixed_step()) return options.first_step;
   const double first = options.generalized_alpha.first_step;
-  const bool starts_short = options.type == IntegratorType::generalized_alpha && first > 0;
+  const bool starts_short = options.by_generalized_alpha() && first > 0;
   return starts_short ? std::min(first, longest_step(options)) : longest_step(options);
 }
 
@@ -139,8 +139,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   int cascade = 0;
   // A step that adapts is not cut at the end of the run, but looked into: whether its own length would have been
   // rejected must not depend on how long the run is.
-  int looks_beyond =
-      options.type == IntegratorType::generalized_alpha && options.generalized_alpha.adaptive ? most_looks_beyond : 0;
+  int looks_beyond = options.by_generalized_alpha() && options.generalized_alpha.adaptive ? most_looks_beyond : 0;
 
   EventLog log(ode, checkpoints);
   const auto exchange = [&](Memory& memory) {

@@ -37,6 +37,7 @@ class EventedOde : public Ode {
 
 /// A method of integration that comes from elsewhere.
 struct OtherMethod {
+  bool fixed_step = false;       ///< it takes steps of the length `step` of the options
   bool second_order = true;      ///< it takes the equations as a SecondOrderSystem, else as y' = f(t, y)
   bool can_be_restarted = true;  ///< its memory can be kept in a checkpoint
   /// Its stepper; of equations of first order the system is null.
@@ -44,8 +45,8 @@ struct OtherMethod {
 };
 
 struct IntegrationOptions {
-  IntegratorType type = IntegratorType::dopri5;
-  std::optional<OtherMethod> other = {};  ///< that of `type`, where that is none of those in this folder
+  IntegrationMethod type = IntegrationMethod::dopri5;
+  std::optional<OtherMethod> other = {};  ///< instead of `type`
   Tolerances tolerances;
   double first_step = 1e-6;  ///< [s], of the methods that choose their step
   double step = 1e-3;        ///< [s], of methods with a fixed step but generalized-alpha
@@ -54,6 +55,13 @@ struct IntegrationOptions {
   bool locate_events = true;  ///< false: an event happens at the end of the step in which it is due
   /// Of a guard at the end of a step: one that is farther beyond zero makes the step too long, and it is halved.
   double largest_overshoot = std::numeric_limits<double>::infinity();
+
+  bool by_generalized_alpha() const { return !other && type == IntegrationMethod::generalized_alpha; }
+  /// Whether the method takes steps of one given length; the others choose it by their tolerances.
+  bool has_fixed_step() const {
+    if (other) return other->fixed_step;
+    return type == IntegrationMethod::adams_bashforth_moulton || type == IntegrationMethod::generalized_alpha;
+  }
 };
 
 /// Integrates from `t` to `t_end`. Samples (increasing times) and events come from steps of the same method that start

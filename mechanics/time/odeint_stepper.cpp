@@ -253,20 +253,20 @@ class Rosenbrock4 final : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Tolerances& tolerances, double step) {
+std::unique_ptr<Stepper> make_odeint_stepper(IntegrationMethod type, const Tolerances& tolerances, double step) {
   const double atol = tolerances.atol, rtol = tolerances.rtol;
   switch (type) {
-    case IntegratorType::cash_karp:
+    case IntegrationMethod::cash_karp:
       return wrap(odeint::make_controlled<odeint::runge_kutta_cash_karp54<State>>(atol, rtol));
-    case IntegratorType::fehlberg78:
+    case IntegrationMethod::fehlberg78:
       return wrap(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(atol, rtol));
-    case IntegratorType::bulirsch_stoer:
+    case IntegrationMethod::bulirsch_stoer:
       return wrap(odeint::bulirsch_stoer<State>(atol, rtol));
-    case IntegratorType::adams_bashforth_moulton:
+    case IntegrationMethod::adams_bashforth_moulton:
       return std::make_unique<AdamsBashforthMoulton>(step);
-    case IntegratorType::rosenbrock4:
+    case IntegrationMethod::rosenbrock4:
       return std::make_unique<Rosenbrock4>(tolerances);
-    case IntegratorType::dopri5:
+    case IntegrationMethod::dopri5:
       break;
     default:
       throw std::invalid_argument("a method that Odeint does not have");

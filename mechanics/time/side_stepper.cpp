@@ -14,7 +14,7 @@ constexpr int most_side_steps = 60;  // tries to get inside a step: else the ste
 }  // namespace
 
 Method::Method(EventedOde& ode, const IntegrationOptions& options, NewtonCounters& counters) {
-  if (options.type == IntegratorType::generalized_alpha) {
+  if (options.by_generalized_alpha()) {
     system = ode.new_second_order();
     stepper = make_generalized_alpha(*system, options.generalized_alpha, &counters);
     return;
@@ -25,7 +25,7 @@ Method::Method(EventedOde& ode, const IntegrationOptions& options, NewtonCounter
     return;
   }
   const auto& by_field = options.tolerances.by_field;
-  const bool in_units = by_field && !has_fixed_step(options.type);
+  const bool in_units = by_field && !options.has_fixed_step();
   const Tolerances tolerances = in_units ? Tolerances{options.tolerances.rtol, 1} : options.tolerances;
   stepper = options.other ? options.other->make(nullptr, tolerances, counters)
                           : make_odeint_stepper(options.type, tolerances, options.step);

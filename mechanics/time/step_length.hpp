@@ -8,8 +8,8 @@ namespace vlbeam {
 
 /// [s], given, of a method with a fixed step; the longest one of generalized-alpha that adapts.
 inline double longest_step(const IntegrationOptions& options) {
-  if (!has_fixed_step(options.type)) return std::numeric_limits<double>::infinity();
-  return options.type == IntegratorType::generalized_alpha ? options.generalized_alpha.step : options.step;
+  if (!options.has_fixed_step()) return std::numeric_limits<double>::infinity();
+  return options.by_generalized_alpha() ? options.generalized_alpha.step : options.step;
 }
 
 /// Counts what keeps the steps of a run from being longer.
@@ -45,8 +45,7 @@ class StepLength {
  private:
   static std::size_t& at(StepsByLimit& counts, StepLimit limit) { return counts[static_cast<std::size_t>(limit)]; }
   static bool controls_error(const IntegrationOptions& options) {
-    return !has_fixed_step(options.type) ||
-           (options.type == IntegratorType::generalized_alpha && options.generalized_alpha.adaptive);
+    return !options.has_fixed_step() || (options.by_generalized_alpha() && options.generalized_alpha.adaptive);
   }
   StepLimit usual() const { return controls_error_ ? StepLimit::error : StepLimit::given; }
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "mechanics/time/integrator_type.hpp"
+#include "mechanics/time/integration_method.hpp"
 #include "mechanics/time/memory.hpp"
 #include "mechanics/time/ode.hpp"
 
@@ -63,6 +63,6 @@ class Stepper {
 /// The Adams-Bashforth-Moulton method has five steps of length `step` [s] and order five, at two evaluations a step.
 /// Its step is fixed: what makes a multistep method cheap is its history at equal distances, and every event breaks
 /// that history anyway. Steps without it, the first four and shortened ones, are extrapolated and of sixth order.
-std::unique_ptr<Stepper> make_odeint_stepper(IntegratorType type, const Tolerances& tolerances, double step);
+std::unique_ptr<Stepper> make_odeint_stepper(IntegrationMethod type, const Tolerances& tolerances, double step);
 
 }  // namespace vlbeam

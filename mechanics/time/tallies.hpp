@@ -15,12 +15,12 @@ struct Tally {
   double mesh = 0;        ///< work of moving inner nodes along the beam: discretisation error only
   double mass = 0;        ///< in through the ends [kg]
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< of supports, loads, gravity, and in with the matter [N s]
-  double spin_impulse = 0;                            ///< about the axis [N m s]
+  double impulse_about_axis = 0;                      ///< about the axis [N m s]
 
   void exchange(Memory& memory) {
     for (double* entry : {&dissipated, &loads, &ends, &supports, &mesh, &mass}) memory(*entry);
     for (double& component : impulse) memory(component);
-    memory(spin_impulse);
+    memory(impulse_about_axis);
   }
 
   friend Tally operator+(const Tally& a, const Tally& b) {
@@ -31,18 +31,18 @@ struct Tally {
             a.mesh + b.mesh,
             a.mass + b.mass,
             a.impulse + b.impulse,
-            a.spin_impulse + b.spin_impulse};
+            a.impulse_about_axis + b.impulse_about_axis};
   }
   friend Tally operator*(double h, const Tally& a) {
     return {h * a.dissipated, h * a.loads, h * a.ends,    h * a.supports,
-            h * a.mesh,       h * a.mass,  h * a.impulse, h * a.spin_impulse};
+            h * a.mesh,       h * a.mass,  h * a.impulse, h * a.impulse_about_axis};
   }
 };
 
 /// Which of them a state counts: at its end, behind coordinates and rates, in the order of Tally.
 struct Tallies {
   bool dissipated = false, loads = false, ends = false, supports = false;
-  int flow = 0;  ///< dimension of a beam whose nodes are prescribed, and 0 of others, which count none of the rest
+  int impulse = 0;  ///< its components, where it and the rest are counted: of a beam whose nodes are prescribed
 
   Eigen::Index count() const {
     Tally none;
@@ -71,11 +71,11 @@ struct Tallies {
     if (loads) visit(at++, tally.loads);
     if (ends) visit(at++, tally.ends);
     if (supports) visit(at++, tally.supports);
-    if (flow == 0) return;
+    if (impulse == 0) return;
     visit(at++, tally.mesh);
     visit(at++, tally.mass);
-    for (int c = 0; c < flow; ++c) visit(at++, tally.impulse[c]);
-    visit(at, tally.spin_impulse);
+    for (int c = 0; c < impulse; ++c) visit(at++, tally.impulse[c]);
+    visit(at, tally.impulse_about_axis);
   }
 };
 

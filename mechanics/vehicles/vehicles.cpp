@@ -268,7 +268,7 @@ class Heights final : public Unknowns<D> {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Unknowns<D>> Vehicles<D>::unknowns(const CurrentBeam<D>& beam) const {
+std::unique_ptr<Unknowns<D>> Vehicles<D>::unknowns(const CurrentBeam<D>& beam, const std::vector<double>& /*x*/) const {
   return std::make_unique<Heights<D>>(beam, acting_);
 }
 

@@ -57,7 +57,7 @@ class Vehicles final : public Room<D> {
  public:
   explicit Vehicles(std::shared_ptr<const ActingAxles<D>> acting) : acting_(std::move(acting)) {}
 
-  std::unique_ptr<Unknowns<D>> unknowns(const CurrentBeam<D>& beam) const override;
+  std::unique_ptr<Unknowns<D>> unknowns(const CurrentBeam<D>& beam, const std::vector<double>& x) const override;
   void add_carried(const ChainView<D>& beam, double t, std::vector<BeamLink<D>>& carried) const override;
 
  private:

@@ -1,6 +1,8 @@
 // A drill stem that is fed through a rotary table and a guide while it spins: what the shaft element VLBSE (2017) is
 // for. Its overhang grows, and the whirl of its unbalanced bit passes through resonance.
 #include "studies/harness/study.hpp"
+#include "mechanics/flow/flow_room.hpp"
+#include "mechanics/spin/spin_room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,13 +56,13 @@ BeamModel<D> model_of(const Stem& stem, int elements, bool ledger) {
   const int guide = elements / 3;
   BeamModel<D> model;
   model.section = stem.shaft.section();
-  model.spin.emplace().section = stem.shaft.spin();
-  model.motion = MeshMotion({{0, steadily(0, -stem.feed)},
-                             {guide, steadily(stem.guide, -stem.feed)},
-                             {elements, steadily(stem.guide + stem.overhang, 0)}});
+  spin_in(model).section = stem.shaft.spin();
+  flow_in(model).motion = MeshMotion({{0, steadily(0, -stem.feed)},
+                                      {guide, steadily(stem.guide, -stem.feed)},
+                                      {elements, steadily(stem.guide + stem.overhang, 0)}});
   model.start = Support<D>::pin();
   model.held_nodes = {{guide, Support<D>::slide(Vector::UnitZ())}};
-  model.spin->drives = {{0, steadily(0, stem.spin)}};
+  spin_in(model).drives = {{0, steadily(0, stem.spin)}};
   auto turning = [=](double t) -> Vector {
     return stem.unbalance * Vector(portable::cos(stem.spin * t), portable::sin(stem.spin * t), 0);
   };
@@ -69,8 +71,8 @@ BeamModel<D> model_of(const Stem& stem, int elements, bool ledger) {
     return -stem.torque * s * s * (3 - 2 * s);
   };
   model.loads.points = {{.node = elements, .force = turning}};
-  model.spin->torques.points = {{.node = elements, .torque = soil}};
-  model.books_flow = ledger;
+  spin_in(model).torques.points = {{.node = elements, .torque = soil}};
+  flow_in(model).books = ledger;
   return model;
 }
 
@@ -100,7 +102,7 @@ std::vector<Sample> feed(const Stem& stem, int elements, int steps, int samples)
     history.push_back({stem.overhang + stem.feed * t, portable::hypot(bit[0], bit[1]), -angle, modes.front()});
   };
   IntegrationOptions options;
-  options.type = IntegratorType::generalized_alpha;
+  options.type = IntegrationMethod::generalized_alpha;
   options.generalized_alpha.step = stem.duration / steps;
   SolverCounters counters;
   double t = 0;
@@ -121,7 +123,7 @@ Gap ledger(const Stem& stem, int elements, double duration) {
   Eigen::VectorXd y = at_rest(beam, stem);
   const auto before = beam.observe(y, 0, own_points);
   IntegrationOptions options;
-  options.type = IntegratorType::fehlberg78;
+  options.type = IntegrationMethod::fehlberg78;
   options.tolerances = {1e-9, 1e-11};
   SolverCounters counters;
   double t = 0;
@@ -133,8 +135,8 @@ Gap ledger(const Stem& stem, int elements, double duration) {
       .energy = std::abs(after.energy.total() - before.energy.total() - book.ends - book.loads - book.mesh) / passed,
       .mass = std::abs(after.mass - before.mass - book.mass) / book.mass,
       .momentum = (after.momentum - before.momentum - book.impulse).norm() / book.impulse.norm(),
-      .spin_momentum =
-          std::abs(after.spin_momentum - before.spin_momentum - book.spin_impulse) / std::abs(book.spin_impulse),
+      .spin_momentum = std::abs(after.momentum_about_axis - before.momentum_about_axis - book.impulse_about_axis) /
+                       std::abs(book.impulse_about_axis),
       .mesh = std::abs(book.mesh) / passed};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/elementary.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "scene/stretch.hpp"
 #include "studies/exact_solutions/balance.hpp"
@@ -21,9 +22,9 @@ std::vector<double> moving_frequencies(double v, double k, int elements, double 
   model.section.rhoA = 1;
   model.section.stiffness = {EA, k * k};
   const double stretch = stretch_under(1, EA);
-  model.motion = MeshMotion({{0, steadily(0, -v / stretch)}, {elements, steadily(1 / stretch, -v / stretch)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, -v / stretch)}, {elements, steadily(1 / stretch, -v / stretch)}});
   model.start = model.end = Support<3>::pin();
-  model.books_flow = false;
+  flow_in(model).books = false;
   BeamSystem<3> beam(model, straight_chain(model));
   const Eigen::VectorXd guess = straight_state<3>(beam, Vec<double, 3>::Zero(), Vec<double, 3>::UnitX(), stretch, v, 0);
   const auto found =
@@ -39,10 +40,10 @@ std::vector<std::complex<double>> beck(double p, int elements, double EA) {
   BeamModel<2> model;
   model.section.rhoA = 1;
   model.section.stiffness = {EA, 1};
-  model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
   model.start = Support<2>::direction_clamp({1, 0});
   model.loads.points = {{.node = elements, .follower = [p](double) { return -p; }}};
-  model.books_flow = false;
+  flow_in(model).books = false;
   BeamSystem<2> beam(model, straight_chain(model));
   const Eigen::VectorXd guess =
       straight_state<2>(beam, Vec<double, 2>::Zero(), Vec<double, 2>::UnitX(), stretch_under(-p, EA), 0, 0);

@@ -67,7 +67,7 @@ double condition_of(const Scene& scene, const Configuration& shape, const std::o
     if (joint_position && shape.x[k] == *joint_position) chain.joints = {{.node = static_cast<int>(k)}};
   }
   if (joint_position && chain.joints.empty()) {  // it rides inside an element
-    chain.rider = {chain.mesh.element_at(*joint_position), *joint_position, 0, false};
+    chain.loose = {chain.mesh.element_at(*joint_position), *joint_position, 0, false};
   }
   chain.rate.assign(chain.q.size(), 0);
   BeamSystem<2> system(build_model<2>(scene), chain);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "mechanics/time/integrator_type.hpp"
+#include "scene/integrator_type.hpp"
 #include "scene/scene.hpp"
 #include "studies/harness/converge.hpp"
 

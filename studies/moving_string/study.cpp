@@ -1,6 +1,8 @@
 // Natural frequencies of a string and a beam that move along their axis between two supports (the first example of the
 // shaft element VLBSE, 2017).
 #include "studies/harness/study.hpp"
+#include "mechanics/flow/flow_room.hpp"
+#include "mechanics/spin/spin_room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,13 +40,13 @@ BeamModel<D> model_of(const SupportedSpan& span) {
   model.section = span.shaft.section();
   model.section.stiffness.EA *= span.stiffening;
   if (!span.bends) model.section.stiffness.EI = 0;
-  if (span.spins) model.spin.emplace().section = span.shaft.spin();
+  if (span.spins) spin_in(model).section = span.shaft.spin();
   const double stretch = stretch_under(span.tension, model.section.stiffness.EA);
-  model.motion = MeshMotion({{0, steadily(0, -span.speed / stretch)},
-                             {span.elements, steadily(span.length / stretch, -span.speed / stretch)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, -span.speed / stretch)},
+                                      {span.elements, steadily(span.length / stretch, -span.speed / stretch)}});
   model.start = model.end = Support<D>::pin();
-  model.books_flow = false;
-  if (span.spins) model.spin->drives = {{0, steadily(0, 0)}, {span.elements, steadily(0, 0)}};
+  flow_in(model).books = false;
+  if (span.spins) spin_in(model).drives = {{0, steadily(0, 0)}, {span.elements, steadily(0, 0)}};
   return model;
 }
 
@@ -83,7 +85,7 @@ std::vector<double> deflections(const SupportedSpan& span, double velocity, doub
     result.push_back(position<D>(at.data(), span.elements / 2)[1]);
   };
   IntegrationOptions options;
-  options.type = IntegratorType::dopri5;
+  options.type = IntegrationMethod::dopri5;
   options.tolerances = {1e-8, 1e-10};
   SolverCounters counters;
   double t = 0;

@@ -1,6 +1,8 @@
 // A spinning shaft under a load that moves along it and turns about it (the third example of the shaft element VLBSE,
 // 2017, after Katz 2001).
 #include "studies/harness/study.hpp"
+#include "mechanics/flow/flow_room.hpp"
+#include "mechanics/spin/spin_room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,17 +75,17 @@ class Shaft {
 
     BeamModel<D> model;
     model.section = shaft.section();
-    model.spin.emplace().section = shaft.spin();
+    spin_in(model).section = shaft.spin();
     if (run.spin >= 0) {
       const double rhoIp = shaft.spin().rhoIp;
-      model.rotary = {.rhoJ = rhoIp / 2, .gyroscopic = rhoIp * spin, .direction = Vector::UnitZ()};
+      flow_in(model).rotary = {.rhoJ = rhoIp / 2, .gyroscopic = rhoIp * spin, .direction = Vector::UnitZ()};
     }
-    model.motion = MeshMotion(
+    flow_in(model).motion = MeshMotion(
         {{0, steadily(0, 0)}, {middle, steadily(margin * length_, speed)}, {run.elements, steadily(length_, 0)}});
     model.start = Support<D>::pin();
     model.end = Support<D>::slide(Vector::UnitZ());
-    model.books_flow = false;
-    model.spin->drives = {{0, steadily(0, spin)}};
+    flow_in(model).books = false;
+    spin_in(model).drives = {{0, steadily(0, spin)}};
     auto turning = [=](double t) -> Vector {
       const double angle = omega * (t + margin * duration);
       return {force * portable::cos(angle), force * portable::sin(angle), 0};
@@ -109,7 +111,7 @@ class Shaft {
       }
     };
     IntegrationOptions options;
-    options.type = IntegratorType::generalized_alpha;
+    options.type = IntegrationMethod::generalized_alpha;
     options.generalized_alpha.step = duration / run.steps;
     SolverCounters counters;
     double t = 0;

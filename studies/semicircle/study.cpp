@@ -7,9 +7,9 @@
 #include <iterator>
 #include <map>
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "mechanics/flow/mesh_motion.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/histories.hpp"

@@ -20,13 +20,6 @@ COUNTED = Path(__file__).resolve().with_name("house.json")
 HEART = {"elements": "core", "motion": "mechanics/motion", "time": "mechanics/time"}
 ROOMS = ("frames", "spin", "flow", "ride", "contact", "ropes", "remesh", "conserving", "sundials", "statics", "assembly",
          "bearings", "vehicles")
-# What stands in the element library although it is of a room, for elements ask for it: a pattern a room.
-STILL_IN_CORE = {
-    "frames": r"triad|twist_law",
-    "flow": r"mesh_motion",
-    "ropes": r"slack_law",
-    "remesh": r"least_change",
-}
 # What a line of the heart says when it names a room: words of the code, not of comments.
 WORDS = {
     "frames": r"frames|Frames|Frame[A-Z]|moving_frame|[Tt]riad",  # a support has a frame, too
@@ -34,8 +27,8 @@ WORDS = {
     "flow": r"(?<![Uu]nder)[Ff]low|MovingMesh|moving_mesh|MeshMotion|[Tt]ravel",
     "ride": r"[Rr]ider|[Dd]eparted",
     "contact": r"[Ii]mpact|[Rr]ebound|NodeContact|AtSupport|at_support",
-    "ropes": r"[Dd]rum|[Gg]round|[Dd]rag\b|[Ff]luid|[Ww]inch|[Oo]utlet|[Ss]lack",
-    "remesh": r"(?<!order_)[Rr]elax|[Ll]east_?[Cc]hange|[Rr]estore",
+    "ropes": r"[Dd]rum|[Gg]round|[Dd]rag\b|[Ff]luid|[Ww]inch|[Oo]utlet",
+    "remesh": r"(?<!order_)[Rr]elax|[Rr]estore",
     "conserving": r"[Cc]onserving|[Ee]nergy_?[Mm]omentum|[Dd]iscrete_?[Gg]radient",
     "sundials": r"[Ss]undials|SUNDIALS|\bIDA\b|\bida\b|cvode",
     "assembly": r"[Aa]ssembly|ActingLinks|LinkForces",
@@ -49,7 +42,7 @@ def library_of(path):
     if path.startswith("mechanics/rooms."):
         return "rooms"
     if path.startswith("core/"):
-        return next((room for room, pattern in STILL_IN_CORE.items() if re.search(pattern, path)), "elements")
+        return "elements"
     folder = path.split("/")[1]
     assert folder in ROOMS + ("motion", "time"), f"{path} belongs to no library"
     return folder

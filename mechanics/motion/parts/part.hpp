@@ -29,6 +29,10 @@ class Part {
   virtual double load_power(const Motion<D>& motion, double* scratch) const { return add_force(motion, scratch).loads; }
   /// Whether it may take or give power: the state then counts it.
   virtual bool works() const { return true; }
+  /// Whether it may give power, and not only take it.
+  virtual bool gives() const { return works(); }
+  /// Whether what it takes changes so little in a step that its power at both ends tells.
+  virtual bool takes_evenly() const { return !works(); }
   /// What of its force acts on a joint at that node, and not on the beam there [N].
   virtual Vec<double, D> force_on_joint(int /*node*/) const { return Vec<double, D>::Zero(); }
   /// Adds the tangent of M a - Q as far as it is the part's.

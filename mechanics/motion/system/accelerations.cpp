@@ -48,7 +48,7 @@ Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t
     position<D>(force, beam_.places()[i].node) += beam_.joint(i).law.mass * g;
     force[beam_.places()[i].mark] -= beam_.turning_lag(i, q, rate);
   }
-  if (const auto* mesh = beam_.prescribed_mesh()) mesh->add_inflow(beam_.view(q, rate), force);
+  if (const auto* mesh = beam_.prescribed_mesh()) mesh->add_entering(beam_.view(q, rate), force);
   return power;
 }
 
@@ -106,8 +106,8 @@ std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate
                                                          : solve_without_joints(q, rate, t, a, pull, power);
   if (!solved) return std::nullopt;
   if (unknowns != nullptr) unknowns->follow(q, rate, a);
-  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
-    Eigen::Map<Vector>(a + beam_.departed_at(i)) = beam_.gravity(t);
+  for (std::size_t i = 0; i < beam_.free_masses().size(); ++i) {
+    Eigen::Map<Vector>(a + beam_.free_mass_at(i)) = beam_.gravity(t);
   }
   if (beam_.prescribed_mesh() != nullptr) {
     power.loads = 0;

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "mechanics/flow/prescribed_motion.hpp"
 #include "mechanics/motion/system/beam_links.hpp"
 #include "mechanics/motion/system/current_beam.hpp"
+#include "mechanics/motion/system/prescribed_motion.hpp"
 
 namespace vlbeam {
 

@@ -5,19 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/beam/support_motion.hpp"
 #include "core/geometry/axis.hpp"
 #include "core/length_control/length_control.hpp"
-#include "mechanics/contact/at_support.hpp"
-#include "mechanics/flow/rotary_inertia.hpp"
-#include "mechanics/frames/frames.hpp"
 #include "mechanics/motion/joint/sliding_joint.hpp"
 #include "mechanics/motion/parts/loads.hpp"
 #include "mechanics/motion/parts/point_masses.hpp"
 #include "mechanics/motion/system/constraints.hpp"
-#include "mechanics/ropes/drag.hpp"
-#include "mechanics/spin/spin.hpp"
 #include "mechanics/time/tallies.hpp"
 
 namespace vlbeam {
@@ -30,9 +24,7 @@ struct ModelJoint {
   std::optional<Support<D>> support = std::nullopt;
   SupportMotion<D> motion = {};    ///< of what holds it; it does not turn
   double separation_distance = 0;  ///< [m]
-  Impact at_support = {};          ///< where it may not leave
   TimeFunction x = {};             ///< its material coordinate, where a guide prescribes it [m]
-  double pitch = 0;                ///< of a nut on a beam that spins [m a turn], right-handed where > 0; 0 for none
 };
 
 /// What holds the axis at a node, through which the beam may flow.
@@ -65,16 +57,9 @@ struct BeamModel {
   SupportMotion<D> start_motion, end_motion;
   bool start_releases = false, end_releases = false;  ///< joints may leave the beam there
   Loads<D> loads;
-  Drag<D> drag;
-  std::optional<SpinModel> spin;  ///< without it there is no angle at all, but of frames
-  /// In space, of a beam whose nodes rest: it bends about two axes, and twists. Without it bending knows the size of
-  /// the curvature alone.
-  std::optional<FrameModel> frames = {};
   PointMasses<D> masses;
   std::vector<std::shared_ptr<const Part<D>>> parts = {};  ///< what else acts on the beam
-  std::vector<std::shared_ptr<const Room<D>>> rooms = {};  ///< what else happens to it, and ties its nodes
-  Impact at_meeting = {};                                  ///< of two joints
-  bool joints_rest = false;       ///< what bounces lower and lower stays, else the run ends there
+  std::vector<std::shared_ptr<const Room<D>>> rooms = {};  ///< what else there is: see room.hpp
   double contact_distance = 0.1;  ///< of L_std: where joints with nodes touch each other, or a support that they strike
   /// In the order of the chain; behind them the ends of the beam through which it is fed, whose way is given.
   std::vector<ModelJoint<D>> joints;
@@ -82,12 +67,7 @@ struct BeamModel {
   std::vector<std::vector<int>> blocks = {};
   LengthControl length_control;
   Constraints constraints = Constraints::eliminated;
-  /// How all the nodes travel along the beam, where they do: there are no joints then and no length control. Every
-  /// element is a variable-length one, and matter comes in through the ends with the velocity it has there.
-  MeshMotion motion;
-  std::vector<NodeSupport<D>> held_nodes;  ///< what holds inner nodes of such a beam in space
-  RotaryInertia<D> rotary = {};            ///< of such a beam; needs the variational formulation and frozen weights
-  bool books_flow = true;                  ///< the state counts all that such a beam is given, not just what it loses
+  std::vector<NodeSupport<D>> held_nodes;  ///< what holds inner nodes in space, of a beam without joints
   /// What nodes that move or that are new follow in the rest shape, by arc length, where the chain's `rest` has the
   /// others; null for a straight, unstrained rest shape.
   std::shared_ptr<const Axis<D>> rest;
@@ -95,11 +75,7 @@ struct BeamModel {
   int points_of_polynomials() const { return polynomial_points > 0 ? polynomial_points : quadrature_points; }
   BeamRules rules() const { return {points_of_polynomials(), quadrature_points, axial_strain}; }
   /// What elements of the axis alone resist.
-  BeamSection axis_section() const {
-    BeamSection axis = section;
-    if (frames) axis.stiffness.EI = 0;
-    return axis;
-  }
+  BeamSection axis_section() const;
   BeamSections sections() const { return {axis_section(), pieces}; }
   /// Null for a beam of one section all along.
   const SectionPieces* several_sections() const { return pieces.empty() ? nullptr : &pieces; }
@@ -108,10 +84,6 @@ struct BeamModel {
   /// Whether one of its own parts may take or give power.
   bool parts_work() const {
     return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part->works(); });
-  }
-  /// Whether energy is lost.
-  bool dissipates() const {
-    return parts_work() || section.damped() || rubs() || (spin && spin->section.damping != 0) || drag.present();
   }
   /// Whether there is friction at a joint.
   bool rubs() const {
@@ -126,24 +98,15 @@ struct BeamModel {
            std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return bool{joint.motion}; });
   }
   /// Whether a run ends where two joints meet.
-  bool joints_stop_each_other() const { return at_meeting.law == AtSupport::stop; }
+  bool joints_stop_each_other() const;
   /// Whether something moves as prescribed, and so does work.
   bool driven() const { return supports_move() || guides(); }
   bool turns() const { return start_motion.turns() || end_motion.turns(); }
-  /// Which of the joints is a nut, of which there is one at most; -1 for none.
-  int nut() const {
-    const auto at = std::find_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.pitch != 0; });
-    return at == joints.end() ? -1 : static_cast<int>(at - joints.begin());
-  }
-  bool travels() const { return motion.last() > 0; }
   /// The energies that the state counts.
-  Tallies tallies() const {
-    if (travels()) return books_flow ? Tallies{true, true, true, false, D} : Tallies{.dissipated = dissipates()};
-    return {dissipates(),
-            loads.present() || parts_work() || drag.streams() || (spin && spin->torques.present()) ||
-                (frames && frames->loaded()),
-            spin && !spin->drives.empty(), driven()};
-  }
+  Tallies tallies() const;
 };
+
+extern template struct BeamModel<2>;
+extern template struct BeamModel<3>;
 
 }  // namespace vlbeam

@@ -31,9 +31,9 @@ template <int D, class Chain, class Sum, class Add>
 Sum sum_of_elements(const CurrentBeam<D>& beam, const Chain& chain, int first, int last, double t, int points,
                     const Sum& none, const Add& add) {
   const BeamSection section = beam.model().axis_section();
+  const PrescribedMesh<D>* const mesh = beam.prescribed_mesh();
   const Observer<D> observer(section, beam.gravity(t), beam.tables(points),
-                             beam.model().rotary.present() ? &beam.model().rotary : nullptr,
-                             beam.model().several_sections());
+                             mesh != nullptr ? mesh->section_inertia() : nullptr, beam.model().several_sections());
   return sum_in_pieces<Sum>(last - first, node_size<D>, [&](std::ptrdiff_t start, std::ptrdiff_t count) {
     Sum sum = none;
     for (int k = first + static_cast<int>(start), end = k + static_cast<int>(count); k < end; ++k) {

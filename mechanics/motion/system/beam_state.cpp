@@ -11,13 +11,13 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
   y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
   y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
   write_joints(chain, y);
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    y.segment<D>(departed_at(i)) = chain.departed[i].r;
-    y.segment<D>(coordinates() + departed_at(i)) = chain.departed[i].v;
+  for (std::size_t i = 0; i < free_masses_.size(); ++i) {
+    y.segment<D>(free_mass_at(i)) = chain.free_masses[i].r;
+    y.segment<D>(coordinates() + free_mass_at(i)) = chain.free_masses[i].v;
   }
   if (loose_) {
-    y[layout_.mark()] = chain.rider->x;
-    y[coordinates() + layout_.mark()] = chain.rider->rate;
+    y[layout_.mark()] = chain.loose->x;
+    y[coordinates() + layout_.mark()] = chain.loose->rate;
   }
   const Eigen::Index tallies = layout_.tallies.count(), before = (old.size() - tallies) / 2;
   if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
@@ -101,12 +101,12 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
     position<D>(result.rest.data(), k) = at_node[0];
     slope<D>(result.rest.data(), k) = at_node[1];
   }
-  result.departed.clear();
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    const Eigen::Index at = departed_at(i);
-    result.departed.push_back({departed_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
+  result.free_masses.clear();
+  for (std::size_t i = 0; i < free_masses_.size(); ++i) {
+    const Eigen::Index at = free_mass_at(i);
+    result.free_masses.push_back({free_masses_[i], y.segment<D>(at), y.segment<D>(coordinates() + at)});
   }
-  result.rider.reset();
+  result.loose.reset();
   if (unknowns_) unknowns_->read(y.data(), y.data() + coordinates(), result);
   if (loose_) loose_->write(result, y[layout_.mark()], y[coordinates() + layout_.mark()]);
 }
@@ -120,10 +120,10 @@ void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) 
     chain.joints[i].rate = rate[places_[i].mark];
     if (places_[i].behind >= 0) chain.joints[i].kink->rate = y.segment<D>(coordinates() + places_[i].behind);
   }
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    chain.departed[i].v = y.segment<D>(coordinates() + departed_at(i));
+  for (std::size_t i = 0; i < free_masses_.size(); ++i) {
+    chain.free_masses[i].v = y.segment<D>(coordinates() + free_mass_at(i));
   }
-  if (loose_) chain.rider->rate = rate[layout_.mark()];
+  if (loose_) chain.loose->rate = rate[layout_.mark()];
   if (unknowns_) unknowns_->read(y.data(), rate, chain);
 }
 
@@ -140,8 +140,8 @@ std::optional<typename CurrentBeam<D>::MassMotion> CurrentBeam<D>::mass_motion(c
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (joints_[i].index == index) return at(Eigen::Index{node_size<D>} * places_[i].node);
   }
-  for (std::size_t i = 0; i < departed_.size(); ++i) {
-    if (departed_[i] == index) return at(departed_at(i));
+  for (std::size_t i = 0; i < free_masses_.size(); ++i) {
+    if (free_masses_[i] == index) return at(free_mass_at(i));
   }
   return std::nullopt;
 }

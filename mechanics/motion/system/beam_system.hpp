@@ -159,7 +159,7 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   }
   /// Rate of the first moment of mass: the momentum, and what is fed into the beam.
   Vector moment_rate(const Observation<D>& seen, const Eigen::VectorXd& y) const {
-    return seen.momentum + model().section.rhoA * Beam::view(y.data(), y.data() + coordinates()).inflow();
+    return seen.momentum + model().section.rhoA * Beam::view(y.data(), y.data() + coordinates()).entering();
   }
 
   BeamLinks<D> links_;

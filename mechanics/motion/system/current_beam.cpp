@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "mechanics/motion/system/room.hpp"
 
 namespace vlbeam {
 namespace {
@@ -48,11 +49,14 @@ UnchangedElements unchanged_elements(const Mesh& mesh, const std::vector<double>
 template <int D>
 CurrentBeam<D>::CurrentBeam(const BeamModel<D>& model, const ChainState<D>& chain)
     : model_(model), rules_(model.rules()) {
-  prescribed_ = prescribed_mesh_of_rooms(*this, chain.mesh.weights);
-  unknowns_ = unknowns_of_rooms<D>(*this, chain.mesh.x);
+  for (const auto& room : model_.rooms) {
+    if (!prescribed_) prescribed_ = room->prescribed_mesh(*this, chain.mesh.weights);
+  }
+  for (const auto& room : model_.rooms) {
+    if (!unknowns_) unknowns_ = room->unknowns(*this, chain.mesh.x);
+  }
   std::ranges::sort(model_.masses.points, {}, &PointMass::x);
   if (model_.loads.present()) acting_.push_back(std::make_shared<ActingLoads<D>>(model_.loads));
-  add_parts_of_rooms(model_, acting_);
   if (model_.masses.present()) acting_.push_back(std::make_shared<ActingPointMasses<D>>(model_.masses));
   acting_.insert(acting_.end(), model_.parts.begin(), model_.parts.end());
   adopt(chain);
@@ -80,8 +84,8 @@ void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
     own_part_ = unknowns_->part();
     if (own_part_) acting_.push_back(own_part_);
   }
-  departed_.clear();
-  for (const auto& mass : chain.departed) departed_.push_back(mass.index);
+  free_masses_.clear();
+  for (const auto& mass : chain.free_masses) free_masses_.push_back(mass.index);
   adopt_joints(chain);
   std::vector<int> index;
   for (const Joint& joint : joints_) index.push_back(joint.index);
@@ -94,8 +98,8 @@ void CurrentBeam<D>::adopt(const ChainState<D>& chain) {
 template <int D>
 void CurrentBeam<D>::adopt_joints(const ChainState<D>& chain) {
   layout_ = {.nodes = static_cast<int>(mesh_.x.size()),
-             .marks = chain.rider ? 1 : static_cast<int>(chain.joints.size()),
-             .departed = static_cast<int>(departed_.size()),
+             .marks = chain.loose ? 1 : static_cast<int>(chain.joints.size()),
+             .free_masses = static_cast<int>(free_masses_.size()),
              .turning = unknowns_ ? unknowns_->count() : 0,
              .tallies = model_.tallies()};
   std::vector<JointPlace> places;
@@ -298,7 +302,7 @@ double CurrentBeam<D>::line_power(const ChainView<D>& beam, double t) const {
         model_.transport == WeightTransport::transported && beam.weights(part.element).w != unit_weights;
     sum += swept(beam.kinematics(part.element), part.table, reshaped, model_.formulation);
   }
-  return model_.loads.line_force(t).dot(sum - beam.inflow());  // what comes in is not moved by it
+  return model_.loads.line_force(t).dot(sum - beam.entering());  // what comes in is not moved by it
 }
 
 template <int D>
@@ -306,7 +310,7 @@ double CurrentBeam<D>::fed_line_power(const ChainView<D>& beam, double t) const 
   if (!model_.loads.line_force) return 0;
   Vector sum = Vector::Zero();
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (guides(i)) sum += beam.inflow_at(places_[i]);
+    if (guides(i)) sum += beam.entering_at(places_[i]);
   }
   return model_.loads.line_force(t).dot(sum);
 }

@@ -201,9 +201,9 @@ class CurrentBeam {
   ConstraintResidual slope_residual(const Eigen::VectorXd& y) const;
 
   /// Masses that have left the beam are in the state: which of the model's joints they were.
-  const std::vector<int>& departed() const { return departed_; }
+  const std::vector<int>& free_masses() const { return free_masses_; }
   /// Where the position of one of them stands.
-  Eigen::Index departed_at(std::size_t i) const { return layout_.departed_mass(static_cast<int>(i)); }
+  Eigen::Index free_mass_at(std::size_t i) const { return layout_.free_mass(static_cast<int>(i)); }
   /// Where a sliding mass is, on the beam or off it, and how it moves.
   struct MassMotion {
     Vector r, v;
@@ -295,7 +295,7 @@ class CurrentBeam {
   std::vector<double> rest_;        ///< nodes of the rest shape, but for the moving one; empty if it is straight
   std::vector<JointPlace> places_;  ///< of the joints on the beam, in the order of the chain
   std::vector<Joint> joints_;       ///< the same
-  std::vector<int> departed_;       ///< the same of masses that have left
+  std::vector<int> free_masses_;    ///< the same of masses that have left
   std::unique_ptr<LooseMass<D>> loose_;
   std::unique_ptr<PrescribedMesh<D>> prescribed_;  ///< its nodes are where move_nodes() was told last
   Held<D> held_;
@@ -308,18 +308,9 @@ class CurrentBeam {
   std::size_t revision_ = 0;
 };
 
-/// The mesh of a beam all of whose nodes are prescribed along it, or null. Defined in rooms.cpp.
-template <int D>
-std::unique_ptr<PrescribedMesh<D>> prescribed_mesh_of_rooms(const CurrentBeam<D>& beam,
-                                                            const std::vector<WeightFunction>& weights);
-
 /// The mass that rides in a chain, on the beam that has just become that of the chain. Defined in rooms.cpp.
 template <int D>
 std::unique_ptr<LooseMass<D>> loose_mass_of_rooms(const CurrentBeam<D>& beam, const ChainState<D>& chain);
-
-/// Appends what features of a model do that act on the beam, which it must outlive. Defined in rooms.cpp.
-template <int D>
-void add_parts_of_rooms(const BeamModel<D>& model, std::vector<std::shared_ptr<const Part<D>>>& acting);
 
 extern template class CurrentBeam<2>;
 extern template class CurrentBeam<3>;

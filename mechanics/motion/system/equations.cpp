@@ -30,9 +30,9 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
   } else if (beam_.loose() != nullptr) {
     lost += beam_.loose()->add_residual(now, r.data());
   }
-  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
-    const Eigen::Index at = beam_.layout().departed_mass(static_cast<int>(i));
-    const double mass = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass;
+  for (std::size_t i = 0; i < beam_.free_masses().size(); ++i) {
+    const Eigen::Index at = beam_.layout().free_mass(static_cast<int>(i));
+    const double mass = beam_.model().joints[static_cast<std::size_t>(beam_.free_masses()[i])].law.mass;
     r.segment<D>(at) = mass * (a.segment<D>(at) - now.gravity);
   }
   return lost;
@@ -146,7 +146,7 @@ void Equations<D>::add_elements(const Motion<D>& now, const TangentWeights& by, 
     if (joint.turning.present()) add_turning(i, now, by, tangent);
   }
   if (beam_.loose() != nullptr) beam_.loose()->add_tangent(now, by, tangent);
-  for (const int index : beam_.departed()) {
+  for (const int index : beam_.free_masses()) {
     for (int c = 0; c < D; ++c) {
       tangent.add_border(0);
       const int last = tangent.borders() - 1;

@@ -155,7 +155,7 @@ std::array<Energy, Rules> energy_jumps(const CurrentBeam<D>& beam, const ChainSt
     if (to ==
         after.joints.end()) {  // a mass flies on; what holds a ring, and its wheel, have no more to do with the beam
       jump.kinetic -= 0.5 * turning(before, from.node) * from.rate * from.rate;
-      if (std::ranges::count(after.departed, from.index, &ChainState<D>::Departed::index) > 0) continue;
+      if (std::ranges::count(after.free_masses, from.index, &ChainState<D>::FreeMass::index) > 0) continue;
       const Vec<double, D> v = position<D>(before.rate.data(), from.node);
       jump.kinetic -= 0.5 * law.mass * v.squaredNorm();
       jump.gravity += law.mass * beam.gravity(t).dot(position<D>(before.q.data(), from.node));

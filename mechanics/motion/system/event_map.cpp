@@ -63,7 +63,7 @@ template <int D>
 bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Eigen::VectorXd& to) const {
   if (!before_ || before_->places.size() != beam.places().size()) return false;
   const Layout<D>&was = before_->layout, &is = beam.layout();
-  if (was.departed != is.departed || was.kinks != is.kinks || a.size() < was.coordinates()) return false;
+  if (was.free_masses != is.free_masses || was.kinks != is.kinks || a.size() < was.coordinates()) return false;
 
   const BeamPart& part = before_->chain.part;
   const Eigen::Index before = Eigen::Index{node_size<D>} * part.before,
@@ -76,8 +76,8 @@ bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Ei
     to[place.mark] = a[from.mark];
     if (place.behind >= 0) to.segment<D>(place.behind) = a.segment<D>(from.behind);
   }
-  const Eigen::Index departed = Eigen::Index{D} * is.departed;
-  to.segment(is.departed_mass(), departed) = a.segment(was.departed_mass(), departed);
+  const Eigen::Index free_masses = Eigen::Index{D} * is.free_masses;
+  to.segment(is.free_mass(), free_masses) = a.segment(was.free_mass(), free_masses);
   if (beam.unknowns() != nullptr && !beam.unknowns()->of_nodes())
     to.segment(is.angle(), is.turning) = a.segment(was.angle(), was.turning);
   return true;

@@ -125,9 +125,10 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
     r.tail(r.size() - beam_.coordinates()).setZero();
   }
   if (of_unknowns_) beam_.unknowns()->inertia(a.data(), r.data());
-  for (std::size_t i = 0; i < beam_.departed().size(); ++i) {
-    const Eigen::Index at = beam_.departed_at(i);
-    r.segment<D>(at) = beam_.model().joints[static_cast<std::size_t>(beam_.departed()[i])].law.mass * a.segment<D>(at);
+  for (std::size_t i = 0; i < beam_.free_masses().size(); ++i) {
+    const Eigen::Index at = beam_.free_mass_at(i);
+    r.segment<D>(at) =
+        beam_.model().joints[static_cast<std::size_t>(beam_.free_masses()[i])].law.mass * a.segment<D>(at);
   }
   holding().at(t);
   if (!with_multipliers()) holding().project(r.data());
@@ -210,7 +211,9 @@ template <int D>
 std::optional<double> ImplicitBeam<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                           const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
                                                           double h, double t) {
-  const bool damped = beam_.model().section.damped() || beam_.model().parts_work();
+  const auto& parts = beam_.model().parts;
+  const bool damped = beam_.model().section.damped() ||
+                      std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part->takes_evenly(); });
   if (!damped || !beam_.move_nodes(t + h / 2)) return std::nullopt;
   assign_both(middle_q_, 0.5 * (q0 + q1), middle_v_, (q1 - q0) / h);
   assign(a_, 0.5 * (a0 + a1));

@@ -96,7 +96,7 @@ PendingEvent JointCuts<D>::event_of(const Guard& guard, const Eigen::VectorXd& y
                    .x = y[place.mark],
                    .remeshes = true,
                    .goes_on = true};
-  const bool least = beam_.model().length_control.merge == MergePolicy::least_change;
+  const bool least = beam_.model().length_control.merge == MergeShape::least_change;
   if (guard.kind == weights || least) due.reach = 3;
   if (guard.kind == weights) return due;
   if (guard.kind == backward || guard.kind == merge_behind) due.direction = Direction::backward;

@@ -40,7 +40,7 @@ void let_go(const CurrentBeam<D>& beam, int joint, const Eigen::VectorXd& y, Cha
   const ModelJoint<D>& left = beam.model().joints[static_cast<std::size_t>(joint)];
   if (left.support || !(left.law.mass > 0)) return;
   const auto mass = beam.mass_motion(y, joint);
-  chain.departed.push_back({joint, mass->r, mass->v});
+  chain.free_masses.push_back({joint, mass->r, mass->v});
 }
 
 extern template class JointLimits<2>;

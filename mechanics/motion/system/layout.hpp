@@ -14,14 +14,14 @@ namespace vlbeam {
 /// kinked; the positions of masses that have left; the angles of a beam that spins; multipliers, where there are any.
 template <int D>
 struct Layout {
-  int nodes = 0, marks = 0, kinks = 0, departed = 0;
+  int nodes = 0, marks = 0, kinks = 0, free_masses = 0;
   Eigen::Index turning = 0, multipliers = 0;  ///< how many there are of angles (and twists), and of multipliers
   Tallies tallies = {};
 
   Eigen::Index mark(int i = 0) const { return Eigen::Index{node_size<D>} * nodes + i; }
   Eigen::Index kink(int i = 0) const { return mark(marks) + Eigen::Index{D} * i; }
-  Eigen::Index departed_mass(int i = 0) const { return kink(kinks) + Eigen::Index{D} * i; }
-  Eigen::Index angle() const { return departed_mass(departed); }
+  Eigen::Index free_mass(int i = 0) const { return kink(kinks) + Eigen::Index{D} * i; }
+  Eigen::Index angle() const { return free_mass(free_masses); }
   Eigen::Index multiplier() const { return angle() + turning; }
   Eigen::Index coordinates() const { return multiplier() + multipliers; }
   Eigen::Index state() const { return 2 * coordinates() + tallies.count(); }
@@ -31,7 +31,7 @@ struct Layout {
     std::vector<FieldRun> runs = nodal_fields(D, nodes);
     if (marks > 0) runs.push_back({Field::mark, mark(), 1, 1, marks});
     if (kinks > 0) runs.push_back({Field::slope, kink(), D, D, kinks});
-    if (departed > 0) runs.push_back({Field::mass, departed_mass(), D, D, departed});
+    if (free_masses > 0) runs.push_back({Field::mass, free_mass(), D, D, free_masses});
     if (unknowns != nullptr) unknowns->add_fields(angle(), runs);
     return runs;
   }

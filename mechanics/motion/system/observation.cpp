@@ -9,8 +9,8 @@ namespace vlbeam {
 
 template <int D>
 Observer<D>::Observer(const BeamSection& section, const Vec<double, D>& gravity, const SumTables& tables,
-                      const RotaryInertia<D>* rotary, const SectionPieces* pieces)
-    : section_(section), sections_(section), gravity_(gravity), tables_(tables), rotary_(rotary), pieces_(pieces) {}
+                      const SectionInertia<D>* inertia, const SectionPieces* pieces)
+    : section_(section), sections_(section), gravity_(gravity), tables_(tables), inertia_(inertia), pieces_(pieces) {}
 
 template <int D>
 ElementSums<double, D> Observer<D>::by_points(const SummedElement<D>& of, const FeltSections& sections,
@@ -50,7 +50,7 @@ ElementSums<double, D> Observer<D>::by_points(const SummedElement<D>& of, const 
     look(point.whole(sections), at, strain, point.feels);
     if (point.feels == Feels::stretch) return;
     sums.template add_motion<false>(point, at, section.rhoA, gravity_);
-    if (rotary_ != nullptr) sums.kinetic += 0.5 * wl * rotary_->rhoJ * rotary_->across(at.v_x).squaredNorm();
+    if (inertia_ != nullptr) sums.kinetic += inertia_->kinetic(wl, at.v_x);
   };
   const auto motion = [&](double u, const ShapeTable<double>& shape) { return element.at(u, shape); };
   const RestKinematics<double, D, MovingEnds::both>* none = nullptr;  // rest strains stand still here
@@ -79,7 +79,7 @@ ElementSums<double, D> Observer<D>::sums(const SummedElement<D>& element, const 
   const double x_a = element.q.x_a, x_b = element.q.x_b;
   if (pieces_ != nullptr && pieces_->change_between(x_a, x_b)) return by_points(element, sections_, rest, extremes);
   const auto sums_of = [&](const FeltSections& sections) {
-    if (rest != nullptr || rotary_ != nullptr) return by_points(element, sections, rest, extremes);
+    if (rest != nullptr || inertia_ != nullptr) return by_points(element, sections, rest, extremes);
     const auto& kernels = fastest_sum_kernels<D>();
     const auto kernel = energies_alone ? kernels.energies : kernels.all;
     return kernel(element, tables_.of(element.weights.w), sections, gravity_, extremes);

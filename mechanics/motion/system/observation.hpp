@@ -7,8 +7,8 @@
 #include "core/beam/node_map.hpp"
 #include "core/element/element_sums.hpp"
 #include "core/geometry/vec.hpp"
-#include "mechanics/flow/rotary_inertia.hpp"
 #include "mechanics/motion/system/energy.hpp"
+#include "mechanics/motion/system/section_inertia.hpp"
 
 namespace vlbeam {
 
@@ -25,12 +25,12 @@ template <int D>
 struct Observation {
   Energy energy;
   double beam_length = 0;                                    ///< [m]
-  double beam_length_rate = 0;                               ///< [m/s], by stretching and by inflow
+  double beam_length_rate = 0;                               ///< [m/s], by stretching and by what comes in
   Vec<double, D> momentum = Vec<double, D>::Zero();          ///< [kg m/s]
   Vec<double, 3> angular_momentum = Vec<double, 3>::Zero();  ///< about the origin [kg m^2/s]
   Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
   double mass = 0;                                           ///< of the beam, between its end nodes [kg]
-  double spin_momentum = 0;                                  ///< about the axis [kg m^2/s]
+  double momentum_about_axis = 0;                            ///< about the axis [kg m^2/s]
   double load_work = 0, end_work = 0, mesh_work = 0;         ///< what Tally has of it, where counted [J]
   double mass_in = 0;                                        ///< the same [kg]
   std::optional<StrainExtremes> extremes = {};               ///< at the points of the rule and the elements' ends
@@ -53,7 +53,7 @@ struct Observation {
     angular_momentum += part.angular_momentum;
     mass_moment += part.mass_moment;
     mass += part.mass;
-    spin_momentum += part.spin_momentum;
+    momentum_about_axis += part.momentum_about_axis;
     load_work += part.load_work;
     end_work += part.end_work;
     mesh_work += part.mesh_work;
@@ -92,9 +92,9 @@ struct OuterForces {
 template <int D>
 class Observer {
  public:
-  /// All but `gravity` must outlive this object; `rotary` and `pieces` are null without.
+  /// All but `gravity` must outlive this object; `inertia` and `pieces` are null without.
   Observer(const BeamSection& section, const Vec<double, D>& gravity, const SumTables& tables,
-           const RotaryInertia<D>* rotary = nullptr, const SectionPieces* pieces = nullptr);
+           const SectionInertia<D>* inertia = nullptr, const SectionPieces* pieces = nullptr);
 
   /// `rest` are the nodes of the element's rest shape, null for a straight, unstrained one. Strains are looked at
   /// where `seen` has a place for them.
@@ -113,7 +113,7 @@ class Observer {
   FeltSections sections_;
   Vec<double, D> gravity_;
   const SumTables& tables_;
-  const RotaryInertia<D>* rotary_;
+  const SectionInertia<D>* inertia_;
   const SectionPieces* pieces_;
 };
 

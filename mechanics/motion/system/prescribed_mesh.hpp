@@ -6,6 +6,7 @@
 #include "core/beam/chain_view.hpp"
 #include "mechanics/motion/joint/joint_chain.hpp"
 #include "mechanics/motion/parts/part.hpp"
+#include "mechanics/motion/system/section_inertia.hpp"
 
 namespace vlbeam {
 
@@ -44,10 +45,12 @@ class PrescribedMesh {
   /// Takes from the nodal forces what the given accelerations of the ends ask for.
   virtual void take_inertia(const ChainView<D>& beam, const std::vector<MovingPart>& parts, Elements& elements) = 0;
   /// Adds the momentum that comes in with the matter at the ends.
-  virtual void add_inflow(const ChainView<D>& beam, double* f) const = 0;
+  virtual void add_entering(const ChainView<D>& beam, double* f) const = 0;
   /// Solves M a = f in place; false where the mass matrix is not positive.
   virtual bool solve(const Elements& elements, double* f) = 0;
   virtual std::unique_ptr<MeshEquations<D>> new_equations(CurrentBeam<D>& beam) const = 0;
+  /// Null where there is none.
+  virtual const SectionInertia<D>* section_inertia() const { return nullptr; }
 };
 
 }  // namespace vlbeam

@@ -115,12 +115,4 @@ class Unknowns {
                               OuterForces<D>& /*forces*/) const {}
 };
 
-template <int D>
-class CurrentBeam;
-
-/// Those of the features that a beam has, of `last` + 1 nodes at the material coordinates `x`; null without. Defined
-/// beside the features: rooms.cpp.
-template <int D>
-std::unique_ptr<Unknowns<D>> unknowns_of_rooms(const CurrentBeam<D>& beam, const std::vector<double>& x);
-
 }  // namespace vlbeam

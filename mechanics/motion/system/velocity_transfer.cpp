@@ -185,7 +185,7 @@ void VelocityProjection<D>::conserve_axis(const Eigen::VectorXd& all, const Ener
 
   Eigen::VectorXd fluctuation = rate - motion * velocities_of(momenta);
   fluctuation.tail(beam_.layout().turning).setZero();
-  fluctuation.segment(beam_.layout().departed_mass(), D * beam_.layout().departed).setZero();  // they fly on
+  fluctuation.segment(beam_.layout().free_mass(), D * beam_.layout().free_masses).setZero();  // they fly on
   Eigen::VectorXd of_fluctuation(beam_.coordinates());
   mass_.multiply(elements, y.data(), fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);

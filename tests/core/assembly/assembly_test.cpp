@@ -36,7 +36,7 @@ Eigen::VectorXd run(AssemblySystem<D>& system, double until, double step, double
   Eigen::VectorXd y = system.initial_state();
   IntegrationOptions options;
   system.corrects = step == 0;  // by an explicit method
-  options.type = step == 0 ? IntegratorType::dopri5 : IntegratorType::generalized_alpha;
+  options.type = step == 0 ? IntegrationMethod::dopri5 : IntegrationMethod::generalized_alpha;
   options.tolerances.rtol = options.tolerances.atol = 1e-11;
   options.generalized_alpha.step = step;
   options.generalized_alpha.rho_inf = rho;

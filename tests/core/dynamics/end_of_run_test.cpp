@@ -16,7 +16,7 @@ struct End {
 End run_to(double t_end, double sample_at, double dies_at) {
   SecondOrderOscillator ode(dies_at);
   IntegrationOptions options;
-  options.type = IntegratorType::generalized_alpha;
+  options.type = IntegrationMethod::generalized_alpha;
   options.generalized_alpha.adaptive = true;
   options.generalized_alpha.step = 0.3;
   options.generalized_alpha.first_step = 1e-3;

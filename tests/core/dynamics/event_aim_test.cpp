@@ -16,7 +16,7 @@ struct Outcome {
 
   void run(double step, double t_end, bool adaptive = false, const std::vector<double>& sample_times = {}) {
     IntegrationOptions options;
-    options.type = IntegratorType::generalized_alpha;
+    options.type = IntegrationMethod::generalized_alpha;
     options.generalized_alpha.adaptive = adaptive;
     options.generalized_alpha.step = step;
     options.generalized_alpha.newton_tolerance = 1e-13;

@@ -20,7 +20,7 @@ State scalar(double value) { return State::Constant(1, value); }
 
 std::size_t steps_by(StepLimit limit, const StepsByLimit& counts) { return counts[static_cast<std::size_t>(limit)]; }
 
-class Integrate : public ::testing::TestWithParam<IntegratorType> {
+class Integrate : public ::testing::TestWithParam<IntegrationMethod> {
  protected:
   bool run(EventedOde& ode, double t_end, const std::vector<double>& sample_times = {}, double tolerance = 1e-10) {
     options_.type = GetParam();
@@ -290,7 +290,7 @@ class Multistep : public ::testing::Test {
     Outcome outcome{Eigen::Vector2d(1, 0), {}, oscillator()};
     outcome.ode.guard = [](const State& y, double) { return 0.3 - y[0]; };
     outcome.ode.on_event = [](int, State& y) { y[1] = -y[1]; };
-    options_.type = IntegratorType::adams_bashforth_moulton;
+    options_.type = IntegrationMethod::adams_bashforth_moulton;
     options_.step = step;
     double t = 0;
     EXPECT_TRUE(integrate(outcome.ode, outcome.y, t, 10, sample_times, options_, outcome.counters));
@@ -333,7 +333,7 @@ TEST_F(Multistep, SamplesChangeNeitherStepsNorDigits) {
 TEST_F(Multistep, AStepOutsideTheDomainIsRepeatedShorter) {
   // y' = -y is not defined where y < 0: a step of 10 s leads there
   FunctionOde ode(1, [](const State& y, double) -> State { return scalar(y[0] < 0 ? nan : -y[0]); });
-  options_.type = IntegratorType::adams_bashforth_moulton;
+  options_.type = IntegrationMethod::adams_bashforth_moulton;
   options_.step = 10;
   State y = scalar(1);
   double t = 0;

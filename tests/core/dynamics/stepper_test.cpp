@@ -20,7 +20,7 @@ FunctionOde forced_oscillator() {
 }
 
 /// Error at t = 2 of the forced oscillator after `steps` equal steps; from (2, 0) it is cos t + cos(pi t).
-double error_of_equal_steps(IntegratorType type, int steps) {
+double error_of_equal_steps(IntegrationMethod type, int steps) {
   auto ode = forced_oscillator();
   const auto stepper = make_odeint_stepper(type, {1, 1}, 2.0 / steps);  // any step will do
   Eigen::VectorXd y = Eigen::Vector2d(2, 0);
@@ -35,7 +35,7 @@ double error_of_equal_steps(IntegratorType type, int steps) {
 }
 
 struct MethodOrder {
-  IntegratorType type;
+  IntegrationMethod type;
   double order;
   int coarsest;  ///< steps; four times as many still err well above roundoff
 };
@@ -51,14 +51,14 @@ TEST_P(StepperOrder, IsThatOfTheMethod) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Odeint, StepperOrder,
-                         ::testing::Values(MethodOrder{IntegratorType::dopri5, 5, 16},
-                                           MethodOrder{IntegratorType::cash_karp, 5, 16},
-                                           MethodOrder{IntegratorType::fehlberg78, 8, 6},
-                                           MethodOrder{IntegratorType::adams_bashforth_moulton, 5, 64},
-                                           MethodOrder{IntegratorType::rosenbrock4, 4, 16}));
+                         ::testing::Values(MethodOrder{IntegrationMethod::dopri5, 5, 16},
+                                           MethodOrder{IntegrationMethod::cash_karp, 5, 16},
+                                           MethodOrder{IntegrationMethod::fehlberg78, 8, 6},
+                                           MethodOrder{IntegrationMethod::adams_bashforth_moulton, 5, 64},
+                                           MethodOrder{IntegrationMethod::rosenbrock4, 4, 16}));
 
 TEST(Stepper, ARejectedStepChangesNothingButItsLength) {
-  for (const IntegratorType type : integrators) {
+  for (const IntegrationMethod type : integrators) {
     auto ode = oscillator();
     const auto stepper = make_odeint_stepper(type, {1e-13, 1e-13}, 1);
     Eigen::VectorXd y = Eigen::Vector2d(1, 0);
@@ -72,9 +72,9 @@ TEST(Stepper, ARejectedStepChangesNothingButItsLength) {
 }
 
 TEST(Stepper, AfterAResetItsDigitsAreThoseOfANewOne) {
-  std::vector<IntegratorType> types(integrators.begin(), integrators.end());
-  types.push_back(IntegratorType::adams_bashforth_moulton);
-  for (const IntegratorType type : types) {
+  std::vector<IntegrationMethod> types(integrators.begin(), integrators.end());
+  types.push_back(IntegrationMethod::adams_bashforth_moulton);
+  for (const IntegrationMethod type : types) {
     auto ode = oscillator();
     const auto used = make_odeint_stepper(type, {1e-9, 1e-9}, 0.01);
     const auto fresh = make_odeint_stepper(type, {1e-9, 1e-9}, 0.01);

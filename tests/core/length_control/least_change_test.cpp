@@ -17,7 +17,7 @@ MovingLaw<D> law_of(double EA, double EI) {
   return law;
 }
 
-LengthControl control(MergePolicy policy, double standard_length, bool rational) {
+LengthControl control(MergeShape policy, double standard_length, bool rational) {
   LengthControl result;
   result.standard_length = standard_length;
   result.merge = policy;
@@ -58,8 +58,8 @@ TYPED_TEST(LeastChange, KeepsTheStrainEnergy) {
     const auto before = smooth_chain<D>(shape, 1.5, this->random_);
     auto after = before, fitted = before;
     const auto merged =
-        segment_and_merge(after, 0, Direction::forward, {}, control(MergePolicy::least_change, 0.2, rational), law);
-    segment_and_merge(fitted, 0, Direction::forward, {}, control(MergePolicy::point_fit, 0.2, rational), law);
+        segment_and_merge(after, 0, Direction::forward, {}, control(MergeShape::least_change, 0.2, rational), law);
+    segment_and_merge(fitted, 0, Direction::forward, {}, control(MergeShape::point_fit, 0.2, rational), law);
     ASSERT_FALSE(merged.unit_fallback);
     const double was = strain_energy(before, law), is = strain_energy(after, law), paper = strain_energy(fitted, law);
     EXPECT_LE(std::abs(is - was), 1e-7 * was);
@@ -80,7 +80,7 @@ TYPED_TEST(LeastChange, IsTheMirrorImageOfItself) {
   const ChainShape shape{.elements = 6, .joint = 2, .rational = true};
   auto forward = smooth_chain<D>(shape, 1.5, this->random_);
   auto backward = reversed(forward);
-  const auto policy = control(MergePolicy::least_change, 0.2, true);
+  const auto policy = control(MergeShape::least_change, 0.2, true);
   segment_and_merge(forward, 0, Direction::forward, {}, policy, law);
   segment_and_merge(backward, 0, Direction::backward, {}, policy, law);
   const auto mirror = reversed(backward);
@@ -105,7 +105,7 @@ TYPED_TEST(LeastChange, LeavesAPolynomialAsItIs) {
   slope<D>(before.q.data(), 3) = curve[1] / (x_b - x_a);
   auto after = before;
   const auto merged =
-      segment_and_merge(after, 0, Direction::forward, {}, control(MergePolicy::least_change, 0.2, true), law);
+      segment_and_merge(after, 0, Direction::forward, {}, control(MergeShape::least_change, 0.2, true), law);
   for (const double k : merged.k) EXPECT_NEAR(k, 1, 1e-8);
   EXPECT_LE((Vec<double, D>(slope<D>(after.q.data(), 3)) - Vec<double, D>(slope<D>(before.q.data(), 2))).norm(), 1e-8);
 }

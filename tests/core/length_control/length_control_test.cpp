@@ -11,7 +11,7 @@ namespace vlbeam::test {
 namespace {
 
 constexpr double standard = 0.2;
-constexpr std::array<MergePolicy, 2> policies{MergePolicy::point_fit, MergePolicy::unit};
+constexpr std::array<MergeShape, 2> policies{MergeShape::point_fit, MergeShape::unit};
 /// Position and slope of node k of a nodal array.
 template <int D>
 Vec<double, node_size<D>> node(const std::vector<double>& nodes, int k) {
@@ -55,7 +55,7 @@ class LengthControlOf : public ::testing::Test {
     law.transport = transport;
     return law;
   }
-  static LengthControl control(MergePolicy policy) {
+  static LengthControl control(MergeShape policy) {
     LengthControl result;
     result.standard_length = standard;
     result.merge = policy;
@@ -89,7 +89,7 @@ TYPED_TEST(LengthControlOf, ATradedNodeIsOneInsertedAndOneErased) {
 TYPED_TEST(LengthControlOf, AForwardEventPutsANodeBehindTheJointAndTakesOneAheadAway) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
-    for (const MergePolicy policy : policies) {
+    for (const MergeShape policy : policies) {
       const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport};
       const auto before = smooth_chain<D>(shape, 1.5, this->random_);
       auto after = before;
@@ -117,8 +117,7 @@ TYPED_TEST(LengthControlOf, TheMotionBehindTheJointIsWhatItWas) {
   const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = WeightTransport::transported};
   const auto before = smooth_chain<D>(shape, 1.5, this->random_);
   auto after = before;
-  segment_and_merge(after, 0, Direction::forward, {}, this->control(MergePolicy::point_fit),
-                    this->law(shape.transport));
+  segment_and_merge(after, 0, Direction::forward, {}, this->control(MergeShape::point_fit), this->law(shape.transport));
   for (double x = before.mesh.x[0]; x < before.mesh.x[2]; x += 0.013) {
     const auto a = point_motion(before, shape.transport, x), b = point_motion(after, shape.transport, x);
     EXPECT_LE((a.r - b.r).norm(), 1e-14);
@@ -131,9 +130,9 @@ TYPED_TEST(LengthControlOf, PointFitKeepsTheDeletedNodesPlace) {
   const ChainShape shape{.elements = 6, .joint = 2};
   const auto before = smooth_chain<D>(shape, 1.5, this->random_);
   auto fitted = before, unit = before;
-  const auto merged = segment_and_merge(fitted, 0, Direction::forward, {}, this->control(MergePolicy::point_fit),
+  const auto merged = segment_and_merge(fitted, 0, Direction::forward, {}, this->control(MergeShape::point_fit),
                                         this->law(shape.transport));
-  segment_and_merge(unit, 0, Direction::forward, {}, this->control(MergePolicy::unit), this->law(shape.transport));
+  segment_and_merge(unit, 0, Direction::forward, {}, this->control(MergeShape::unit), this->law(shape.transport));
   ASSERT_FALSE(merged.unit_fallback);
   const Vec<double, D> deleted = position<D>(before.q.data(), 3);
   auto miss = [&](const ChainState<D>& chain) {
@@ -146,7 +145,7 @@ TYPED_TEST(LengthControlOf, PointFitKeepsTheDeletedNodesPlace) {
 TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
-    for (const MergePolicy policy : policies) {
+    for (const MergeShape policy : policies) {
       for (const auto slopes : {JointSlopes::continuous, JointSlopes::free}) {
         const ChainShape shape{.elements = 6, .joint = 2, .rational = true, .transport = transport, .slopes = slopes};
         auto forward = smooth_chain<D>(shape, 1.5, this->random_);
@@ -157,7 +156,7 @@ TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
         segment_and_merge(backward, 0, Direction::backward, {}, this->control(policy), this->law(transport));
         auto mirror = reversed(backward);
         if (policy ==
-            MergePolicy::point_fit) {  // the paper's norm prefers one end: other weights through the same point
+            MergeShape::point_fit) {  // the paper's norm prefers one end: other weights through the same point
           EXPECT_LE((point_motion(mirror, transport, x_deleted).r - deleted).norm(), 1e-14);
           mirror.mesh.weights[3] = forward.mesh.weights[3];
         }
@@ -170,8 +169,8 @@ TYPED_TEST(LengthControlOf, ABackwardEventIsTheMirrorImage) {
 TYPED_TEST(LengthControlOf, SeparationBringsBackTheUniformMesh) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
-    for (const MergePolicy policy : policies) {
-      const JointSlopes slopes = policy == MergePolicy::unit ? JointSlopes::continuous : JointSlopes::free;
+    for (const MergeShape policy : policies) {
+      const JointSlopes slopes = policy == MergeShape::unit ? JointSlopes::continuous : JointSlopes::free;
       const ChainShape shape{.elements = 5, .joint = 4, .rational = true, .transport = transport, .slopes = slopes};
       auto chain = smooth_chain<D>(shape, 1.995, this->random_);  // about to leave
       auto mirror = reversed(chain);
@@ -194,17 +193,17 @@ TYPED_TEST(LengthControlOf, SeparationBringsBackTheUniformMesh) {
 TYPED_TEST(LengthControlOf, AnEndMergeKeepsTheMotionBehindItsCutAndThePlaceOfTheMass) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
-    for (const MergePolicy policy : policies) {
+    for (const MergeShape policy : policies) {
       const ChainShape shape{.elements = 5, .joint = 4, .rational = true, .transport = transport};
       auto chain = smooth_chain<D>(shape, 1.6, this->random_);
       auto mirror = reversed(chain);
       const auto before = chain;
       const auto merged = merge_at_end(chain, Direction::forward, this->control(policy), this->law(transport));
       EXPECT_TRUE(chain.joints.empty());
-      ASSERT_TRUE(chain.rider.has_value());
-      EXPECT_EQ(chain.rider->element, 4);
-      EXPECT_EQ(chain.rider->x, before.mesh.x[4]);
-      EXPECT_EQ(chain.rider->rate, before.joints.front().rate);
+      ASSERT_TRUE(chain.loose.has_value());
+      EXPECT_EQ(chain.loose->element, 4);
+      EXPECT_EQ(chain.loose->x, before.mesh.x[4]);
+      EXPECT_EQ(chain.loose->rate, before.joints.front().rate);
       for (std::size_t k = 0; k < chain.mesh.x.size(); ++k) {
         EXPECT_NEAR(chain.mesh.x[k], standard * static_cast<double>(k), 1e-15);
       }
@@ -215,15 +214,15 @@ TYPED_TEST(LengthControlOf, AnEndMergeKeepsTheMotionBehindItsCutAndThePlaceOfThe
           EXPECT_LE((is.v - was.v).norm(), 1e-13);
         }
       }
-      if (policy == MergePolicy::point_fit && !merged.unit_fallback) {
-        EXPECT_LE((point_motion(chain, transport, chain.rider->x).r - position<D>(before.q.data(), 4)).norm(), 1e-14);
+      if (policy == MergeShape::point_fit && !merged.unit_fallback) {
+        EXPECT_LE((point_motion(chain, transport, chain.loose->x).r - position<D>(before.q.data(), 4)).norm(), 1e-14);
       }
       merge_at_end(mirror, Direction::backward, this->control(policy), this->law(transport));
       auto image = reversed(mirror);
-      EXPECT_EQ(image.rider->element, 4);
-      EXPECT_NEAR(image.rider->x, chain.rider->x, 1e-15);
-      EXPECT_EQ(image.rider->rate, chain.rider->rate);
-      if (policy == MergePolicy::point_fit) image.mesh.weights[4] = chain.mesh.weights[4];
+      EXPECT_EQ(image.loose->element, 4);
+      EXPECT_NEAR(image.loose->x, chain.loose->x, 1e-15);
+      EXPECT_EQ(image.loose->rate, chain.loose->rate);
+      if (policy == MergeShape::point_fit) image.mesh.weights[4] = chain.mesh.weights[4];
       expect_same(image, chain, 1e-12);
     }
   }
@@ -232,21 +231,21 @@ TYPED_TEST(LengthControlOf, AnEndMergeKeepsTheMotionBehindItsCutAndThePlaceOfThe
 TYPED_TEST(LengthControlOf, AnEndCutKeepsTheMotionAheadAndThatOfTheMass) {
   constexpr int D = TypeParam::value;
   for (const WeightTransport transport : transports) {
-    for (const MergePolicy policy : policies) {
+    for (const MergeShape policy : policies) {
       const ChainShape shape{.elements = 5, .rational = true, .transport = transport, .rider = 4};
       auto chain = random_chain<D>(shape, this->random_);
-      chain.rider->x = 4.49 * standard;
+      chain.loose->x = 4.49 * standard;
       auto mirror = reversed(chain);
       const auto before = chain;
       cut_at_end<D>(chain, this->control(policy), this->law(transport));
-      EXPECT_FALSE(chain.rider.has_value());
+      EXPECT_FALSE(chain.loose.has_value());
       EXPECT_EQ(chain.joints.front().node, 4);
-      EXPECT_EQ(chain.mesh.x[4], before.rider->x);
-      EXPECT_EQ(chain.joints.front().rate, before.rider->rate);
-      const auto mass = point_motion(before, transport, before.rider->x);
-      EXPECT_LE((position<D>(chain.rate.data(), 4) - mass.v - before.rider->rate * mass.r_x).norm(), 1e-13);
-      EXPECT_LE((slope<D>(chain.rate.data(), 4) - mass.v_x - before.rider->rate * mass.r_xx).norm(), 1e-12);
-      for (double x = before.rider->x + 0.001; x < 5 * standard; x += 0.01) {
+      EXPECT_EQ(chain.mesh.x[4], before.loose->x);
+      EXPECT_EQ(chain.joints.front().rate, before.loose->rate);
+      const auto mass = point_motion(before, transport, before.loose->x);
+      EXPECT_LE((position<D>(chain.rate.data(), 4) - mass.v - before.loose->rate * mass.r_x).norm(), 1e-13);
+      EXPECT_LE((slope<D>(chain.rate.data(), 4) - mass.v_x - before.loose->rate * mass.r_xx).norm(), 1e-12);
+      for (double x = before.loose->x + 0.001; x < 5 * standard; x += 0.01) {
         const auto is = point_motion(chain, transport, x), was = point_motion(before, transport, x);
         EXPECT_LE((is.r - was.r).norm(), 1e-14);
         if (transport == WeightTransport::transported) {
@@ -255,7 +254,7 @@ TYPED_TEST(LengthControlOf, AnEndCutKeepsTheMotionAheadAndThatOfTheMass) {
       }
       cut_at_end<D>(mirror, this->control(policy), this->law(transport));
       auto image = reversed(mirror);
-      if (policy == MergePolicy::point_fit) image.mesh.weights[3] = chain.mesh.weights[3];
+      if (policy == MergeShape::point_fit) image.mesh.weights[3] = chain.mesh.weights[3];
       expect_same(image, chain, 1e-12);
     }
   }

@@ -15,7 +15,9 @@ namespace {
 /// A chain in still air.
 template <int D>
 HeldChain<D> in_air(const ChainShape& shape, unsigned seed, Constraints constraints = Constraints::eliminated) {
-  return {shape, seed, constraints, [](BeamModel<D>& model, Random&) { model.drag = {{0.7, 0.3}, {0.5, 0.9}, 7}; }};
+  return {shape, seed, constraints, [](BeamModel<D>& model, Random&) {
+            model.parts.push_back(std::make_shared<ActingDrag<D>>(Drag<D>{{0.7, 0.3}, {0.5, 0.9}, 7}));
+          }};
 }
 
 template <class Dimension>
@@ -82,7 +84,8 @@ TYPED_TEST(DragTest, InProportionToTheMassIsTheSumOverPoints) {
     ++seed;
     const auto with = [&](double tangential) -> HeldChain<D> {
       return {shape, seed, Constraints::eliminated, [&](BeamModel<D>& model, Random&) {
-                model.drag = {{0.7, tangential}, {}, 7, Vec<double, D>::UnitX() * 0.4};
+                model.parts.push_back(
+                    std::make_shared<ActingDrag<D>>(Drag<D>{{0.7, tangential}, {}, 7, Vec<double, D>::UnitX() * 0.4}));
               }};
     };
     HeldChain<D> even = with(0.7), nearly = with(0.7 + 1e-10);
@@ -177,7 +180,7 @@ TEST(MassDamping, LetsAModeDecay) {
     double t = 0;
     SolverCounters counters;
     IntegrationOptions options;
-    options.type = IntegratorType::fehlberg78;
+    options.type = IntegrationMethod::fehlberg78;
     options.tolerances = {1e-13, 1e-13};
     ASSERT_TRUE(integrate(system, y, t, end, {}, options, counters));
     const double decay = std::exp(-alpha * end / 2) * (std::cos(w * end) + alpha / (2 * w) * std::sin(w * end));

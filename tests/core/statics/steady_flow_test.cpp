@@ -1,8 +1,10 @@
 #include "mechanics/flow/steady_flow.hpp"
+#include "mechanics/flow/flow_room.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"
 
@@ -71,9 +73,9 @@ TEST(SteadyFlow, RotaryInertiaSplitsTheWhirlOfASpinningShaft) {
   for (const int elements : {4, 8, 16}) {
     BeamModel<3> model;
     model.section = shaft.section();
-    model.spin.emplace().section = section;
-    model.rotary = {section.rhoIp / 2, section.rhoIp * spin, Eigen::Vector3d::UnitX()};
-    model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
+    spin_in(model).section = section;
+    flow_in(model).rotary = {section.rhoIp / 2, section.rhoIp * spin, Eigen::Vector3d::UnitX()};
+    flow_in(model).motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(1, 0)}});
     model.start = Support<3>::pin();
     model.end = Support<3>::slide(Eigen::Vector3d::UnitX());
     BeamSystem<3> beam(model, straight_chain(model));

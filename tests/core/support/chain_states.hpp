@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/beam/mesh_motion.hpp"
 #include "core/length_control/chain_state.hpp"
+#include "mechanics/flow/mesh_motion.hpp"
 #include "mechanics/motion/joint/slope_conditions.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -104,7 +104,7 @@ ChainState<D> random_chain(const ChainShape& shape, Random& random) {
   if (shape.rider >= 0) {
     const double u = shape.held ? (shape.rider > 0 ? 1 : 0) : random.uniform(0.2, 0.8);
     const double rate = shape.held ? 0 : random.uniform(-1, 1);
-    chain.rider = {shape.rider, shape.element_length * (shape.rider + u), rate, shape.held};
+    chain.loose = {shape.rider, shape.element_length * (shape.rider + u), rate, shape.held};
   }
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const ChainShape::Joint joint = shape.joints()[i];
@@ -172,7 +172,7 @@ ChainState<D> reversed(const ChainState<D>& chain) {
         {from.w[3], from.w[2], from.w[1], from.w[0]}, sum - from.x_b, sum - from.x_a};
   }
   std::reverse(result.joints.begin(), result.joints.end());
-  if (auto& rider = result.rider) rider = {n - 1 - rider->element, sum - rider->x, -rider->rate, rider->held};
+  if (auto& rider = result.loose) rider = {n - 1 - rider->element, sum - rider->x, -rider->rate, rider->held};
   for (auto& joint : result.joints) {
     joint.node = n - joint.node;
     joint.rate *= -1;

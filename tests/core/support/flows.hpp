@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "scene/stretch.hpp"
 #include "tests/core/support/random.hpp"
 
@@ -20,7 +22,8 @@ BeamModel<D> moving_span(int elements, bool bends, double speed, double raise = 
   model.section.stiffness.EA *= raise;
   if (!bends) model.section.stiffness.EI = 0;
   const double stretch = stretch_under(1000, model.section.stiffness.EA);
-  model.motion = MeshMotion({{0, steadily(0, -speed / stretch)}, {elements, steadily(1 / stretch, -speed / stretch)}});
+  flow_in(model).motion =
+      MeshMotion({{0, steadily(0, -speed / stretch)}, {elements, steadily(1 / stretch, -speed / stretch)}});
   model.start = model.end = Support<D>::pin();
   return model;
 }
@@ -36,12 +39,12 @@ Eigen::VectorXd moving_span_state(const BeamSystem<D>& beam, double speed) {
 inline double flowing_rod(int elements, Formulation formulation, AngleField field = AngleField::linear) {
   BeamModel<2> model;
   model.section = {.rhoA = 1, .stiffness = {1, 1}};
-  model.spin.emplace().section = {.rhoIp = 1, .GIp = 1};
-  model.spin->field = field;
+  spin_in(model).section = {.rhoIp = 1, .GIp = 1};
+  spin_in(model).field = field;
   model.formulation = formulation;
-  model.motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, -0.5)}, {elements, steadily(1, -0.5)}});
   model.start = model.end = Support<2>::pin();
-  model.spin->drives = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
+  spin_in(model).drives = {{0, steadily(0, 0)}, {elements, steadily(0, 0)}};
   BeamSystem<2> beam(model, straight_chain(model));
   const Eigen::VectorXd y = straight_state<2>(beam, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0.5, 0);
   return frequencies(eigenvalues(linear_flows(beam, y).angles)).front();

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "mechanics/motion/system/beam_system.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"
@@ -156,12 +157,12 @@ TEST(RightHandSide, OfAFlowingBeamAllocatesNothing) {
   if (!VLBEAM_COUNTS_ALLOCATIONS) GTEST_SKIP() << "not under a sanitizer";
   Random random(4);
   BeamModel<3> model = moving_span<3>(6, true, 10);
-  model.spin.emplace().section = {.rhoIp = 1, .GIp = 1, .damping = 0.1};
+  spin_in(model).section = {.rhoIp = 1, .GIp = 1, .damping = 0.1};
   model.loads.points = {
       {.node = 3, .force = [](double t) { return Eigen::Vector3d(t, 1, 0); }, .follower = [](double) { return 1.0; }}};
-  model.spin->torques.points = {{.node = 3, .torque = [](double) { return 1.0; }}};
+  spin_in(model).torques.points = {{.node = 3, .torque = [](double) { return 1.0; }}};
   model.loads.line_force = [](double t) { return Eigen::Vector3d(0, t, 1); };
-  model.spin->torques.line = [](double) { return 1.0; };
+  spin_in(model).torques.line = [](double) { return 1.0; };
   BeamSystem<3> beam(model, straight_chain(model));
   const Eigen::VectorXd y = random_state(beam, random);
   Eigen::VectorXd dydt(beam.size());

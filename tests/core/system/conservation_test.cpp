@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "mechanics/contact/contact_room.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/element_family.hpp"
@@ -36,7 +37,7 @@ class FreeBeam : public ::testing::Test {
     double t = 0;
     SolverCounters counters;
     IntegrationOptions options;
-    options.type = IntegratorType::fehlberg78;
+    options.type = IntegrationMethod::fehlberg78;
     options.tolerances = {1e-13, 1e-13};
     integrate(system, y, t, 0.04, {0, 0.02, 0.04}, options, counters);
     return seen;
@@ -105,7 +106,7 @@ TYPED_TEST(FreeBeam, KeepsItsMomentaAndItsEnergyWithAMassInsideAnEndElement) {
       for (const bool held : {false, true}) {
         const ChainShape shape{.elements = 4, .rational = kind.rational, .rider = rider, .held = held};
         auto model = model_of<TypeParam::value>(shape, this->random_);
-        model.joints.front().at_support = {AtSupport::rebound, 1};  // nor does an impact lose anything
+        bring<ContactRoom<D>>(model).at_support = {{AtSupport::rebound, 1}};  // nor does an impact lose anything
         model.section.stiffness.law = kind.law;
         model.axial_strain = kind.axial;
         model.gravity.setZero();
@@ -214,7 +215,7 @@ TYPED_TEST(FreeBeam, TimeReversalReturnsToTheStart) {
   Eigen::VectorXd y = start;
   SolverCounters counters;
   IntegrationOptions options;
-  options.type = IntegratorType::fehlberg78;
+  options.type = IntegrationMethod::fehlberg78;
   options.tolerances = {1e-13, 1e-13};
   for (int way = 0; way < 2; ++way) {
     double t = 0;

@@ -123,10 +123,10 @@ TYPED_TEST(EventMapOf, StepsGoOnWhereNodesComeAndGo) {
     return y;
   };
   IntegrationOptions options;
-  options.type = IntegratorType::fehlberg78;
+  options.type = IntegrationMethod::fehlberg78;
   options.tolerances = {1e-11, 1e-11};
   const Eigen::VectorXd exact = end_of(options);
-  options.type = IntegratorType::generalized_alpha;
+  options.type = IntegrationMethod::generalized_alpha;
   options.generalized_alpha.step = 1e-4;
   const Eigen::VectorXd y = end_of(options);
   EXPECT_GE(cuts, 2);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mechanics/frames/frame_room.hpp"
 #include "mechanics/statics/static_equations.hpp"
 #include "scene/build.hpp"
 #include "scene/simulate.hpp"
@@ -103,7 +104,7 @@ class Twisted {
   /// Whether all eigenvalues of the straight shaft's tangent, which torques make unsymmetric, are positive.
   bool is_stable(double torque) const {
     BeamModel<3> model = build_model<3>(scene_);
-    for (Torques::Point& load : model.frames->torques.points) {
+    for (Torques::Point& load : bring<FrameRoom>(model).torques.points) {
       load.torque = [unit = load.torque(1), torque](double) { return unit * torque; };
     }
     model.end.free_position[0] = 1;

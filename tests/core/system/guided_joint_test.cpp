@@ -120,7 +120,7 @@ TEST(GuidedJoint, GivenTheMotionOfAFreeOneTheBeamDoesAsBefore) {
       largest = std::max(largest, std::abs(at[mark] - 0.7));
     };
     IntegrationOptions options;
-    options.type = IntegratorType::fehlberg78;
+    options.type = IntegrationMethod::fehlberg78;
     options.tolerances = {1e-12, 1e-12};
     SolverCounters counters;
     double t = 0;

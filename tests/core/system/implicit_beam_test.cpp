@@ -1,4 +1,5 @@
 #include "mechanics/motion/system/implicit_beam.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 
 #include <gtest/gtest.h>
@@ -33,10 +34,10 @@ struct Case {
     }
     if (nut) {
       model.joints.front().pitch = pitch;
-      model.spin = SpinModel{.section = {0.2, 0.3, 0.05},
-                             .field = AngleField::hermite,
-                             .rate = 0.8,
-                             .drives = {{shape.elements, steadily(0, 1.5)}}};
+      spin_in(model) = SpinModel{.section = {0.2, 0.3, 0.05},
+                                 .field = AngleField::hermite,
+                                 .rate = 0.8,
+                                 .drives = {{shape.elements, steadily(0, 1.5)}}};
     }
     system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
     system->second_order()->expand(system->initial_state(), q, v);

@@ -1,9 +1,11 @@
 #include "mechanics/conserving/energy_momentum.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/motion/system/implicit_beam.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/element_state.hpp"
 #include "tests/core/support/flows.hpp"
@@ -19,26 +21,26 @@ BeamModel<D> whirling(Formulation formulation = Formulation::variational, AngleF
   BeamModel<D> model;
   model.section = shaft.section();
   model.section.damping = D == 2 ? 0.01 : 0;
-  model.spin.emplace().section = shaft.spin();
-  model.rotary = {.rhoJ = model.spin->section.rhoIp / 2, .direction = along.normalized()};
-  if (D == 3) model.rotary.gyroscopic = model.spin->section.rhoIp * 30;
-  model.spin->section.damping = 0.01;
+  spin_in(model).section = shaft.spin();
+  flow_in(model).rotary = {.rhoJ = spin_in(model).section.rhoIp / 2, .direction = along.normalized()};
+  if (D == 3) flow_in(model).rotary.gyroscopic = spin_in(model).section.rhoIp * 30;
+  spin_in(model).section.damping = 0.01;
   model.gravity = Vec<double, D>::UnitY() * -9.81;
-  model.motion = MeshMotion({{0, steadily(0, -0.5)},
-                             {2,
-                              [](double t) {
-                                return Prescribed{0.5 + 0.3 * t * t, 0.6 * t, 0.6};
-                              }},
-                             {4, steadily(1, 0.4)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, -0.5)},
+                                      {2,
+                                       [](double t) {
+                                         return Prescribed{0.5 + 0.3 * t * t, 0.6 * t, 0.6};
+                                       }},
+                                      {4, steadily(1, 0.4)}});
   model.start = Support<D>::direction_clamp(along);
   model.held_nodes = {{2, Support<D>::pin()}, {3, Support<D>::slide(along)}};
-  model.spin->drives = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
+  spin_in(model).drives = {{0, [](double t) { return Prescribed{2 * t + t * t, 2 + 2 * t, 2}; }}};
   model.loads.points = {{.node = 4, .follower = [](double) { return 0.7; }}};
-  model.spin->torques.points = {{.node = 4, .torque = [](double) { return 0.1; }}};
+  spin_in(model).torques.points = {{.node = 4, .torque = [](double) { return 0.1; }}};
   model.loads.points.push_back({.x = [](double t) { return 0.8 - t; }, .follower = [](double) { return -0.4; }});
   model.formulation = formulation;
-  if (formulation == Formulation::virtual_work) model.rotary = {};
-  model.spin->field = field;
+  if (formulation == Formulation::virtual_work) flow_in(model).rotary = {};
+  spin_in(model).field = field;
   return model;
 }
 
@@ -136,10 +138,10 @@ TYPED_TEST(ImplicitTravelTest, GeneralizedAlphaFollowsAnExplicitMethod) {
     return Eigen::VectorXd(y.head(beam.coordinates()));
   };
   IntegrationOptions options;
-  options.type = IntegratorType::fehlberg78;
+  options.type = IntegrationMethod::fehlberg78;
   options.tolerances = {1e-10, 1e-10};
   const Eigen::VectorXd exact = final_state(options);
-  options.type = IntegratorType::generalized_alpha;
+  options.type = IntegrationMethod::generalized_alpha;
   std::vector<double> errors;
   for (const double step : {4e-4, 2e-4, 1e-4}) {
     options.generalized_alpha.step = step;
@@ -151,13 +153,13 @@ TYPED_TEST(ImplicitTravelTest, GeneralizedAlphaFollowsAnExplicitMethod) {
 }
 
 TEST(ImplicitTravel, RefusesMethodsThatDoNotApply) {
-  for (const IntegratorType type : {IntegratorType::rosenbrock4, IntegratorType::energy_momentum}) {
+  for (const IntegrationMethod type : {IntegrationMethod::rosenbrock4, IntegrationMethod::energy_momentum}) {
     const BeamModel<2> model = whirling<2>();
     BeamSystem<2> beam(model, straight_chain(model));
     Eigen::VectorXd y = straight_state<2>(beam, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0, 0);
     IntegrationOptions options;
     options.type = type;
-    if (type == IntegratorType::energy_momentum) options.other = energy_momentum({});
+    if (type == IntegrationMethod::energy_momentum) options.other = energy_momentum({});
     SolverCounters counters;
     double t = 0;
     EXPECT_THROW(integrate(beam, y, t, 0.1, {}, options, counters), InvalidInput);

@@ -187,8 +187,8 @@ TEST(LocalEventOfCurvedBeam, DoesAsOneOfTheWholeBeam) {
   for (const auto merge : {MergePolicy::rest_arc, MergePolicy::point_fit, MergePolicy::relaxed}) {
     Scene scene = semicircle(elements);
     scene.sliding_mass->position = std::numbers::pi;
+    scene.length_control.merge = merge;
     auto model = build_model<2>(scene);
-    model.length_control.merge = merge;
     model.length_control.velocities = VelocityTransfer::projected;
     auto chain = build_chain<2>(scene);
     Random random(11);

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "mechanics/flow/flow_room.hpp"
 #include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
+#include "mechanics/spin/spin_room.hpp"
 #include "mechanics/spin/spin_unknowns.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/flows.hpp"
@@ -18,7 +20,7 @@ template <int D>
 BeamModel<D> resting(int elements, double length = 1) {
   BeamModel<D> model;
   model.section = soft_shaft.section();
-  model.motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(length, 0)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, 0)}, {elements, steadily(length, 0)}});
   return model;
 }
 
@@ -77,8 +79,8 @@ TYPED_TEST(MovingMeshTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
   // stiffness, mass and spin of order one, so that no force hides behind another
   BeamModel<D> model = resting<D>(5);
   model.section = {.rhoA = 1.3, .stiffness = {2.1, 0.7}};
-  model.spin.emplace().section = {.rhoIp = 1.3, .GIp = 0.9};
-  model.motion =
+  spin_in(model).section = {.rhoIp = 1.3, .GIp = 0.9};
+  flow_in(model).motion =
       MeshMotion({{0, shifted(0, wave(0.1, 1.3))}, {2, shifted(2, wave(0.3, 2.1))}, {5, shifted(5, wave(0.4, 0.7))}});
   BeamSystem<D> beam(model, straight_chain(model));
   const double t = 0.4, spin = 1.7, velocity = 0.6;
@@ -97,8 +99,8 @@ TYPED_TEST(MovingMeshTest, AStraightBeamMovesOnFreelyHoweverItsNodesTravel) {
 TYPED_TEST(MovingMeshTest, DrivenAnglesFollowTheirFunctions) {
   constexpr int D = TypeParam::value;
   BeamModel<D> model = resting<D>(4);
-  model.spin.emplace().section = soft_shaft.spin();
-  model.spin->drives = {{0, [](double t) { return Prescribed{t * t, 2 * t, 2}; }}};
+  spin_in(model).section = soft_shaft.spin();
+  spin_in(model).drives = {{0, [](double t) { return Prescribed{t * t, 2 * t, 2}; }}};
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = random_state(beam, this->random_), dydt(y.size());
   beam.rhs(y, dydt, 0);
@@ -109,31 +111,31 @@ TYPED_TEST(MovingMeshTest, StaticTorqueIsExactWithOneElement) {
   constexpr int D = TypeParam::value;
   const double length = 1.7, torque = 0.3;
   BeamModel<D> model = resting<D>(1, length);
-  model.spin.emplace().section = soft_shaft.spin();
+  spin_in(model).section = soft_shaft.spin();
   model.start = Support<D>::clamp();
-  model.spin->drives = {{0, steadily(0, 0)}};
-  model.spin->torques.points = {{.node = 1, .torque = [=](double) { return torque; }}};
+  spin_in(model).drives = {{0, steadily(0, 0)}};
+  spin_in(model).torques.points = {{.node = 1, .torque = [=](double) { return torque; }}};
   BeamSystem<D> beam(model, straight_chain(model));
   Eigen::VectorXd y = straight_state<D>(beam, Vec<double, D>::Zero(), Vec<double, D>::UnitX(), 1, 0, 0);
-  y[angle_of(beam, 1)] = torque * length / model.spin->section.GIp;
+  y[angle_of(beam, 1)] = torque * length / spin_in(model).section.GIp;
   Eigen::VectorXd dydt(y.size());
   beam.rhs(y, dydt, 0);
-  EXPECT_LE(dydt.head(2 * beam.coordinates()).norm(), 1e-9 * torque / (model.spin->section.rhoIp * length));
+  EXPECT_LE(dydt.head(2 * beam.coordinates()).norm(), 1e-9 * torque / (spin_in(model).section.rhoIp * length));
 }
 
 TEST(MovingMesh, WithoutSpinThereIsNoAngle) {
   BeamModel<3> model = resting<3>(4);
   EXPECT_EQ(BeamSystem<3>(model, straight_chain(model)).coordinates(), 6 * 5);
-  model.spin.emplace().section = soft_shaft.spin();
+  spin_in(model).section = soft_shaft.spin();
   EXPECT_EQ(BeamSystem<3>(model, straight_chain(model)).coordinates(), 7 * 5);
 }
 
 TEST(MovingMesh, SpinLeavesTheAxisAlone) {
   Random random(3);
   BeamModel<3> model = resting<3>(4);
-  model.motion = MeshMotion({{0, steadily(0, -2)}, {4, steadily(1, -1)}});
+  flow_in(model).motion = MeshMotion({{0, steadily(0, -2)}, {4, steadily(1, -1)}});
   BeamSystem<3> plain(model, straight_chain(model));
-  model.spin.emplace().section = soft_shaft.spin();
+  spin_in(model).section = soft_shaft.spin();
   BeamSystem<3> spinning(model, straight_chain(model));
   const Eigen::VectorXd y = random_state(spinning, random);
   const Eigen::Index n = plain.coordinates(), m = spinning.coordinates();
@@ -146,8 +148,8 @@ TEST(MovingMesh, SpinLeavesTheAxisAlone) {
 
 TEST(MovingMesh, StopsWhereItsNodesTangle) {
   BeamModel<3> model = resting<3>(3);
-  model.motion = MeshMotion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});
-  for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
+  flow_in(model).motion = MeshMotion({{0, steadily(0, 0)}, {1, steadily(0.5, 2)}, {3, steadily(1, 0)}});
+  for (const IntegrationMethod type : {IntegrationMethod::dopri5, IntegrationMethod::generalized_alpha}) {
     BeamSystem<3> beam(model, straight_chain(model));
     EXPECT_NO_THROW(moving_mesh_of(beam).check_motion(0.24));
     EXPECT_THROW(moving_mesh_of(beam).check_motion(0.26), InvalidInput);
@@ -171,7 +173,7 @@ TEST(MovingMesh, StopsWhereItsNodesTangle) {
 template <class Change>
 std::string field_of(const Change& change) {
   BeamModel<3> model = resting<3>(4);
-  model.spin.emplace().section = soft_shaft.spin();
+  spin_in(model).section = soft_shaft.spin();
   change(model);
   try {
     const BeamSystem<3> beam(model, straight_chain(model));
@@ -185,7 +187,7 @@ TEST(MovingMesh, RefusesWhatMakesNoSense) {
   auto unit = [](double) { return 1.0; };
   EXPECT_EQ(field_of([](auto&) {}), "");
   EXPECT_EQ(field_of([](auto& m) {
-              m.motion = MeshMotion({{0, steadily(1, 0)}, {4, steadily(0, 0)}});
+              flow_in(m).motion = MeshMotion({{0, steadily(1, 0)}, {4, steadily(0, 0)}});
             }),
             "mesh motion");
   for (const int node : {0, 4}) {
@@ -198,11 +200,11 @@ TEST(MovingMesh, RefusesWhatMakesNoSense) {
             }),
             "supports");
   EXPECT_EQ(field_of([&](auto& m) { m.loads.points = {{.node = 5, .follower = unit}}; }), "loads");
-  EXPECT_EQ(field_of([](auto& m) { m.spin->drives = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "drives");
-  EXPECT_EQ(field_of([](auto& m) { m.spin->drives = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "drives");
+  EXPECT_EQ(field_of([](auto& m) { spin_in(m).drives = {{0, steadily(0, 1)}, {0, steadily(0, 1)}}; }), "drives");
+  EXPECT_EQ(field_of([](auto& m) { spin_in(m).drives = {{0, steadily(0, 1)}, {4, steadily(0, 2)}}; }), "drives");
   EXPECT_EQ(field_of([&](auto& m) {
-              m.spin->drives = {{4, steadily(0, 1)}};
-              m.spin->torques.points = {{.node = 4, .torque = unit}};
+              spin_in(m).drives = {{4, steadily(0, 1)}};
+              spin_in(m).torques.points = {{.node = 4, .torque = unit}};
             }),
             "loads");
 }

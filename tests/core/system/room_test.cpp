@@ -69,7 +69,7 @@ struct Falling {
     y = system->initial_state();
   }
   Observation<2> seen() const { return system->observe(y, t, own_points); }
-  void run(double until, IntegratorType type) {
+  void run(double until, IntegrationMethod type) {
     IntegrationOptions options;
     options.type = type;
     options.tolerances.rtol = options.tolerances.atol = 1e-10;
@@ -88,7 +88,7 @@ TEST(Room, BringsEventsOfItsOwn) {
   const double before = beam.seen().energy.total();
   int strikes = 0;
   beam.system->on_event = [&](const EventRecord<2>& event) { strikes += event.type == EventType::contact ? 1 : 0; };
-  beam.run(0.5, IntegratorType::dopri5);
+  beam.run(0.5, IntegrationMethod::dopri5);
   EXPECT_GE(strikes, 1);
   EXPECT_GE(beam.y[node_size<2> + 1], floor_level - 1e-9);
   EXPECT_NEAR(beam.seen().energy.total(), before, 1e-6);
@@ -96,13 +96,13 @@ TEST(Room, BringsEventsOfItsOwn) {
 }
 
 TEST(Room, BringsLinksOfItsOwn) {
-  for (const IntegratorType type : {IntegratorType::dopri5, IntegratorType::generalized_alpha}) {
+  for (const IntegrationMethod type : {IntegrationMethod::dopri5, IntegrationMethod::generalized_alpha}) {
     Falling beam(std::make_shared<RodBetweenEnds>());
     const double before = beam.seen().energy.total(), fell = beam.seen().momentum[1] - 1.3 * 9.81 * 0.3;
     beam.run(0.3, type);
     const Vec<double, 2> apart = position<2>(beam.y.data(), 4) - position<2>(beam.y.data(), 0);
     EXPECT_NEAR(apart.norm(), 1, 1e-8);
-    EXPECT_NEAR(beam.seen().energy.total(), before, type == IntegratorType::dopri5 ? 1e-6 : 1e-4);
+    EXPECT_NEAR(beam.seen().energy.total(), before, type == IntegrationMethod::dopri5 ? 1e-6 : 1e-4);
     EXPECT_NEAR(beam.seen().momentum[1], fell, 1e-8) << "it acts within the beam";
   }
 }

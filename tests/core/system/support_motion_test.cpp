@@ -156,11 +156,8 @@ struct DrivenRun {
           std::max(seen.largest_drift, std::abs(seen.energy.total() - seen.energy.supplied - first - jumps));
     };
     IntegrationOptions options;
-    options.type = type;
+    set_method(type, step, options);
     options.tolerances = {tolerance, tolerance};
-    options.step = step;
-    if (type == IntegratorType::energy_momentum) options.other = energy_momentum({.step = step});
-    if (of_sundials(type)) options.other = method_of_sundials(type);
     options.generalized_alpha.step = step;
     options.generalized_alpha.newton_tolerance = 1e-12;
     std::vector<double> times;

@@ -258,7 +258,7 @@ TEST(TurningSupport, KeepsASteadyRotation) {
       double t = 0, end = 2;
       SolverCounters counters;
       IntegrationOptions options;
-      options.type = type;
+      set_method(type, 1e-3, options);
       options.tolerances = {1e-11, 1e-11};
       options.generalized_alpha.step = 2e-4;
       ASSERT_TRUE(integrate(system, y, t, end, {}, options, counters));

@@ -15,7 +15,7 @@ struct Transfer {
     auto model = model_of<D>(shape, random);
     model.quadrature_points = 12;
     model.length_control.velocities = velocities;
-    model.length_control.merge = MergePolicy::unit;
+    model.length_control.merge = MergeShape::unit;
     auto chain = random_chain<D>(shape, random);
     chain.mesh.x[2] = 2.3 * shape.element_length;  // past where the node behind the mass goes
     BeamSystem<D> system(model, chain);

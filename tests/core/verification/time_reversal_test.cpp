@@ -26,7 +26,7 @@ Return there_and_back(const Scene& scene, double tolerance = 1e-12) {
   Return seen;
   system.on_event = [&](const EventRecord<2>&) { ++seen.events; };
   IntegrationOptions options;
-  options.type = IntegratorType::fehlberg78;
+  options.type = IntegrationMethod::fehlberg78;
   options.tolerances = {tolerance, tolerance};
   SolverCounters counters;
   Eigen::VectorXd y = system.initial_state();

@@ -1,4 +1,4 @@
-#include "core/beam/mesh_motion.hpp"
+#include "mechanics/flow/mesh_motion.hpp"
 
 #include <string>
 #include <utility>

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/element/triad.hpp"
 #include "core/element/twice_active.hpp"
+#include "mechanics/frames/triad.hpp"
 
 namespace vlbeam {
 

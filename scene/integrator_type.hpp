@@ -1,7 +1,10 @@
 #pragma once
 
+#include "mechanics/time/integration_method.hpp"
+
 namespace vlbeam {
 
+/// The methods that a scene may ask for.
 enum class IntegratorType {
   dopri5,
   cash_karp,
@@ -26,17 +29,5 @@ constexpr bool has_fixed_step(IntegratorType type) {
 constexpr bool of_sundials(IntegratorType type) {
   return type == IntegratorType::ida || type == IntegratorType::cvode || type == IntegratorType::arkode;
 }
-
-/// How often a Newton iteration takes a new tangent.
-enum class NewtonKind {
-  modified,  ///< when the last one makes it converge too slowly
-  full,      ///< at every iteration
-};
-
-/// What of the estimated error of a step limits its length.
-enum class ErrorEstimate {
-  all,
-  filtered,  ///< without what the method damps by itself: vibrations whose period is shorter than the step
-};
 
 }  // namespace vlbeam

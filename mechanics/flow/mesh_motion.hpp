@@ -1,20 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "core/geometry/prescribed.hpp"
 
 namespace vlbeam {
-
-/// Index of the element, between nodes at `marks`, that holds the material point x. Beyond the ends it is that of the
-/// first or the last element.
-inline int element_at(const std::vector<Prescribed>& marks, double x) {
-  const auto next = std::upper_bound(marks.begin() + 1, marks.end() - 1, x,
-                                     [](double at, const Prescribed& node) { return at < node.value; });
-  return static_cast<int>(next - marks.begin()) - 1;
-}
 
 /// Material coordinates of the nodes of a chain as functions of time: those of some nodes are given, the ones between
 /// them divide the distance in fixed proportions, and so move with them.

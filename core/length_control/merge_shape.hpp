@@ -6,19 +6,12 @@
 namespace vlbeam {
 
 /// How the shape of a merged element is found.
-enum class MergePolicy {
+enum class MergeShape {
   point_fit,     ///< weights by a minimum-norm point fit (Ding & Ouyang 2022, Eq. 31-38); unit weights for ALE-ANCF
   unit,          ///< unit weights
   rest_arc,      ///< weights of the evenly run arc that turns as much as the element does at rest; of cut ones, too
   least_change,  ///< weights and neighbouring slopes by the least change of curve and strain, strain energy kept
   own,           ///< weights by a MergeRule
-  relaxed,  ///< weights by rest_arc where the beam is curved at rest, else by point_fit; then the outer nodes give way
-};
-
-/// Where the new node of a cut element is.
-enum class CutPolicy {
-  exact,    ///< on its curve (Ding & Ouyang 2022, Eq. 21-28)
-  relaxed,  ///< at the least strain energy of the two halves
 };
 
 /// What a merge starts from: the merged element, but for its weights, and the node it has lost. Lengths in metres,
