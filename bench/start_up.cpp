@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bench/clamped_beam.hpp"
+#include "io/scene_json.hpp"
 #include "scene/build.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace {
 

@@ -7,10 +7,12 @@ set_target_properties(vlbeam_core PROPERTIES EXPORT_NAME core)
 set_target_properties(vlbeam_library PROPERTIES EXPORT_NAME vlbeam)
 set_target_properties(vlbeam_mechanics PROPERTIES EXPORT_NAME mechanics)
 set_target_properties(vlbeam_scene PROPERTIES EXPORT_NAME scene)
+set_target_properties(vlbeam_io PROPERTIES EXPORT_NAME io)
+set_target_properties(vlbeam_tools PROPERTIES EXPORT_NAME tools)
 set_target_properties(vlbeam_harness PROPERTIES EXPORT_NAME harness)
 install(TARGETS vlbeam_core EXPORT vlbeamCoreTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS vlbeam_library vlbeam_mechanics vlbeam_scene vlbeam_harness EXPORT vlbeamTargets
+install(TARGETS vlbeam_library vlbeam_mechanics vlbeam_scene vlbeam_io vlbeam_tools vlbeam_harness EXPORT vlbeamTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(VLBEAM_BUILD_STUDIES)
   install(TARGETS vlbeam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -77,7 +79,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/reference DESTINATION ${data} FILES_MATC
 foreach(file README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff)
   install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endforeach()
-foreach(folder core mechanics scene docs examples python/examples reference reports scenes studies tests/mutants)
+foreach(folder core mechanics scene io tools docs examples python/examples reference reports scenes studies tests/mutants)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           FILES_MATCHING PATTERN "*.md" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js" PATTERN "*.svg"
           PATTERN "*.json" PATTERN "*.csv" PATTERN "*.ipynb"

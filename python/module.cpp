@@ -13,17 +13,17 @@
 #include <map>
 #include <thread>
 
+#include "io/quantity.hpp"
+#include "io/schema.hpp"
 #include "scene/names.hpp"
 #include "scene/sample_quantities.hpp"
 #include "scene/shape.hpp"
-#include "studies/harness/checked_run.hpp"
-#include "studies/harness/converge.hpp"
-#include "studies/harness/interrupt.hpp"
-#include "studies/harness/own_sweep.hpp"
-#include "studies/harness/quantity.hpp"
-#include "studies/harness/scene_library.hpp"
-#include "studies/harness/schema.hpp"
-#include "studies/harness/sweep.hpp"
+#include "tools/checked_run.hpp"
+#include "tools/converge.hpp"
+#include "tools/interrupt.hpp"
+#include "tools/own_sweep.hpp"
+#include "tools/scene_library.hpp"
+#include "tools/sweep.hpp"
 #include "vlbeam/vlbeam.hpp"
 
 namespace py = pybind11;

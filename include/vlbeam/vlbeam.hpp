@@ -13,12 +13,12 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "io/provenance.hpp"
+#include "io/run_report.hpp"
+#include "io/scene_json.hpp"
 #include "scene/result.hpp"
 #include "scene/scene.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/provenance.hpp"
-#include "studies/harness/run_report.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "core/geometry/elementary.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_sweep.hpp"
+#include "io/scene_json.hpp"
+#include "tools/measures.hpp"
+#include "tools/scene_sweep.hpp"
 
 namespace vlbeam {
 namespace across_events {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/harness/diagram.hpp"
+#include "tools/diagram.hpp"
 
 namespace vlbeam {
 

@@ -11,11 +11,11 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.hpp"
+#include "io/messages.hpp"
+#include "io/nearest.hpp"
+#include "io/provenance.hpp"
 #include "studies/app/commands.hpp"
-#include "studies/harness/interrupt.hpp"
-#include "studies/harness/messages.hpp"
-#include "studies/harness/nearest.hpp"
-#include "studies/harness/provenance.hpp"
+#include "tools/interrupt.hpp"
 
 namespace {
 

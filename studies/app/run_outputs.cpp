@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "io/messages.hpp"
 #include "scene/names.hpp"
-#include "studies/harness/messages.hpp"
 
 namespace vlbeam {
 namespace {

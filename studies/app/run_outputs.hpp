@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/files.hpp"
 #include "scene/result.hpp"
-#include "studies/harness/files.hpp"
 
 namespace vlbeam {
 

@@ -9,13 +9,13 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
+#include "io/files.hpp"
+#include "io/json.hpp"
+#include "io/scene_json.hpp"
 #include "scene/build.hpp"
 #include "scene/stiffness.hpp"
 #include "scene/validate.hpp"
 #include "studies/harness/claims.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace vlbeam::defaults {
 namespace {

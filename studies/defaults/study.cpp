@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/geometry/elementary.hpp"
+#include "io/scene_json.hpp"
 #include "scene/build.hpp"
 #include "studies/defaults/cost.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace defaults {

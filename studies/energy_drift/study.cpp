@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace energy_drift {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/geometry/elementary.hpp"
-#include "studies/harness/files.hpp"
+#include "io/files.hpp"
 
 namespace vlbeam {
 namespace equilibria {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/harness/json.hpp"
+#include "io/json.hpp"
 
 namespace vlbeam::exact_solutions {
 

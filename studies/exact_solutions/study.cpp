@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "io/files.hpp"
 #include "studies/exact_solutions/problem.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/observed_order.hpp"
+#include "tools/observed_order.hpp"
 
 namespace vlbeam {
 namespace exact_solutions {

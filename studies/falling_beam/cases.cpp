@@ -4,10 +4,10 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
+#include "io/run_report.hpp"
+#include "io/scene_json.hpp"
 #include "scene/derived.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/run_report.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {

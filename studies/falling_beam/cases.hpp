@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/harness/scene_sweep.hpp"
 #include "studies/harness/study.hpp"
+#include "tools/scene_sweep.hpp"
 
 /// The falling beam with a sliding mass (Ding & Ouyang 2022, §6.1): which scenes are run, and finding them again.
 namespace vlbeam::falling_beam {

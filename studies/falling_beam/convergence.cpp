@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "core/geometry/elementary.hpp"
+#include "io/json.hpp"
 #include "scene/derived.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/measures.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "studies/falling_beam/tables.hpp"
-#include "studies/harness/judged.hpp"
+#include "tools/judged.hpp"
 
 namespace vlbeam::falling_beam {
 

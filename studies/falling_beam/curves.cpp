@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "studies/harness/measures.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {

@@ -3,7 +3,7 @@
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
 #include "studies/falling_beam/tables.hpp"
-#include "studies/harness/measures.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam::falling_beam {
 namespace {

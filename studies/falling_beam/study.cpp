@@ -2,11 +2,11 @@
 // answer can be trusted.
 #include "studies/harness/study.hpp"
 
+#include "io/files.hpp"
 #include "studies/falling_beam/cases.hpp"
 #include "studies/falling_beam/convergence.hpp"
 #include "studies/falling_beam/curves.hpp"
 #include "studies/falling_beam/tables.hpp"
-#include "studies/harness/files.hpp"
 
 namespace vlbeam {
 namespace falling_beam {

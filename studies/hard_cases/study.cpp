@@ -8,12 +8,12 @@
 
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "io/json.hpp"
+#include "io/scene_json.hpp"
 #include "mechanics/motion/system/mass_condition.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace hard_cases {

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
-#include "studies/harness/files.hpp"
+#include "io/files.hpp"
 
 namespace vlbeam {
 namespace {

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "io/json.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/json.hpp"
 
 namespace vlbeam {
 namespace {

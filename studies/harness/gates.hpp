@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "io/json.hpp"
 #include "scene/names.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/observed_order.hpp"
+#include "tools/observed_order.hpp"
 
 namespace vlbeam {
 

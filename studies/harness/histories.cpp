@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "studies/harness/measures.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "studies/harness/gnuplot.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/observed_order.hpp"
+#include "io/json.hpp"
+#include "tools/gnuplot.hpp"
+#include "tools/observed_order.hpp"
 
 namespace vlbeam {
 

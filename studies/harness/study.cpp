@@ -10,12 +10,12 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "io/files.hpp"
+#include "io/messages.hpp"
+#include "io/provenance.hpp"
 #include "scene/names.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/interrupt.hpp"
-#include "studies/harness/kept_runs.hpp"
-#include "studies/harness/messages.hpp"
-#include "studies/harness/provenance.hpp"
+#include "tools/interrupt.hpp"
+#include "tools/kept_runs.hpp"
 
 namespace vlbeam {
 namespace {

@@ -9,7 +9,7 @@
 #include "scene/simulate.hpp"
 #include "studies/harness/gates.hpp"
 #include "studies/harness/report.hpp"
-#include "studies/harness/sweep.hpp"
+#include "tools/sweep.hpp"
 
 namespace vlbeam {
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/geometry/elementary.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "io/files.hpp"
+#include "io/scene_json.hpp"
 
 namespace vlbeam {
 namespace joints {

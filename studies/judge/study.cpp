@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "studies/harness/quantity.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_sweep.hpp"
+#include "io/quantity.hpp"
+#include "io/scene_json.hpp"
+#include "tools/scene_sweep.hpp"
 
 namespace vlbeam {
 namespace judge {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/geometry/vec.hpp"
-#include "studies/harness/json.hpp"
+#include "io/json.hpp"
 
 namespace vlbeam::manufactured {
 

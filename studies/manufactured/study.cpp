@@ -7,12 +7,12 @@
 
 #include "core/element/quadrature.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "io/scene_json.hpp"
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/run_support.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_sweep.hpp"
 #include "studies/manufactured/body_force.hpp"
+#include "tools/scene_sweep.hpp"
 
 namespace vlbeam {
 namespace manufactured {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <map>
 
+#include "io/files.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
 #include "scene/stretch.hpp"
-#include "studies/harness/files.hpp"
 #include "studies/moving_string/transverse.hpp"
 
 namespace vlbeam {

@@ -8,10 +8,10 @@
 #include "core/element/moving_element.hpp"
 #include "core/element/quadrature.hpp"
 #include "core/geometry/elementary.hpp"
+#include "io/scene_json.hpp"
 #include "scene/derived.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_sweep.hpp"
+#include "tools/measures.hpp"
+#include "tools/scene_sweep.hpp"
 
 namespace vlbeam {
 namespace quadrature {

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "core/geometry/elementary.hpp"
+#include "io/scene_json.hpp"
 #include "scene/build.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/rigid_wire.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_sweep.hpp"
+#include "tools/measures.hpp"
+#include "tools/rigid_wire.hpp"
+#include "tools/scene_sweep.hpp"
 
 namespace vlbeam {
 namespace {

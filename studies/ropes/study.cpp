@@ -6,11 +6,11 @@
 #include <map>
 
 #include "core/geometry/elementary.hpp"
+#include "io/scene_json.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/observed_order.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "studies/ropes/catenaries.hpp"
 #include "studies/ropes/closed_forms.hpp"
+#include "tools/observed_order.hpp"
 
 namespace vlbeam {
 namespace ropes {

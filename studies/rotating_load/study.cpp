@@ -12,11 +12,11 @@
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "io/files.hpp"
 #include "mechanics/flow/moving_mesh.hpp"
 #include "mechanics/flow/steady_flow.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/files.hpp"
 #include "studies/rotating_load/closed_form.hpp"
 
 namespace vlbeam {

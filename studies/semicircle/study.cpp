@@ -9,15 +9,15 @@
 
 #include "core/geometry/elementary.hpp"
 #include "core/length_control/chain_motion.hpp"
+#include "io/scene_json.hpp"
 #include "mechanics/flow/mesh_motion.hpp"
 #include "scene/build.hpp"
 #include "scene/options.hpp"
 #include "studies/harness/histories.hpp"
-#include "studies/harness/judged.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/rigid_wire.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_sweep.hpp"
+#include "tools/judged.hpp"
+#include "tools/measures.hpp"
+#include "tools/rigid_wire.hpp"
+#include "tools/scene_sweep.hpp"
 
 namespace vlbeam {
 namespace semicircle {

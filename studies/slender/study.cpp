@@ -7,12 +7,12 @@
 #include <map>
 
 #include "core/geometry/elementary.hpp"
+#include "io/files.hpp"
+#include "io/scene_json.hpp"
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/observed_order.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "studies/slender/elastica.hpp"
+#include "tools/observed_order.hpp"
 
 namespace vlbeam {
 namespace slender {

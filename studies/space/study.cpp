@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "core/geometry/elementary.hpp"
+#include "io/files.hpp"
+#include "io/scene_json.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/observed_order.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/observed_order.hpp"
 
 namespace vlbeam {
 namespace space {

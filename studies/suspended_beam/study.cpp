@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "core/geometry/elementary.hpp"
+#include "io/json.hpp"
+#include "io/scene_json.hpp"
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace suspended_beam {

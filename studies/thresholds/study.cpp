@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/geometry/elementary.hpp"
+#include "io/scene_json.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/judged.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/judged.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace thresholds {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/files.hpp"
 #include "mechanics/spin/circular_shaft.hpp"
-#include "studies/harness/files.hpp"
 #include "studies/torsion/angle_flow.hpp"
 
 namespace vlbeam {

@@ -10,14 +10,14 @@
 #include <utility>
 
 #include "core/geometry/elementary.hpp"
+#include "io/files.hpp"
+#include "io/json.hpp"
+#include "io/quantity.hpp"
+#include "io/scene_json.hpp"
 #include "scene/derived.hpp"
-#include "studies/harness/checked_run.hpp"
-#include "studies/harness/converge_setting.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/quantity.hpp"
-#include "studies/harness/run_track.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/checked_run.hpp"
+#include "tools/converge_setting.hpp"
+#include "tools/run_track.hpp"
 
 namespace vlbeam {
 namespace trust {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
+#include "io/json.hpp"
+#include "io/scene_json.hpp"
 #include "scene/derived.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/judged.hpp"
-#include "studies/harness/measures.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "tools/judged.hpp"
+#include "tools/measures.hpp"
 
 namespace vlbeam {
 namespace weights {

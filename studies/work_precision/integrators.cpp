@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "io/json.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/json.hpp"
 
 namespace vlbeam::work_precision {
 namespace {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "core/geometry/elementary.hpp"
+#include "io/scene_json.hpp"
 #include "scene/options.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace vlbeam::work_precision {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/pieces.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
 
 namespace vlbeam::work_precision {
 namespace {

@@ -2,7 +2,7 @@
 // wanted total error.
 #include "studies/harness/study.hpp"
 
-#include "studies/harness/files.hpp"
+#include "io/files.hpp"
 #include "studies/work_precision/integrators.hpp"
 #include "studies/work_precision/meshes.hpp"
 #include "studies/work_precision/sizes.hpp"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "studies/harness/run_file.hpp"
+#include "io/run_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const int file = ::memfd_create("report", 0);

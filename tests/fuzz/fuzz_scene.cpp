@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

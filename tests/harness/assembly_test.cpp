@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "io/files.hpp"
+#include "io/quantity.hpp"
+#include "io/run_outcome.hpp"
+#include "io/run_report.hpp"
+#include "io/scene_json.hpp"
 #include "scene/assembly.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/checked_run.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/quantity.hpp"
-#include "studies/harness/run_outcome.hpp"
-#include "studies/harness/run_report.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "tests/folders.hpp"
+#include "tools/checked_run.hpp"
 
 namespace vlbeam::test {
 namespace {

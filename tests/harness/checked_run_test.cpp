@@ -1,16 +1,16 @@
 // What companions tell of a run's error, where the error is known.
-#include "studies/harness/checked_run.hpp"
+#include "tools/checked_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "io/scene_json.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_library.hpp"
 #include "tests/folders.hpp"
+#include "tools/scene_library.hpp"
 
 namespace vlbeam {
 namespace {

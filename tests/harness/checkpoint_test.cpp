@@ -1,5 +1,5 @@
 // A run that goes on from a checkpoint has the digits of one that was never stopped.
-#include "studies/harness/checkpoint_file.hpp"
+#include "io/checkpoint_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "tests/harness/report_of.hpp"
 #include "tests/harness/temporary_folder.hpp"
 

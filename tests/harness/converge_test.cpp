@@ -1,5 +1,5 @@
 // What converge says of scenes whose answers are known, and what it says where there is none.
-#include "studies/harness/converge.hpp"
+#include "tools/converge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <iostream>
 
 #include "core/error.hpp"
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/scene_json.hpp"
-#include "studies/harness/scene_library.hpp"
 #include "tests/folders.hpp"
+#include "tools/scene_library.hpp"
 
 namespace vlbeam {
 namespace {

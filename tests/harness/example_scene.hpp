@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/harness/json.hpp"
+#include "io/json.hpp"
 
 namespace vlbeam {
 

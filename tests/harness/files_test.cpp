@@ -1,4 +1,4 @@
-#include "studies/harness/files.hpp"
+#include "io/files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "io/scene_json.hpp"
 #include "scene/energy_ledger.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "tests/harness/report_of.hpp"
 
 namespace vlbeam {

@@ -1,12 +1,12 @@
-#include "studies/harness/gnuplot.hpp"
+#include "tools/gnuplot.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "studies/harness/files.hpp"
-#include "studies/harness/subprocess.hpp"
+#include "io/files.hpp"
 #include "tests/harness/temporary_folder.hpp"
+#include "tools/subprocess.hpp"
 
 namespace vlbeam {
 namespace {

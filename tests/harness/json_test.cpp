@@ -1,4 +1,4 @@
-#include "studies/harness/json.hpp"
+#include "io/json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "studies/harness/judged.hpp"
+#include "tools/judged.hpp"
 
 #include <gtest/gtest.h>
 

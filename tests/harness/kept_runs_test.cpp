@@ -1,5 +1,5 @@
 // What a study that was interrupted has finished is not computed again.
-#include "studies/harness/kept_runs.hpp"
+#include "tools/kept_runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
 #include "tests/folders.hpp"
 #include "tests/harness/program_of_runs.hpp"
 #include "tests/harness/report_of.hpp"

@@ -1,4 +1,4 @@
-#include "studies/harness/messages.hpp"
+#include "io/messages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "studies/harness/observed_order.hpp"
+#include "tools/observed_order.hpp"
 
 #include <gtest/gtest.h>
 

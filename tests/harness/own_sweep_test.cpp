@@ -1,14 +1,14 @@
 // Sweeps of one's own scene: which cases there are, and that what was begun is gone on with, and nothing else.
-#include "studies/harness/own_sweep.hpp"
+#include "tools/own_sweep.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/subprocess.hpp"
+#include "io/files.hpp"
 #include "tests/harness/temporary_folder.hpp"
+#include "tools/subprocess.hpp"
 
 namespace vlbeam {
 namespace {

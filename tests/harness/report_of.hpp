@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "studies/harness/json.hpp"
-#include "studies/harness/run_report.hpp"
+#include "io/json.hpp"
+#include "io/run_report.hpp"
 
 namespace vlbeam {
 

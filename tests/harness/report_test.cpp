@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
 #include "tests/harness/example_scene.hpp"
 #include "tests/harness/report_of.hpp"
 

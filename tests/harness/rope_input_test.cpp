@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "io/scene_json.hpp"
 #include "scene/validate.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {

@@ -1,5 +1,5 @@
 // What a run has come to, as one process tells another. That results are the same is tested with processes: kept_runs.
-#include "studies/harness/run_outcome.hpp"
+#include "io/run_outcome.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Every scene of scenes/ runs as it stands, and its number is what it should be.
-#include "studies/harness/scene_library.hpp"
+#include "tools/scene_library.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "io/files.hpp"
+#include "io/json.hpp"
+#include "io/quantity.hpp"
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/json.hpp"
-#include "studies/harness/quantity.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "tests/folders.hpp"
 
 namespace vlbeam {

@@ -1,10 +1,10 @@
-#include "studies/harness/schema.hpp"
+#include "io/schema.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "studies/harness/scene_json.hpp"
+#include "io/scene_json.hpp"
 
 namespace vlbeam {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/scene_json.hpp"
 
 namespace vlbeam {
 namespace {

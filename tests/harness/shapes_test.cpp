@@ -1,13 +1,13 @@
 // Shapes that wait on disk are the ones that a result would have kept.
-#include "studies/harness/shapes.hpp"
+#include "io/shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
+#include "io/run_outcome.hpp"
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/run_outcome.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "temporary_folder.hpp"
 
 namespace vlbeam {

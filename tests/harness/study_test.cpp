@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "io/files.hpp"
+#include "io/scene_json.hpp"
 #include "tests/harness/program_of_runs.hpp"
 #include "tests/harness/temporary_folder.hpp"
 

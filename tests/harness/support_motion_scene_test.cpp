@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "core/error.hpp"
+#include "io/scene_json.hpp"
 #include "scene/simulate.hpp"
-#include "studies/harness/scene_json.hpp"
 #include "tests/harness/report_of.hpp"
 
 namespace vlbeam {

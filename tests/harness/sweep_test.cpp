@@ -1,4 +1,4 @@
-#include "studies/harness/sweep.hpp"
+#include "tools/sweep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "studies/harness/progress.hpp"
+#include "tools/progress.hpp"
 
 namespace vlbeam {
 namespace {

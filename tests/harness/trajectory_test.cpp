@@ -1,14 +1,14 @@
 // Comparing runs, and other codes' trajectories with certified ones.
-#include "studies/harness/trajectory.hpp"
+#include "io/trajectory.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "core/error.hpp"
-#include "studies/harness/files.hpp"
-#include "studies/harness/run_report.hpp"
-#include "studies/harness/scene_json.hpp"
+#include "io/files.hpp"
+#include "io/run_report.hpp"
+#include "io/scene_json.hpp"
 #include "tests/harness/temporary_folder.hpp"
 
 #include "scene/simulate.hpp"

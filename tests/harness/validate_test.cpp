@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "studies/harness/json.hpp"
+#include "io/json.hpp"
 
 namespace vlbeam {
 namespace {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Holds the plan of the house: how often the heart (elements, motion, time) still names a room, or includes one, which may
-only become less.
+"""Holds the plan of the house: its floors; how often the heart (elements, motion, time) names a room, or includes one, which
+may only become less.
 
     house_test.py ROOT            compares with house.json
     house_test.py ROOT --write    writes what is counted now
@@ -101,6 +101,28 @@ def upward_includes():
     return dict(sorted(count.items()))
 
 
+# The floors of the house: a file includes its own and those before it.
+FLOORS = ("core", "mechanics", "scene", "io", "tools", "studies/harness", "studies")
+
+
+def floor_of(path):
+    return next((i for i in reversed(range(len(FLOORS))) if path.startswith(FLOORS[i] + "/") and
+                 not (FLOORS[i] == "studies" and path.startswith("studies/harness/"))), None)
+
+
+def arrows_upwards():
+    """Includes that lead from a floor to one above it."""
+    found = []
+    for folder in ("core", "mechanics", "scene", "io", "tools", "studies"):
+        for file in sorted((ROOT / folder).rglob("*.[ch]pp")):
+            path = file.relative_to(ROOT).as_posix()
+            for included in re.findall(r'#include "([^"]+)"', file.read_text(encoding="utf-8")):
+                above = floor_of(included)
+                if above is not None and above > floor_of(path):
+                    found.append(f"{path} includes {included}")
+    return found
+
+
 def main():
     now, found = counted()
     now["includes upwards within the heart"] = upward_includes()
@@ -121,6 +143,7 @@ def main():
                 risen.append(f"{what}: {key} {before} -> {after}")
             elif after < before:
                 print(f"{what}: {key} {before} -> {after}: write it down (--write)")
+    risen += arrows_upwards()
     if risen:
         print("A feature that the heart must know is in the wrong room (--list shows the lines):\n  " + "\n  ".join(risen))
         return 1
