@@ -6,7 +6,7 @@
 
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_block.hpp"
-#include "core/beam/point_mass.hpp"
+#include "core/beam/lumped_mass.hpp"
 #include "core/beam/span_kernels.hpp"
 #include "core/beam/support.hpp"
 

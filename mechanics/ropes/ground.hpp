@@ -6,7 +6,7 @@
 #include "mechanics/contact/one_sided.hpp"
 #include "mechanics/motion/joint/axial_friction.hpp"
 #include "mechanics/motion/parts/part.hpp"
-#include "mechanics/motion/parts/point_masses.hpp"
+#include "mechanics/motion/parts/acting_point_masses.hpp"
 #include "mechanics/ropes/line_force.hpp"
 
 namespace vlbeam {

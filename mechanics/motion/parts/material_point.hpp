@@ -3,15 +3,9 @@
 #include "core/beam/chain_view.hpp"
 #include "core/element/active.hpp"
 #include "core/tangent_weights.hpp"
+#include "mechanics/motion/parts/point_matrix.hpp"
 
 namespace vlbeam {
-
-/// Coordinates of an element of a chain: its nodal vectors and the marks of its ends, which count where those are
-/// joints.
-template <int D>
-inline constexpr int point_coordinates = 4 * D + 2;
-template <int D>
-using PointMatrix = Eigen::Matrix<double, point_coordinates<D>, point_coordinates<D>>;
 
 /// The material point x of an element.
 template <class Real, int D>

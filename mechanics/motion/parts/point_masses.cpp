@@ -1,4 +1,6 @@
-#include "mechanics/motion/parts/point_masses.hpp"
+#include "mechanics/motion/parts/acting_point_masses.hpp"
+
+#include "core/beam/lumped_mass.hpp"
 
 namespace vlbeam {
 

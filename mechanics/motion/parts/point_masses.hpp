@@ -1,10 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include "core/beam/point_mass.hpp"
-#include "mechanics/motion/parts/material_point.hpp"
-#include "mechanics/motion/parts/part.hpp"
+#include "core/geometry/vec.hpp"
+#include "core/tangent_weights.hpp"
+#include "mechanics/motion/parts/point_matrix.hpp"
 
 namespace vlbeam {
+
+template <int D>
+struct ChainView;
+template <class Real, int D>
+struct MovingEquations;
 
 /// Masses on material points: each adds m r'.r'/2 + m g.r to the Lagrangian, and so m N^T (r'' - g) to the equations of
 /// motion, r'' = N q'' + r_v. On elements of fixed length the inertia is part of their constant mass matrix, see
@@ -22,7 +30,7 @@ struct PointMasses {
   int element_of(const ChainView<D>& beam, std::size_t i) const {
     int k = beam.element_at(points[i].x);
     const int rank = static_cast<int>(i);
-    for (const JointPlace& joint : beam.joints) {
+    for (const auto& joint : beam.joints) {
       k += k + 1 == joint.node && joint.passed >= 0 && rank >= joint.passed ? 1 : 0;
     }
     for (std::size_t n = beam.joints.size(); n-- > 0;) {
@@ -51,27 +59,5 @@ struct PointMasses {
   static PointMatrix<D> tangent(const PointMass& point, const ChainView<D>& beam, int k, const double* a,
                                 const Vector& gravity, const TangentWeights& by);
 };
-
-/// Point masses as a part of the equations; `masses` must outlive it.
-template <int D>
-class ActingPointMasses final : public Part<D> {
- public:
-  explicit ActingPointMasses(const PointMasses<D>& masses) : masses_(masses) {}
-  Tally add_force(const Motion<D>& motion, double* force) const override {
-    masses_.add_weight(motion.beam, motion.gravity, force);
-    return {};
-  }
-  double load_power(const Motion<D>& /*motion*/, double* /*scratch*/) const override { return 0; }
-  void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {
-    masses_.add_tangent(motion.beam, motion.a, motion.gravity, by,
-                        [&](int k, const PointMatrix<D>& matrix) { tangent.add_point(motion.beam, k, matrix); });
-  }
-
- private:
-  const PointMasses<D>& masses_;
-};
-
-extern template class ActingPointMasses<2>;
-extern template class ActingPointMasses<3>;
 
 }  // namespace vlbeam

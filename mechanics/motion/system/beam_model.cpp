@@ -14,6 +14,11 @@ BeamSection BeamModel<D>::axis_section() const {
 }
 
 template <int D>
+bool BeamModel<D>::parts_work() const {
+  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part->works(); });
+}
+
+template <int D>
 bool BeamModel<D>::joints_stop_each_other() const {
   return std::none_of(rooms.begin(), rooms.end(), [](const auto& room) { return room->parts_joints(); });
 }

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "core/beam/support_motion.hpp"
-#include "core/geometry/axis.hpp"
+#include "core/element/section_pieces.hpp"
+#include "core/element/transport.hpp"
 #include "core/length_control/length_control.hpp"
-#include "mechanics/motion/joint/sliding_joint.hpp"
+#include "mechanics/motion/joint/joint_law.hpp"
 #include "mechanics/motion/parts/loads.hpp"
 #include "mechanics/motion/parts/point_masses.hpp"
 #include "mechanics/motion/system/constraints.hpp"
@@ -34,6 +35,10 @@ struct NodeSupport {
   Support<D> support;
 };
 
+template <int D>
+class Axis;
+template <int D>
+class Part;
 template <int D>
 class Room;
 
@@ -82,9 +87,7 @@ struct BeamModel {
   /// Mass per length at a material coordinate [kg/m].
   double mass_at(double x) const { return pieces.empty() ? section.rhoA : section.rhoA * pieces.at(x).mass; }
   /// Whether one of its own parts may take or give power.
-  bool parts_work() const {
-    return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part->works(); });
-  }
+  bool parts_work() const;
   /// Whether there is friction at a joint.
   bool rubs() const {
     return std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.law.friction.has_value(); });

@@ -4,6 +4,8 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "mechanics/motion/parts/acting_loads.hpp"
+#include "mechanics/motion/parts/acting_point_masses.hpp"
 #include "mechanics/motion/system/room.hpp"
 
 namespace vlbeam {

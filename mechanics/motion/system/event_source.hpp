@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/length_control/length_control.hpp"
+#include "core/length_control/remeshing.hpp"
 #include "mechanics/motion/system/accelerations.hpp"
 #include "mechanics/motion/system/event_ledger.hpp"
 #include "mechanics/motion/system/event_type.hpp"

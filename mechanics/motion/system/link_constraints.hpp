@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/motion/parts/loads.hpp"
+#include "mechanics/motion/parts/acting_loads.hpp"
 #include "mechanics/motion/system/beam_links.hpp"
 #include "mechanics/motion/system/constraint_set.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/element/quadrature.hpp"
-#include "core/length_control/length_control.hpp"
+#include "core/length_control/remeshing.hpp"
 #include "tests/core/support/chain_states.hpp"
 #include "tests/core/support/element_family.hpp"
 

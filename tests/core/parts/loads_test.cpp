@@ -1,4 +1,4 @@
-#include "mechanics/motion/parts/loads.hpp"
+#include "mechanics/motion/parts/acting_loads.hpp"
 
 #include <gtest/gtest.h>
 

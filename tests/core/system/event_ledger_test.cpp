@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/length_control/length_control.hpp"
+#include "core/length_control/remeshing.hpp"
 #include "core/pieces.hpp"
 #include "mechanics/motion/system/beam_observation.hpp"
 #include "mechanics/motion/system/event_ledger.hpp"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/length_control/chain_motion.hpp"
-#include "core/length_control/length_control.hpp"
+#include "core/length_control/remeshing.hpp"
 #include "mechanics/motion/system/beam_system.hpp"
 #include "mechanics/motion/system/event_map.hpp"
 #include "tests/core/support/chain_models.hpp"

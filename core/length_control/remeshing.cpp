@@ -1,4 +1,4 @@
-#include "core/length_control/length_control.hpp"
+#include "core/length_control/remeshing.hpp"
 
 #include <algorithm>
 #include <cmath>
