@@ -112,7 +112,11 @@ class JointChain {
   /// What holds the joint holds it: there, a = 0.
   void hold(std::size_t station);
   /// What of `rhs` couples to the previous and to the next joint.
-  static OfSide before(const Station& station);
+  static OfSide before(const Station& station) {
+    OfSide values;
+    values << station.rhs.template head<2 * D>(), station.rhs[station.mark];
+    return values;
+  }
 
   const Span<D>*first_ = nullptr, *last_ = nullptr;
   const std::vector<SpanBetween<D>>* between_ = nullptr;
