@@ -30,7 +30,7 @@ class BeamRecord {
                                                 const OuterForces<D>& forces) const;
   /// Where the material coordinate of a joint that is on the beam stands in a state.
   Eigen::Index mark(int index) const {
-    return system_.loose() != nullptr ? system_.layout().mark() : system_.place_of(index).mark;
+    return system_.loose() != nullptr ? system_.dofs().mark() : system_.place_of(index).mark;
   }
   /// Material coordinate of a joint, while it is on the beam.
   std::optional<double> mark_of(const Eigen::VectorXd& y, int index) const {

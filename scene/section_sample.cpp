@@ -22,7 +22,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 template <int D>
 std::optional<double> mark_of(const BeamSystem<D>& system, const Eigen::VectorXd& y, int joint) {
   if (!system.on_beam(joint)) return {};
-  return y[system.loose() != nullptr ? system.layout().mark() : system.place_of(joint).mark];
+  return y[system.loose() != nullptr ? system.dofs().mark() : system.place_of(joint).mark];
 }
 
 /// Looks at the sections of one state.

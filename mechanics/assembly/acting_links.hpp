@@ -14,7 +14,7 @@ class ActingLinks final : public Part<D> {
  public:
   explicit ActingLinks(std::shared_ptr<const LinkForces<D>> forces) : forces_(std::move(forces)) {}
 
-  Tally add_force(const Motion<D>& /*motion*/, double* force) const override {
+  EnergyBalance add_force(const Motion<D>& /*motion*/, double* force) const override {
     forces_->add_to(force);
     return {};
   }

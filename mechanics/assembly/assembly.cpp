@@ -120,7 +120,7 @@ void AssemblySystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, dou
   const double lost = find_forces(y, t);
   dydt.setZero(y.size());
   dydt.head(n) = y.segment(n, n);
-  Tally power;
+  EnergyBalance power;
   power.dissipated = lost;
   Eigen::VectorXd rates;
   for (std::size_t b = 0; b < members_.size(); ++b) {
@@ -129,9 +129,9 @@ void AssemblySystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, dou
     rates.resize(own.size());
     members_[b]->ode().rhs(own, rates, t);
     dydt.segment(n + first_[b], count) = rates.segment(count, count);
-    power = power + members_[b]->tallies().of(rates);
+    power = power + members_[b]->balance().of(rates);
   }
-  tallies().add(power, dydt);
+  balance().add(power, dydt);
 }
 
 template <int D>
@@ -164,10 +164,10 @@ std::unique_ptr<SecondOrderSystem> AssemblySystem<D>::new_second_order() {
 }
 
 template <int D>
-Tallies AssemblySystem<D>::tallies() const {
-  Tallies all;
+BalanceEntries AssemblySystem<D>::balance() const {
+  BalanceEntries all;
   for (const auto& member : members_) {
-    const Tallies own = member->tallies();
+    const BalanceEntries own = member->balance();
     all.dissipated = all.dissipated || own.dissipated;
     all.loads = all.loads || own.loads;
     all.ends = all.ends || own.ends;
@@ -182,7 +182,7 @@ const Eigen::VectorXd& AssemblySystem<D>::state_of(const Eigen::VectorXd& y, std
   const Member<D>& member = *members_[which];
   const Eigen::Index n = member.coordinates();
   Eigen::VectorXd& own = states_[which];
-  own.resize(2 * n + member.tallies().count());
+  own.resize(2 * n + member.balance().count());
   own.head(n) = y.segment(first_[which], n);
   own.segment(n, n) = y.segment(coordinates() + first_[which], n);
   own.tail(own.size() - 2 * n).setZero();
@@ -275,7 +275,7 @@ std::string AssemblySystem<D>::fastest(const Eigen::VectorXd& y) const {
 }
 
 template <int D>
-void AssemblySystem<D>::exchange(Memory& memory) {
+void AssemblySystem<D>::exchange(Archive& memory) {
   for (const auto& member : members_) member->ode().exchange(memory);
   view_->exchange(memory);
 }
@@ -305,7 +305,7 @@ Observation<D> AssemblySystem<D>::observe(const Eigen::VectorXd& y, double t, in
   Observation<D> all;
   for (std::size_t b = 0; b < members_.size(); ++b) all += members_[b]->observe(state_of(y, b), t, points);
   all.energy.axial += spring_energy(y);
-  const Tally given = tallies().of(y);
+  const EnergyBalance given = balance().of(y);
   all.energy.dissipated += given.dissipated;
   all.energy.supplied += given.supports;
   all.load_work += given.loads;

@@ -39,7 +39,7 @@ class AssemblySystem final : public EventedOde {
   std::vector<std::string> settle();
   Eigen::VectorXd initial_state() const { return initial_; }
 
-  Eigen::Index size() const override { return 2 * coordinates() + tallies().count(); }
+  Eigen::Index size() const override { return 2 * coordinates() + balance().count(); }
   std::vector<FieldRun> fields() const override;
   /// With the accelerations that links allow: explicit methods drift from what links hold, and are brought back after
   /// each step where `corrects` says so.
@@ -54,7 +54,7 @@ class AssemblySystem final : public EventedOde {
   void correct(Eigen::VectorXd& y, double t) override;
   bool proceed(const Eigen::VectorXd& y, double t) override;
   std::string fastest(const Eigen::VectorXd& y) const override;
-  void exchange(Memory& memory) override;
+  void exchange(Archive& memory) override;
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;  ///< after all members'
   std::function<void(const Eigen::VectorXd& y, double t)> on_state;   ///< after each step
@@ -67,7 +67,7 @@ class AssemblySystem final : public EventedOde {
   /// The state of one member, without what it counts, in memory that the next call for this member overwrites.
   const Eigen::VectorXd& state_of(const Eigen::VectorXd& y, std::size_t which) const;
   Eigen::Index coordinates() const { return coordinates_; }
-  Tallies tallies() const;
+  BalanceEntries balance() const;
   /// Energies and momenta of all members and springs, with what the state counts.
   Observation<D> observe(const Eigen::VectorXd& y, double t, int points) const;
   /// Force of a link on its first end, as members were sampled last [N]; on its other vectors behind it.

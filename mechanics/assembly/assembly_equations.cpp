@@ -255,12 +255,12 @@ double AssemblyEquations<D>::turning(const Eigen::VectorXd& q, const Eigen::Vect
 }
 
 template <int D>
-Tally AssemblyEquations<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+EnergyBalance AssemblyEquations<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                            double t) {
   refresh();
   link_forces(q, v, a, forces_);
   hand_out(forces_);
-  Tally power;
+  EnergyBalance power;
   for (View& view : views_) {
     gather(view, q, view.q);
     gather(view, v, view.v);
@@ -274,7 +274,7 @@ template <int D>
 std::optional<double> AssemblyEquations<D>::power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                                                const Eigen::VectorXd& a0, const Eigen::VectorXd& a1,
                                                                double h, double t) {
-  if (!tallies().dissipated) return std::nullopt;
+  if (!balance().dissipated) return std::nullopt;
   middle_q_ = 0.5 * (q0 + q1);
   middle_v_ = (q1 - q0) / h;
   middle_a_ = 0.5 * (a0 + a1);
@@ -291,7 +291,7 @@ void AssemblyEquations<D>::follow(const SecondOrderSystem& other) {
 }
 
 template <int D>
-void AssemblyEquations<D>::exchange(Memory& memory) {
+void AssemblyEquations<D>::exchange(Archive& memory) {
   refresh();
   memory(unit_);
   for (View& view : views_) view.equations->exchange(memory);

@@ -38,8 +38,8 @@ class AssemblyEquations final : public SecondOrderSystem {
   bool driven() const override;
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override;
-  Tallies tallies() const override { return system_.tallies(); }
-  Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
+  BalanceEntries balance() const override { return system_.balance(); }
+  EnergyBalance supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
   std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                            const Eigen::VectorXd& a0, const Eigen::VectorXd& a1, double h,
                                            double t) override;
@@ -47,7 +47,7 @@ class AssemblyEquations final : public SecondOrderSystem {
                  const TangentWeights& by) override;
   void solve(Eigen::VectorXd& r) const override;
   void follow(const SecondOrderSystem& other) override;
-  void exchange(Memory& memory) override;
+  void exchange(Archive& memory) override;
 
   /// acceleration(), and the power that dampers of links take [W].
   double find_acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, Eigen::VectorXd& a);

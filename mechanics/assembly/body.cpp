@@ -93,10 +93,10 @@ class BodyEquations final : public SecondOrderSystem {
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
     return body_.model().turns() ? body_.spin(q.data(), v.data()).norm() : 0;
   }
-  Tallies tallies() const override { return body_.tallies(); }
-  Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& /*a*/,
+  BalanceEntries balance() const override { return body_.balance(); }
+  EnergyBalance supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& /*a*/,
                        double t) override {
-    Tally power;
+    EnergyBalance power;
     Eigen::VectorXd none = Eigen::VectorXd::Zero(own_);
     power.loads = body_.add_forces(q.data(), v.data(), t, none.data());
     return power;
@@ -201,7 +201,7 @@ void BodySystem<D>::rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double 
   dydt.setZero(y.size());
   dydt.head(n) = v.head(n);
   dydt.segment(n, n) = a.head(n);
-  tallies().add(equations.supplied_power(q, v, a, t), dydt);
+  balance().add(equations.supplied_power(q, v, a, t), dydt);
 }
 
 template <int D>
@@ -241,7 +241,7 @@ Observation<D> BodySystem<D>::observe(const Eigen::VectorXd& y, double t) const 
     }
   }
   seen.energy.supplied = ramp_.until(t, {seen.mass_moment, seen.momentum});
-  seen.load_work = tallies().of(y).loads;
+  seen.load_work = balance().of(y).loads;
   return seen;
 }
 

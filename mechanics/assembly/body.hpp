@@ -63,13 +63,13 @@ class BodySystem final : public EventedOde {
   const BodyModel<D>& model() const { return model_; }
   Eigen::Index coordinates() const { return model_.turns() ? Eigen::Index{D} * (D + 1) : Eigen::Index{D}; }
   Eigen::Index multipliers() const { return model_.turns() ? Eigen::Index{D} * (D + 1) / 2 : 0; }
-  Tallies tallies() const { return {.loads = !model_.loads.empty()}; }
+  BalanceEntries balance() const { return {.loads = !model_.loads.empty()}; }
   Eigen::VectorXd initial_state() const;
   Handle<D> point(const Vec<double, D>& place) const;
   Handle<D> direction(const Vec<double, D>& place) const;
   LinkForces<D>& link_forces() { return forces_; }
 
-  Eigen::Index size() const override { return 2 * coordinates() + tallies().count(); }
+  Eigen::Index size() const override { return 2 * coordinates() + balance().count(); }
   std::vector<FieldRun> fields() const override;
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override;
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt) override;

@@ -16,7 +16,7 @@ class Member {
   virtual ~Member() = default;
   virtual EventedOde& ode() = 0;
   virtual Eigen::Index coordinates() const = 0;
-  virtual Tallies tallies() const = 0;
+  virtual BalanceEntries balance() const = 0;
   virtual Eigen::VectorXd initial_state() const = 0;
   /// What a link takes hold of, as the member is now. Throws ComputationFailed where it is there no more.
   virtual Handle<D> handle(const LinkEnd<D>& end, double t) const = 0;
@@ -36,7 +36,7 @@ class BeamMember final : public Member<D> {
 
   EventedOde& ode() override { return system_; }
   Eigen::Index coordinates() const override { return system_.coordinates(); }
-  Tallies tallies() const override { return system_.model().tallies(); }
+  BalanceEntries balance() const override { return system_.model().balance(); }
   Eigen::VectorXd initial_state() const override { return system_.initial_state(); }
   Handle<D> handle(const LinkEnd<D>& end, double t) const override;
   LinkForces<D>& link_forces() override { return *forces_; }
@@ -56,7 +56,7 @@ class BodyMember final : public Member<D> {
 
   EventedOde& ode() override { return system_; }
   Eigen::Index coordinates() const override { return system_.coordinates(); }
-  Tallies tallies() const override { return system_.tallies(); }
+  BalanceEntries balance() const override { return system_.balance(); }
   Eigen::VectorXd initial_state() const override { return system_.initial_state(); }
   Handle<D> handle(const LinkEnd<D>& end, double /*t*/) const override {
     return end.direction ? system_.direction(end.place) : system_.point(end.place);

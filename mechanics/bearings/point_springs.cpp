@@ -3,8 +3,8 @@
 namespace vlbeam {
 
 template <int D>
-Tally PointSprings<D>::add_force(const Motion<D>& motion, double* force) const {
-  Tally power;
+EnergyBalance PointSprings<D>::add_force(const Motion<D>& motion, double* force) const {
+  EnergyBalance power;
   for (const PointSpring<D>& spring : springs_) {
     const int k = motion.beam.element_at(spring.x);
     const PointMotion<double, D> at = point_at<double, D>(motion.beam.kinematics(k), spring.x);

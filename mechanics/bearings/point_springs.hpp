@@ -67,7 +67,7 @@ class PointSprings final : public Part<D> {
   explicit PointSprings(std::vector<PointSpring<D>> springs) : springs_(std::move(springs)) {}
 
   const std::vector<PointSpring<D>>& all() const { return springs_; }
-  Tally add_force(const Motion<D>& motion, double* force) const override;
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override;
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override;
 
  private:

@@ -103,7 +103,7 @@ double ConservingStep<D>::residual(const Eigen::VectorXd& q0, const Eigen::Vecto
     r.segment<D>(extra) =
         model.joints.front().law.mass * ((v1.segment<D>(extra) - v0.segment<D>(extra)) / h - law.gravity);
   }
-  beam_.holding().project(out);
+  beam_.supports().project(out);
   return dissipation;
 }
 

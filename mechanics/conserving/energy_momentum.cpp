@@ -97,7 +97,7 @@ class EnergyMomentum final : public Stepper {
     return false;
   }
 
-  void exchange(Memory& memory) override {
+  void exchange(Archive& memory) override {
     memory(acceleration_);
     if (memory.reads()) fields_.clear();  // anew with the next step
     memory(tangent_step_);

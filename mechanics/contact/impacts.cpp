@@ -44,7 +44,7 @@ void Impacts<D>::collide(const std::vector<Contact>& contacts, Eigen::VectorXd& 
       continue;
     }
     const double work = mass_.work_of_prescribed(links, *momenta, elements, y.data(), rate.data(), after - rate);
-    beam_.layout().tallies.add({.supports = work}, y);
+    beam_.dofs().balance.add({.supports = work}, y);
     rate = after;
     return;
   }

@@ -13,14 +13,14 @@ double Flow<D>::add_residual(const double* q, const double* rate, const double* 
   mesh().add_residual(elements_, a, r);
   forces_.setZero(beam_.coordinates());
   mesh().add_entering(beam_.view(q, rate), forces_.data());
-  Eigen::Map<Eigen::VectorXd>(r, beam_.layout().mark()) -= forces_.head(beam_.layout().mark());
+  Eigen::Map<Eigen::VectorXd>(r, beam_.dofs().mark()) -= forces_.head(beam_.dofs().mark());
   double lost = 0;
   for (const auto& element : elements_) lost += element.dissipation;
   return lost;
 }
 
 template <int D>
-Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, const double* a, double t) {
+EnergyBalance Flow<D>::power(const Elements* of, const double* q, const double* rate, const double* a, double t) {
   const FlowRoom<D>& room = *room_of<FlowRoom<D>>(beam_.model());
   if (!room.books) return {};
   const Elements& elements = of == nullptr ? elements_ : *of;
@@ -82,7 +82,7 @@ Tally Flow<D>::power(const Elements* of, const double* q, const double* rate, co
     meshed -= on_marks_[i] * marks[i].rate;
   }
 
-  Tally result;
+  EnergyBalance result;
   result.ends = power + taken - loads - meshed;
   result.loads = loads;
   result.mesh = meshed;

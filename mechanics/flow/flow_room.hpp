@@ -15,8 +15,8 @@ class FlowRoom final : public Room<D> {
   RotaryInertia<D> rotary = {};  ///< needs the variational formulation and frozen weights
   bool books = true;             ///< the state counts all that the beam is given, not just what it loses
 
-  Tallies counted(const Tallies& asked) const override {
-    return books ? Tallies{true, true, true, false, D} : Tallies{.dissipated = asked.dissipated};
+  BalanceEntries counted(const BalanceEntries& asked) const override {
+    return books ? BalanceEntries{true, true, true, false, D} : BalanceEntries{.dissipated = asked.dissipated};
   }
   std::unique_ptr<PrescribedMesh<D>> prescribed_mesh(const CurrentBeam<D>& beam,
                                                      const std::vector<WeightFunction>& weights) const override;

@@ -61,7 +61,7 @@ void add_matrix(BeamSystem<D>& beam, const Eigen::VectorXd& q, const Eigen::Vect
   Eigen::MatrixXd axis, angles;
   view.tangents_apart(q, v, Eigen::VectorXd::Zero(q.size()), t, by, axis, angles);
   const Spin* spin = spin_of(beam);
-  const Eigen::MatrixXd free = beam.holding().directions(beam.coordinates());
+  const Eigen::MatrixXd free = beam.supports().directions(beam.coordinates());
   const Eigen::Index turning = spin == nullptr ? 0 : spin->coordinates();
   const Eigen::MatrixXd basis = free.topLeftCorner(axis.rows(), free.cols() - turning);
   flows.axis.*which = basis.transpose() * axis * basis;

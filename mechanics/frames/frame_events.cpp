@@ -76,7 +76,7 @@ void FrameEvents::complete(const ChainState<3>& before, const Eigen::VectorXd& y
 
 void FrameEvents::transfer(const Eigen::VectorXd& old, Eigen::VectorXd& y) const {
   if (!(frame_model(beam_.model())->section.rhoIp > 0)) return;
-  const Eigen::Index before = (old.size() - beam_.layout().tallies.count()) / 2;
+  const Eigen::Index before = (old.size() - beam_.dofs().balance.count()) / 2;
   frames_of(beam_)->project_spins(*before_, old.data(), old.data() + before, y.data(), y.data() + beam_.coordinates());
 }
 

@@ -16,7 +16,7 @@ class FrameRoom final : public Room<3>, public FrameModel {
 
   bool bends() const override { return true; }
   bool follows() const override { return loaded(); }
-  void count(Tallies& tallies) const override { tallies.loads = tallies.loads || loaded(); }
+  void count(BalanceEntries& balance) const override { balance.loads = balance.loads || loaded(); }
   std::unique_ptr<Unknowns<3>> unknowns(const CurrentBeam<3>& beam, const std::vector<double>& x) const override;
   void add_sources(const BeamInside<3>& inside, EventSources<3>& sources) const override;
 };

@@ -16,7 +16,7 @@ void FrameUnknowns::take(const ChainState<3>& chain) {
 void FrameUnknowns::adopt() {
   frames_->let_slide(beam_.places(), beam_.angles(), beam_.model().rest.get(), rest_triads_);
   std::vector<bool> held(beam_.mesh().x.size(), false);
-  for (const HeldNode<3>& node : beam_.holding().nodes()) {
+  for (const HeldNode<3>& node : beam_.supports().nodes()) {
     held[static_cast<std::size_t>(node.node)] = node.holds_angle();
   }
   frames_->hold(held);

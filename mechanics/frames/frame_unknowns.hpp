@@ -28,7 +28,7 @@ class FrameUnknowns final : public Unknowns<3> {
              double* rate) const override;
   void read(const double* q, const double* rate, ChainState<3>& chain) const override;
   void settle(const double* q) override { frames_->follow(q, nullptr); }
-  void exchange(Memory& memory) override { frames_->exchange(memory); }
+  void exchange(Archive& memory) override { frames_->exchange(memory); }
 
   bool accelerate(const double* q, const double* rate, double /*t*/, double* a, double& /*dissipated*/) override {
     frames_->solve_spins(q, rate, a);

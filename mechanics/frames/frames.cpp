@@ -116,10 +116,10 @@ void Frames::at_torques(double t, const Visit& visit) const {
   }
 }
 
-Tally Frames::add_force(const Motion<3>& motion, double* force) const {
+EnergyBalance Frames::add_force(const Motion<3>& motion, double* force) const {
   const double *q = motion.beam.q, *rate = motion.beam.rate;
   look(q);
-  Tally power;
+  EnergyBalance power;
   if (damped()) {
     look_at_spins(rate);
     power.dissipated =
@@ -353,7 +353,7 @@ void Frames::follow(const double* q, double* rate) {
   looked_at_.clear();
 }
 
-void Frames::exchange(Memory& memory) {
+void Frames::exchange(Archive& memory) {
   for (TriadReference& from : references_) {
     for (double& number : from.t) memory(number);
     for (double& number : from.d) memory(number);

@@ -14,7 +14,7 @@
 #include "mechanics/frames/triad.hpp"
 #include "mechanics/motion/parts/part.hpp"
 #include "mechanics/spin/spin.hpp"
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 
 namespace vlbeam {
 
@@ -57,7 +57,7 @@ class Frames final : public Part<3> {
   void let_slide(std::span<const JointPlace> joints, Eigen::Index angles, const Axis<3>* rest,
                  std::shared_ptr<const RestTriads> along);
 
-  Tally add_force(const Motion<3>& motion, double* force) const override;
+  EnergyBalance add_force(const Motion<3>& motion, double* force) const override;
   double load_power(const Motion<3>& motion, double* scratch) const override;
   /// With that of the inertia.
   void add_tangent(const Motion<3>& motion, const TangentWeights& by, BeamMatrix<3>& tangent) const override;
@@ -80,7 +80,7 @@ class Frames final : public Part<3> {
   double turned_away(const double* q) const;
   /// Lets what angles are counted from follow; the rates of angles change, unless `rate` is null.
   void follow(const double* q, double* rate);
-  void exchange(Memory& memory);
+  void exchange(Archive& memory);
   /// Makes spins the projection of those of the frames that there were before an event, at the coordinates `was` and
   /// their rates, arrays like those of these: momentum stays, and energy does not grow.
   void project_spins(const Frames& before, const double* was, const double* was_rate, const double* q,

@@ -62,7 +62,7 @@ void RideEvents<D>::add_rider_guards(const Eigen::VectorXd& y, double t, Guards&
     guards.push_back({lifts_off, 0, (at_end ? 1 : -1) * accelerations_.contact_force(y, t) / stiffness});
     return;
   }
-  const double x = y[beam_.layout().mark()], rate = y[beam_.coordinates() + beam_.layout().mark()];
+  const double x = y[beam_.dofs().mark()], rate = y[beam_.coordinates() + beam_.dofs().mark()];
   const double distance = at_end ? rider.end() - x : x - rider.end();
   const bool releases = at_end ? beam_.model().end_releases : beam_.model().start_releases;
   const double least = releases ? beam_.model().joints.front().separation_distance : 0;
@@ -76,7 +76,7 @@ std::vector<PendingEvent> RideEvents<D>::due(const Guard& first, const Eigen::Ve
   const auto* rider = rider_of(beam_);
   PendingEvent due{.type = EventType::end_merge, .joint = rider != nullptr ? 0 : beam_.joint_index(0)};
   due.node = rider != nullptr ? rider->element() : beam_.places().front().node;
-  due.x = y[rider != nullptr ? beam_.layout().mark() : beam_.places().front().mark];
+  due.x = y[rider != nullptr ? beam_.dofs().mark() : beam_.places().front().mark];
   if (first.kind == near_start || (rider != nullptr && !rider->at_end())) due.direction = Direction::backward;
   switch (first.kind) {
     case near_end:
@@ -161,14 +161,14 @@ bool RideEvents<D>::hit(Eigen::VectorXd& y, double t) {
     throw ran_into_support(false, outwards > 0 ? Direction::forward : Direction::backward, t);
   }
   // a momentum J on x changes velocities by J M^-1 e_x
-  const Eigen::Index count = beam_.coordinates(), mark = beam_.layout().mark(), x = count + mark;
+  const Eigen::Index count = beam_.coordinates(), mark = beam_.dofs().mark(), x = count + mark;
   Eigen::VectorXd answer = Eigen::VectorXd::Unit(count, mark), momentum(count);
   if (!mass_.solve({}, y.data(), answer.data())) throw ran_into_support(false, Direction::forward, t);
   mass_.multiply({}, y.data(), answer.data(), momentum.data());
   auto strike = [&](double restitution) {
     auto rate = y.segment(count, count);
     const double change = -(1 + restitution) * rate[mark] / answer[mark];
-    beam_.layout().tallies.add({.supports = change * (momentum.dot(rate) - momentum[mark] * rate[mark])}, y);
+    beam_.dofs().balance.add({.supports = change * (momentum.dot(rate) - momentum[mark] * rate[mark])}, y);
     rate += change * answer;
   };
   bool rests = impact.law == AtSupport::rest || impact.restitution == 0;

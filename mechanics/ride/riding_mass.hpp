@@ -40,7 +40,7 @@ class RidingMass final : public LooseMass<D> {
 
  private:
   /// Where its coordinate stands.
-  Eigen::Index x() const { return beam_.layout().mark(); }
+  Eigen::Index x() const { return beam_.dofs().mark(); }
   NodalCubic<double, D> nodes(const double* q) const { return element_nodes<D>(q, element_); }
 
   const CurrentBeam<D>& beam_;

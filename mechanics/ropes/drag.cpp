@@ -14,11 +14,11 @@ std::array<std::array<double, 4>, 4> unit_mass(const Mesh& mesh, int k, int poin
 }  // namespace
 
 template <int D>
-Tally Drag<D>::add_proportional_force(const ChainView<D>& beam, int k, double* out) const {
+EnergyBalance Drag<D>::add_proportional_force(const ChainView<D>& beam, int k, double* out) const {
   const auto mass = unit_mass(beam.mesh, k, quadrature_points);
   const auto e = element_nodes<D>(beam.rate, k);
   const std::array<Vec<double, D>, 4> v{e.r_a - stream, e.s_a, e.r_b - stream, e.s_b};
-  Tally power;
+  EnergyBalance power;
   for (std::size_t i = 0; i < 4; ++i) {
     Vec<double, D> f = Vec<double, D>::Zero();
     for (std::size_t j = 0; j < 4; ++j) f -= linear.normal * mass[i][j] * v[j];
@@ -43,8 +43,8 @@ PointMatrix<D> Drag<D>::proportional_tangent(const ChainView<D>& beam, int k, co
 }
 
 template <int D>
-Tally Drag<D>::add_forces(const ChainView<D>& beam, double* out, double* on_marks) const {
-  Tally power;
+EnergyBalance Drag<D>::add_forces(const ChainView<D>& beam, double* out, double* on_marks) const {
+  EnergyBalance power;
   const auto visit = [&](int k, const PointMotion<double, D>& at, const Vec<double, D>& f, double weight) {
     const double given = f.dot(stream);
     power.loads += weight * given;

@@ -52,7 +52,7 @@ struct Drag {
 
   /// Adds it to an array like q; returns the power that it takes and gives. Where nodes are prescribed, what it does
   /// along the beam [N] is added to `on_marks`, one entry a node, unless that is null.
-  Tally add_forces(const ChainView<D>& beam, double* force, double* on_marks = nullptr) const;
+  EnergyBalance add_forces(const ChainView<D>& beam, double* force, double* on_marks = nullptr) const;
   /// Calls `add(element, matrix)` with the tangent of minus it by the element's coordinates.
   template <class Add>
   void add_tangent(const ChainView<D>& beam, const TangentWeights& by, const Add& add) const {
@@ -63,7 +63,7 @@ struct Drag {
   }
 
  private:
-  Tally add_proportional_force(const ChainView<D>& beam, int k, double* force) const;
+  EnergyBalance add_proportional_force(const ChainView<D>& beam, int k, double* force) const;
   PointMatrix<D> proportional_tangent(const ChainView<D>& beam, int k, const TangentWeights& by) const;
 };
 
@@ -75,7 +75,7 @@ class ActingDrag final : public Part<D> {
   const Drag<D>& drag() const { return drag_; }
   bool gives() const override { return drag_.streams(); }
   bool takes_evenly() const override { return true; }
-  Tally add_force(const Motion<D>& motion, double* force) const override {
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override {
     return drag_.add_forces(motion.beam, force);
   }
   double load_power(const Motion<D>& motion, double* scratch) const override {

@@ -108,7 +108,7 @@ class Drum final : public Part<D> {
 
   Drum(const End& end, Law law) : end_(end), law_(std::move(law)) {}
 
-  Tally add_force(const Motion<D>& motion, double* force) const override {
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override {
     const JointPlace* const end = place(motion.beam);
     if (end == nullptr) return {};  // in the equilibrium before the start
     const double out = end_.outwards(), rate = out * motion.beam.rate[end->mark];

@@ -3,8 +3,8 @@
 namespace vlbeam {
 
 template <int D>
-Tally Ground<D>::add_force(const Motion<D>& motion, double* force) const {
-  Tally power;
+EnergyBalance Ground<D>::add_force(const Motion<D>& motion, double* force) const {
+  EnergyBalance power;
   const auto book = [&](int /*element*/, const PointMotion<double, D>& at, const Vec<double, D>& f, double weight) {
     const double given = law_.spring().push(law_.level - law_.up.dot(at.r)) * law_.up.dot(at.v);
     power.loads += weight * given;

@@ -49,7 +49,7 @@ class Ground final : public Part<D> {
   /// `rhoA` is the beam's mass per length [kg/m].
   Ground(const FloorLaw<D>& law, int quadrature_points, const PointMasses<D>& masses = {}, double rhoA = 1)
       : law_(law), points_(quadrature_points), masses_(masses), rhoA_(rhoA) {}
-  Tally add_force(const Motion<D>& motion, double* force) const override;
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override;
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override;
 
  private:

@@ -22,8 +22,8 @@ class LawsAlong final : public Part<D> {
  public:
   LawsAlong(std::vector<LawAlong<D>> laws, int points) : laws_(std::move(laws)), points_(points) {}
 
-  Tally add_force(const Motion<D>& motion, double* force) const override {
-    Tally power;
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override {
+    EnergyBalance power;
     const ChainView<D>& beam = motion.beam;
     for (int k = 0; k < beam.mesh.elements(); ++k) {
       const LawAlong<D>& law = law_of(beam, k);

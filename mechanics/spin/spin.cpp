@@ -178,8 +178,8 @@ void Spin::scatter(const Section& at, double torque, double couple, double* f) c
   chain_.scatter(at.element, entries, f);
 }
 
-Tally Spin::power(const double* q, const double* rate, const double* a, double t, const Eigen::VectorXd* more) {
-  Tally power;
+EnergyBalance Spin::power(const double* q, const double* rate, const double* a, double t, const Eigen::VectorXd* more) {
+  EnergyBalance power;
   residual(q, rate, a, t, residual_.data());
   if (more != nullptr) residual_ -= *more;
   for (const DrivenAngle& drive : model_.drives) power.ends += residual_[angle(drive.node)] * rate[angle(drive.node)];

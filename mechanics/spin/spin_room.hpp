@@ -9,7 +9,7 @@ namespace vlbeam {
 template <int D>
 class SpinRoom final : public Room<D>, public SpinModel {
  public:
-  void count(Tallies& tallies) const override;
+  void count(BalanceEntries& balance) const override;
   std::unique_ptr<Unknowns<D>> unknowns(const CurrentBeam<D>& beam, const std::vector<double>& x) const override;
 };
 

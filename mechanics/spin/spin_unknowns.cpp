@@ -73,7 +73,7 @@ class SpinView final : public UnknownsTangent<D> {
 
   void expand(const TangentWeights& by, Eigen::MatrixXd& dense) override {
     of_.spin().assemble(by, tangent_);
-    const Eigen::Index size = 2 * Eigen::Index{of_.beam().layout().nodes};  // an angle and a twist a node
+    const Eigen::Index size = 2 * Eigen::Index{of_.beam().dofs().nodes};  // an angle and a twist a node
     dense.setZero(size, size);
     tangent_.band.expand(dense);
   }
@@ -84,8 +84,8 @@ class SpinView final : public UnknownsTangent<D> {
   /// Takes the nut's x out of the beam's tangent.
   void take_nut(std::size_t which, double size, BeamMatrix<D>& beam) {
     constexpr int B = node_size<D>;
-    const Eigen::Index behind = of_.beam().layout().mark();
-    const int nodes = of_.beam().layout().nodes;
+    const Eigen::Index behind = of_.beam().dofs().mark();
+    const int nodes = of_.beam().dofs().nodes;
     const auto& border = beam.border[which];
     row_.setZero(of_.at());
     column_.setZero(of_.at());
@@ -194,7 +194,7 @@ void SpinUnknowns<D>::follow(const double* /*q*/, const double* /*rate*/, double
 }
 
 template <int D>
-Tally SpinUnknowns<D>::power(const double* q, const double* rate, const double* a, double t, const double* free) {
+EnergyBalance SpinUnknowns<D>::power(const double* q, const double* rate, const double* a, double t, const double* free) {
   Eigen::VectorXd by_nut;
   const auto which = nut_place();
   if (free != nullptr && which) by_nut = nut_torque(*which, q, rate, free[beam_.places()[*which].mark]);
@@ -235,10 +235,10 @@ void SpinUnknowns<D>::observe_forces(const double* q, const double* v, const dou
 }
 
 template <int D>
-void SpinRoom<D>::count(Tallies& tallies) const {
-  tallies.dissipated = tallies.dissipated || section.damping != 0;
-  tallies.loads = tallies.loads || torques.present();
-  tallies.ends = tallies.ends || !drives.empty();
+void SpinRoom<D>::count(BalanceEntries& balance) const {
+  balance.dissipated = balance.dissipated || section.damping != 0;
+  balance.loads = balance.loads || torques.present();
+  balance.ends = balance.ends || !drives.empty();
 }
 
 template <int D>

@@ -33,7 +33,7 @@ class SpinUnknowns final : public Unknowns<D> {
   bool load(const double* q, const double* rate, double* a, std::vector<JointMotion<D>>& joints) override;
   void follow(const double* q, const double* rate, double* a) override;
   bool supplied() const override { return spin_.model().supplied(); }
-  Tally power(const double* q, const double* rate, const double* a, double t, const double* free) override;
+  EnergyBalance power(const double* q, const double* rate, const double* a, double t, const double* free) override;
 
   double residual(const double* q, const double* v, const double* a, double t, double* r) override;
   void inertia(const double* a, double* r) const override { spin_.inertia(a + at(), r + at()); }

@@ -135,7 +135,7 @@ class Path {
       sum += position<D>(a.data(), k).dot(position<D>(b.data(), k)) / (search_.length * search_.length) +
              slope<D>(a.data(), k).dot(slope<D>(b.data(), k));
     }
-    const Eigen::Index angles = system_.angles(), turning = system_.layout().turning;
+    const Eigen::Index angles = system_.angles(), turning = system_.dofs().turning;
     sum += a.segment(angles, turning).dot(b.segment(angles, turning));
     const double unit = system_.model().length_control.standard_length;
     for (const JointPlace& place : system_.places()) {

@@ -43,7 +43,7 @@ void StaticEquations<D>::reactions(const Eigen::VectorXd& u, double factor, Eige
 template <int D>
 void StaticEquations<D>::residual(const Eigen::VectorXd& u, double factor, Eigen::VectorXd& r) const {
   reactions(u, factor, r);
-  system_.holding().project(r.data());
+  system_.supports().project(r.data());
   for (std::size_t which = 0; which < system_.places().size(); ++which) {
     if (holds(which)) r[mark(which)] = 0;
   }
@@ -64,7 +64,7 @@ bool StaticEquations<D>::linearize(const Eigen::VectorXd& u, double factor, doub
   links_.add_curvature(u.data(), u.data() + size() - links_.count(), 1 / length_, tangent_);
   links_.stiffen(u.data(), stiffening() / (length_ * length_), tangent_);
   links_.add_rows(u.data(), 1 / length_, tangent_);
-  system_.holding().project(tangent_);
+  system_.supports().project(tangent_);
   for (std::size_t which = 0; which < system_.places().size(); ++which) {
     if (!holds(which)) continue;
     tangent_.fix(static_cast<int>(which), system_.model().section.stiffness.EA / system_.mesh().length());
@@ -85,7 +85,7 @@ Eigen::MatrixXd StaticEquations<D>::dense(const Eigen::VectorXd& u, double facto
 
 template <int D>
 Eigen::MatrixXd StaticEquations<D>::directions(const Eigen::VectorXd& u) const {
-  const Eigen::MatrixXd free = system_.holding().directions(system_.coordinates());
+  const Eigen::MatrixXd free = system_.supports().directions(system_.coordinates());
   if (!system_.has_joint() && system_.links().all().empty()) return free;
   Eigen::MatrixXd ties = kinks().normals(u.data(), system_.coordinates());
   const Eigen::Index conditions = ties.cols();

@@ -93,7 +93,7 @@ class StaticSearch {
       largest = std::max(largest, std::abs(change[place.mark]) / length);
       if (place.behind >= 0) largest = std::max(largest, change.template segment<D>(place.behind).norm());
     }
-    for (Eigen::Index k = 0; k < system.layout().turning; ++k) {
+    for (Eigen::Index k = 0; k < system.dofs().turning; ++k) {
       largest = std::max(largest, std::abs(change[system.angles() + k]));
     }
     return std::isfinite(change.sum()) ? largest : std::numeric_limits<double>::infinity();

@@ -86,7 +86,7 @@ class SundialsStepper : public Stepper {
 
   void reset() override { handles_.reset(); }
 
-  void exchange(Memory& /*memory*/) override { throw std::logic_error("SUNDIALS keeps its history to itself"); }
+  void exchange(Archive& /*memory*/) override { throw std::logic_error("SUNDIALS keeps its history to itself"); }
 
  protected:
   virtual void start(Ode& ode, const State& y, double t) = 0;
@@ -208,23 +208,23 @@ class Ida final : public SundialsStepper {
     n_ = system_.coordinates();
     multipliers_ = system_.multipliers();
     own_ = n_ - multipliers_;
-    tallies_ = system_.tallies().count();
+    balance_ = system_.balance().count();
     a_.resize(n_);
     r_.resize(n_);
     system_.acceleration(q_, v_, t, a_);
     State powers;
-    powers.setZero(tallies_);
+    powers.setZero(balance_);
     add_powers(system_.residual(q_, v_, a_, t, r_), t, powers);
 
     handles_ = std::make_unique<Handles>(IDAFree);
     Handles& h = *handles_;
-    const Eigen::Index size = 2 * (own_ + multipliers_) + tallies_;
+    const Eigen::Index size = 2 * (own_ + multipliers_) + balance_;
     h.state = h.vector(size);
     h.rate = h.vector(size);
     h.id = h.vector(size);
-    values(h.state) << q_.head(own_), v_.head(own_), a_.tail(multipliers_), State::Zero(multipliers_), y.tail(tallies_);
+    values(h.state) << q_.head(own_), v_.head(own_), a_.tail(multipliers_), State::Zero(multipliers_), y.tail(balance_);
     values(h.rate) << v_.head(own_), a_.head(own_), State::Zero(2 * multipliers_), powers;
-    values(h.id) << State::Ones(2 * own_), State::Zero(2 * multipliers_), State::Ones(tallies_);
+    values(h.id) << State::Ones(2 * own_), State::Zero(2 * multipliers_), State::Ones(balance_);
     h.memory = IDACreate(h.context);
     IDASetErrHandlerFn(h.memory, silent, nullptr);
     IDAInit(h.memory, residual, t, h.state, h.rate);
@@ -245,7 +245,7 @@ class Ida final : public SundialsStepper {
     atol.segment(2 * own_, 2 * multipliers_).setConstant(tolerances_.atol / unfelt);
     if (!tolerances_.by_field) return;
     const FieldTolerances& by_field = *tolerances_.by_field;
-    atol.tail(tallies_).setConstant(std::numeric_limits<double>::max());
+    atol.tail(balance_).setConstant(std::numeric_limits<double>::max());
     for_each_coordinate(system_.fields(), [&](Field field, Eigen::Index i) {
       const auto f = static_cast<std::size_t>(field);
       if (i < own_) {
@@ -269,9 +269,9 @@ class Ida final : public SundialsStepper {
   /// Adds the rates of the energies that the state counts.
   template <class Powers>
   void add_powers(double dissipated, double t, Powers&& powers) {
-    Tally power = system_.supplied_power(q_, v_, a_, t);
+    EnergyBalance power = system_.supplied_power(q_, v_, a_, t);
     power.dissipated = dissipated;
-    system_.tallies().add(power, powers);
+    system_.balance().add(power, powers);
   }
 
   static int residual(double t, N_Vector state, N_Vector rate, N_Vector result, void* self) {
@@ -280,10 +280,10 @@ class Ida final : public SundialsStepper {
     const double dissipated = me.system_.residual(me.q_, me.v_, me.a_, t, me.r_);
     auto out = values(result);
     const auto y = values(state), dy = values(rate);
-    auto powers = out.tail(me.tallies_);
+    auto powers = out.tail(me.balance_);
     powers.setZero();
     me.add_powers(dissipated, t, powers);
-    powers = dy.tail(me.tallies_) - powers;
+    powers = dy.tail(me.balance_) - powers;
     const Eigen::Index own = me.own_, m = me.multipliers_;
     out.head(own) = dy.head(own) - me.v_.head(own) - me.r_.head(own);
     out.segment(own, own) = me.r_.head(own);
@@ -322,7 +322,7 @@ class Ida final : public SundialsStepper {
       j.block(0, 0, own, own) += me.system_.multiplier_unit() * values(state)[mu + i] * second;
       j.block(2 * own + i, 0, 1, own) = (second * me.v_.head(own)).transpose();
     }
-    j.diagonal().tail(me.tallies_).setConstant(c_j);
+    j.diagonal().tail(me.balance_).setConstant(c_j);
     return j.allFinite() ? 0 : 1;
   }
 
@@ -334,7 +334,7 @@ class Ida final : public SundialsStepper {
   void store(State& y) override {
     unpack(handles_->state, handles_->rate);
     system_.contract(q_, v_, y);
-    y.tail(tallies_) = values(handles_->state).tail(tallies_);
+    y.tail(balance_) = values(handles_->state).tail(balance_);
     if (counters_ == nullptr) return;
     const ConstraintResidual now = system_.constraint_residual(q_, v_, reached_);
     auto& largest = counters_->constraints;
@@ -352,7 +352,7 @@ class Ida final : public SundialsStepper {
 
   ConstrainedSystem& system_;
   NewtonCounters* counters_;
-  Eigen::Index n_ = 0, own_ = 0, multipliers_ = 0, tallies_ = 0;
+  Eigen::Index n_ = 0, own_ = 0, multipliers_ = 0, balance_ = 0;
   double reached_ = 0;
   State q_, v_, a_, r_;
   Eigen::MatrixXd by_q_, by_v_;

@@ -5,8 +5,8 @@
 
 #include "core/tangent_weights.hpp"
 #include "mechanics/time/assign.hpp"
-#include "mechanics/time/memory.hpp"
-#include "mechanics/time/tallies.hpp"
+#include "mechanics/time/archive.hpp"
+#include "mechanics/time/energy_balance.hpp"
 
 namespace vlbeam {
 
@@ -36,7 +36,7 @@ struct EndAccelerations {
   Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
   Eigen::VectorXd a;                  ///< the method's own acceleration
   double h = 0;                       ///< [s], length of the step that `a` belongs to
-  Tally power;                        ///< [W]
+  EnergyBalance power;                        ///< [W]
 
   void resize(Eigen::Index coordinates) {
     true_acceleration.resize(coordinates);
@@ -47,7 +47,7 @@ struct EndAccelerations {
     h = other.h;
     power = other.power;
   }
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     memory(true_acceleration);
     memory(a);
     memory(h);
@@ -105,7 +105,7 @@ struct TangentPoint {
     t = t_;
     by = by_;
   }
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     for (Eigen::VectorXd* vector : {&q, &v, &a}) memory(*vector);
     for (double* number : {&t, &by.v, &by.a}) memory(*number);
   }

@@ -33,7 +33,7 @@ class GeneralizedAlpha final : public Stepper {
 
   void keep_for_event(const Stepper& other, bool at_start) override;
 
-  void exchange(Memory& memory) override;
+  void exchange(Archive& memory) override;
 
   void resume(const Stepper& other) override;
 

@@ -241,7 +241,7 @@ double EventAim::take(const Eigen::VectorXd& start, double t, double dt, Eigen::
   return dt;
 }
 
-void EventAim::exchange(Memory& memory) {
+void EventAim::exchange(Archive& memory) {
   memory(repeats_);
   memory(known_t_);
   Eigen::VectorXd values(static_cast<Eigen::Index>(known_.size()));

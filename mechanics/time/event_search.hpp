@@ -85,7 +85,7 @@ class EventAim {
     end_t_ = now_t_ = never;
   }
 
-  void exchange(Memory& memory);
+  void exchange(Archive& memory);
 
  private:
   static constexpr double never = std::numeric_limits<double>::quiet_NaN();

@@ -137,7 +137,7 @@ void GeneralizedAlpha::keep_for_event(const Stepper& other, bool at_start) {
   crosses_event_ = true;
 }
 
-void GeneralizedAlpha::exchange(Memory& memory) {
+void GeneralizedAlpha::exchange(Archive& memory) {
   if (!memory.reads() && !options_.checkpoints) throw std::logic_error("generalized-alpha without checkpoints");
   system_.exchange(memory);
   memory(started_);
@@ -221,7 +221,7 @@ void GeneralizedAlpha::start(const Eigen::VectorXd& y, double t, double h) {
   }
   crosses_event_ = repeats_start_ = false;
   double dissipation = 0;
-  if (system_.tallies().dissipated) {
+  if (system_.balance().dissipated) {
     system_.expand(y, step_.d, other_);
     dissipation = system_.residual(step_.d, other_, step_.end.true_acceleration, t, r_);
   }
@@ -255,7 +255,7 @@ void GeneralizedAlpha::drift(Eigen::VectorXd& y, double& t, double h) {
   const Eigen::Index own = step_.base_q().size();
   y.head(own) += h * step_.base_v();
   y.segment(own, own) += h * step_.start.true_acceleration.head(own);
-  system_.tallies().add(h * step_.start.power, y);
+  system_.balance().add(h * step_.start.power, y);
   t += h;
 }
 
@@ -264,8 +264,8 @@ void GeneralizedAlpha::accept(Eigen::VectorXd& y, double& t, double h, double di
   end.power = system_.supplied_power(step_.q, step_.v, end.true_acceleration, t + h);
   end.power.dissipated = dissipation;
   end.h = h;
-  Tally given = 0.5 * h * (step_.start.power + end.power);
-  if (system_.tallies().dissipated) {
+  EnergyBalance given = 0.5 * h * (step_.start.power + end.power);
+  if (system_.balance().dissipated) {
     system_.expand(y, r_, other_);
     const auto lost =
         system_.power_lost_between(r_, step_.q, step_.start.true_acceleration, end.true_acceleration, h, t);
@@ -273,7 +273,7 @@ void GeneralizedAlpha::accept(Eigen::VectorXd& y, double& t, double h, double di
   }
   system_.contract(step_.q, step_.v, y);
   energy_ = std::max(energy_, std::abs(given.dissipated));
-  system_.tallies().add(given, y);
+  system_.balance().add(given, y);
   repeats_start_ = false;
   if (counters_) {
     const ConstraintResidual residual = system_.constraint_residual(step_.q, step_.v, t + h);

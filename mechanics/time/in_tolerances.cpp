@@ -56,7 +56,7 @@ class InTolerances final : public Stepper {
     return done;
   }
 
-  void exchange(Memory& memory) override { inner_->exchange(memory); }
+  void exchange(Archive& memory) override { inner_->exchange(memory); }
 
   void reset() override {
     inner_->reset();

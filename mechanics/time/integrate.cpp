@@ -93,12 +93,12 @@ class EventLog {
 
  private:
   std::vector<double> memory() {
-    Memory memory;
+    Archive memory;
     ode_.exchange(memory);
     return memory.numbers();
   }
   void recall(const std::vector<double>& numbers) {
-    Memory memory(numbers);
+    Archive memory(numbers);
     ode_.exchange(memory);
     if (!memory.at_end()) throw std::out_of_range("a memory of other equations");
   }
@@ -142,7 +142,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
   int looks_beyond = options.by_generalized_alpha() && options.generalized_alpha.adaptive ? most_looks_beyond : 0;
 
   EventLog log(ode, checkpoints);
-  const auto exchange = [&](Memory& memory) {
+  const auto exchange = [&](Archive& memory) {
     memory(dt);
     memory(last_event);
     memory(cascade);
@@ -159,7 +159,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
       log.repeat(from);
       y = from.y;
       t = from.t;
-      Memory memory(from.method);
+      Archive memory(from.method);
       exchange(memory);
       if (!memory.at_end()) throw std::out_of_range("a memory of another method");
     } catch (const std::out_of_range& unfit) {
@@ -276,7 +276,7 @@ bool integrate(EventedOde& ode, Eigen::VectorXd& y, double& t, double t_end, con
     ode.correct(y, t);
     const bool goes_on = ode.proceed(y, t);
     if (log.due(t, goes_on)) {
-      Memory memory;
+      Archive memory;
       exchange(memory);
       log.keep(y, t, memory.numbers());
     }

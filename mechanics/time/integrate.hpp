@@ -32,7 +32,7 @@ class EventedOde : public Ode {
   /// What moves fastest in a state, in words: where a run is stuck.
   virtual std::string fastest(const Eigen::VectorXd& /*y*/) const { return ""; }
   /// Writes or reads what it keeps beside the state since its last event.
-  virtual void exchange(Memory& /*memory*/) {}
+  virtual void exchange(Archive& /*memory*/) {}
 };
 
 /// A method of integration that comes from elsewhere.

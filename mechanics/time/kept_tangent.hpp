@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 #include "mechanics/time/newton_stop.hpp"
 
 namespace vlbeam {
@@ -37,7 +37,7 @@ class KeptTangent {
     served_ = false;
   }
 
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     for (bool* answer : {&old_, &served_}) memory(*answer);
     for (int* number : {&wait_, &waits_}) memory(*number);
   }

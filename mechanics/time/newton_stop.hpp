@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mechanics/time/fields.hpp"
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 
 namespace vlbeam {
 
@@ -78,7 +78,7 @@ class NewtonStop {
   void set_noise(const Eigen::VectorXd& change, const Eigen::VectorXd& q);
 
   /// Writes or reads all but the fields.
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     for (FieldNorms* norms : {&correction_, &before_, &increment_, &noise_}) memory(*norms);
     memory(noise_known_);
     memory(noise_age_);

@@ -86,7 +86,7 @@ class OdeintStepper final : public Stepper {
     derivative_.resize(0);
   }
 
-  void exchange(Memory& memory) override {
+  void exchange(Archive& memory) override {
     memory(derivative_);
     if constexpr (std::is_same_v<Controlled, BulirschStoer>) {
       memory(size_);
@@ -149,7 +149,7 @@ class AdamsBashforthMoulton final : public Stepper {
     history_.clear();
   }
 
-  void exchange(Memory& memory) override {
+  void exchange(Archive& memory) override {
     std::size_t count = history_.size();
     memory(count);
     if (memory.reads()) {
@@ -234,7 +234,7 @@ class Rosenbrock4 final : public Stepper {
 
   void reset() override { controlled_.emplace(tolerances_.atol, tolerances_.rtol); }
 
-  void exchange(Memory& memory) override {
+  void exchange(Archive& memory) override {
     if (memory.reads()) reset();
     memory((*controlled_).*at(RosenbrockFirst()));
     memory((*controlled_).*at(RosenbrockError()));

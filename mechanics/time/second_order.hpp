@@ -6,9 +6,9 @@
 
 #include "core/tangent_weights.hpp"
 #include "mechanics/time/fields.hpp"
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 #include "mechanics/time/solver_counters.hpp"
-#include "mechanics/time/tallies.hpp"
+#include "mechanics/time/energy_balance.hpp"
 
 namespace vlbeam {
 
@@ -67,9 +67,9 @@ class SecondOrderSystem {
   /// How fast what moves turns as a whole, or its path does [rad/s]; vibrations hardly count.
   virtual double turning(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/) const { return 0; }
   /// Which energies the state counts.
-  virtual Tallies tallies() const { return {}; }
+  virtual BalanceEntries balance() const { return {}; }
   /// Powers with which supports and loads do work at (q, v, a, t) [W].
-  virtual Tally supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
+  virtual EnergyBalance supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
                                double /*t*/) {
     return {};
   }
@@ -91,7 +91,7 @@ class SecondOrderSystem {
   /// Takes over what another view of the same equations has chosen on its way, so that both go on with equal digits.
   virtual void follow(const SecondOrderSystem& /*other*/) {}
   /// Writes or reads what it has chosen on its way.
-  virtual void exchange(Memory& /*memory*/) {}
+  virtual void exchange(Archive& /*memory*/) {}
 };
 
 }  // namespace vlbeam

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 
 namespace vlbeam {
 
@@ -33,7 +33,7 @@ class ShorterSteps {
     }
   }
 
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     memory(solvable_);
     memory(failed_);
     memory(whole_since_);

@@ -50,7 +50,7 @@ class SideStepper {
   const Stepper& stepper() const { return *stepper_; }
 
   /// Of its stepper nothing stays from one call of at() to the next.
-  void exchange(Memory& memory) { own_.exchange(memory); }
+  void exchange(Archive& memory) { own_.exchange(memory); }
 
  private:
   const Eigen::VectorXd& step_to(const Eigen::VectorXd& start, double from, double to);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 
 namespace vlbeam {
 
@@ -23,7 +23,7 @@ struct NewtonCounters {
   ConstraintResidual constraints;   ///< the largest of all steps
   std::vector<double> multipliers;  ///< of the last step, as the system scales them
 
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     memory(iterations);
     memory(tangents);
     memory(failures);
@@ -53,7 +53,7 @@ struct SolverCounters {
   double smallest_step = 0;  ///< [s], of the accepted steps that no event cut short
   NewtonCounters newton;     ///< of implicit methods
 
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     memory(steps);
     memory(rejected);
     for (StepsByLimit* counts : {&limited_by, &rejected_by}) {

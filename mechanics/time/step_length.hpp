@@ -36,7 +36,7 @@ class StepLength {
     if (controls_error_ || whole) after_ = usual();
   }
 
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     auto after = static_cast<int>(after_);
     memory(after);
     after_ = static_cast<StepLimit>(after);

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "mechanics/time/integration_method.hpp"
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 #include "mechanics/time/ode.hpp"
 
 namespace vlbeam {
@@ -53,7 +53,7 @@ class Stepper {
     return false;
   }
   /// Writes or reads what it keeps from one step to the next. Not between a failed step and its repetition.
-  virtual void exchange(Memory& memory) = 0;
+  virtual void exchange(Archive& memory) = 0;
 };
 
 /// A Boost.Odeint method, ready for its first step. Those that choose their step look at `tolerances`.

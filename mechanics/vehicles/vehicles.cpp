@@ -35,8 +35,8 @@ double ActingAxles<D>::push(std::size_t which, const Motion<D>& motion) const {
 }
 
 template <int D>
-Tally ActingAxles<D>::add_force(const Motion<D>& motion, double* force) const {
-  Tally power;
+EnergyBalance ActingAxles<D>::add_force(const Motion<D>& motion, double* force) const {
+  EnergyBalance power;
   for (std::size_t i = 0; i < axles_.all.size(); ++i) {
     const Axle& axle = axles_.all[i];
     double down = push(i, motion);
@@ -194,7 +194,7 @@ class HeightsTangent final : public UnknownsTangent<D> {
       }
     };
     each_place([](double& entry, double value) { entry = value; });
-    beam_.holding().project(all_.data());
+    beam_.supports().project(all_.data());
     each_place([](double& entry, double& value) { value = std::exchange(entry, 0); });
   }
 

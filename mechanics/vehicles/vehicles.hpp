@@ -26,7 +26,7 @@ class ActingAxles final : public Part<D> {
   /// Where that of axle `which` stands, which has a spring.
   Eigen::Index height(std::size_t which) const { return first_ + own_[which]; }
 
-  Tally add_force(const Motion<D>& motion, double* force) const override;
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override;
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override;
   /// How high the road is under a wheel, and how fast that changes: of the beam, or beside it.
   std::pair<double, double> road(std::size_t which, const ChainView<D>& beam, double t) const;

@@ -74,7 +74,7 @@ void check_result_file(const std::string& report, const std::vector<std::string>
   }
 }
 
-/// Memory beyond that is an error of this process, no trouble of others.
+/// Archive beyond that is an error of this process, no trouble of others.
 void limit_memory(double megabytes) {
   const rlimit limit{static_cast<rlim_t>(megabytes * 1e6), static_cast<rlim_t>(megabytes * 1e6)};
   if (::setrlimit(RLIMIT_AS, &limit) != 0) throw std::runtime_error("cannot limit the memory of this case");

@@ -129,7 +129,7 @@ Gap ledger(const Stem& stem, int elements, double duration) {
   double t = 0;
   integrate(beam, y, t, duration, {}, options, counters);
   const auto after = beam.observe(y, t, own_points);
-  const Tally book = model.tallies().of(y);
+  const EnergyBalance book = model.balance().of(y);
   const double passed = std::abs(book.ends) + std::abs(book.loads);
   return {
       .energy = std::abs(after.energy.total() - before.energy.total() - book.ends - book.loads - book.mesh) / passed,

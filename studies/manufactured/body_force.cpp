@@ -5,7 +5,7 @@
 
 namespace vlbeam::manufactured {
 
-Tally BodyForce::add_force(const Motion<2>& now, double* force) const {
+EnergyBalance BodyForce::add_force(const Motion<2>& now, double* force) const {
   constexpr int points = 6;  // b varies along an element far more slowly than they resolve
   double power = 0;
   const auto act = [&](int k, const MovingKinematics<double, 2>& element, double x, const PointForce<double, 2>& f) {

@@ -158,7 +158,7 @@ TYPED_TEST(GroundTest, ActsInAllViewsOfTheEquations) {
         model.parts = {std::make_shared<Ground<D>>(floor, 7)};
       };
       test::HeldChain<D> c(shape, seed++, constraints, add);
-      const Tally booked = c.system->model().tallies().of(c.rates());
+      const EnergyBalance booked = c.system->model().balance().of(c.rates());
       const double given = c.support_power() + booked.loads;
       EXPECT_NEAR(c.energy_rate(), given, 1e-8 * (1 + std::abs(given)));
       EXPECT_GT(std::abs(booked.loads), 1e-3);

@@ -182,7 +182,7 @@ void expect_a_sound_outlet(const Scene& scene, unsigned seed) {
   // the rate of the energy is what is booked
   Eigen::VectorXd along(y.size());
   system.rhs(y, along, now);
-  const Tally booked = system.model().tallies().of(along);
+  const EnergyBalance booked = system.model().balance().of(along);
   const double rate = slope_of([&](double s) {
     return Eigen::VectorXd::Constant(1, system.observe(y + s * along, now, own_points).energy.total());
   })[0];

@@ -25,7 +25,7 @@ template <int D>
 class ActingLoads final : public Part<D> {
  public:
   explicit ActingLoads(const Loads<D>& loads) : loads_(loads) {}
-  Tally add_force(const Motion<D>& motion, double* force) const override {
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override {
     return {.loads = loads_.add_forces(motion.beam, motion.t, force)};
   }
   void add_tangent(const Motion<D>& motion, const TangentWeights& by, BeamMatrix<D>& tangent) const override {

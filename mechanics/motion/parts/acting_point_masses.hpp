@@ -11,7 +11,7 @@ template <int D>
 class ActingPointMasses final : public Part<D> {
  public:
   explicit ActingPointMasses(const PointMasses<D>& masses) : masses_(masses) {}
-  Tally add_force(const Motion<D>& motion, double* force) const override {
+  EnergyBalance add_force(const Motion<D>& motion, double* force) const override {
     masses_.add_weight(motion.beam, motion.gravity, force);
     return {};
   }

@@ -3,7 +3,7 @@
 #include "core/beam/beam_matrix.hpp"
 #include "core/beam/chain_view.hpp"
 #include "core/tangent_weights.hpp"
-#include "mechanics/time/tallies.hpp"
+#include "mechanics/time/energy_balance.hpp"
 
 namespace vlbeam {
 
@@ -23,7 +23,7 @@ class Part {
  public:
   virtual ~Part() = default;
   /// Adds its generalized forces Q to an array like q; returns the power that it takes and gives.
-  virtual Tally add_force(const Motion<D>& motion, double* force) const = 0;
+  virtual EnergyBalance add_force(const Motion<D>& motion, double* force) const = 0;
   /// What of the power add_force() counts as of loads [W]; whoever knows it for less than all forces says so. `scratch`
   /// is an array of forces to write on.
   virtual double load_power(const Motion<D>& motion, double* scratch) const { return add_force(motion, scratch).loads; }

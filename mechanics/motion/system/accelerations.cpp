@@ -14,10 +14,10 @@ void Accelerations<D>::adopt() {
 }
 
 template <int D>
-Tally Accelerations<D>::add_forces(const double* q, const double* rate, double t, double* force,
-                                   JointElements& elements) const {
+EnergyBalance Accelerations<D>::add_forces(const double* q, const double* rate, double t, double* force,
+                                           JointElements& elements) const {
   const Vector g = beam_.gravity(t), on_beam = beam_.beam_gravity(t);
-  Tally power;
+  EnergyBalance power;
   power.dissipated =
       beam_.left().add_forces(q, rate, on_beam, force) + beam_.right().add_forces(q, rate, on_beam, force);
   for (const SpanBetween<D>& span : beam_.between())
@@ -66,7 +66,7 @@ void Accelerations<D>::rates(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, do
   assign_to(dydt.tail(dydt.size() - count), Eigen::VectorXd::Zero(dydt.size() - count));
   const auto power = solve(q, rate, t, dydt.data() + count);
   if (power) {
-    beam_.layout().tallies.add(*power, dydt);
+    beam_.dofs().balance.add(*power, dydt);
   } else {  // outside the domain: the step is repeated, shorter
     dydt.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
@@ -95,9 +95,9 @@ void Accelerations<D>::impose(double t) {
 }
 
 template <int D>
-std::optional<Tally> Accelerations<D>::solve(const double* q, const double* rate, double t, double* a) {
+std::optional<EnergyBalance> Accelerations<D>::solve(const double* q, const double* rate, double t, double* a) {
   if (!beam_.move_nodes(t)) return std::nullopt;
-  Tally power = add_forces(q, rate, t, a, elements_);
+  EnergyBalance power = add_forces(q, rate, t, a, elements_);
   Unknowns<D>* const unknowns = beam_.unknowns();
   if (unknowns != nullptr && !unknowns->accelerate(q, rate, t, a, power.dissipated)) return std::nullopt;
   std::optional<PrescribedMotion<D>> pull;  // of moving supports
@@ -134,7 +134,7 @@ bool Accelerations<D>::solve_prescribed(const double* q, const double* rate, dou
 
 template <int D>
 bool Accelerations<D>::solve_at_joints(const double* q, const double* rate, double t, double* a,
-                                       std::optional<PrescribedMotion<D>>& pull, Tally& power) {
+                                       std::optional<PrescribedMotion<D>>& pull, EnergyBalance& power) {
   motions_.clear();
   for (std::size_t i = 0; i < beam_.places().size(); ++i) {
     motions_.push_back(mass_.joint_motion(i, q, rate, t));
@@ -151,7 +151,7 @@ bool Accelerations<D>::solve_at_joints(const double* q, const double* rate, doub
 
 template <int D>
 bool Accelerations<D>::solve_without_joints(const double* q, const double* rate, double t, double* a,
-                                            std::optional<PrescribedMotion<D>>& pull, Tally& power) {
+                                            std::optional<PrescribedMotion<D>>& pull, EnergyBalance& power) {
   pull = mass_.solve_without_joints(q, rate, t, a);
   if (beam_.loose() == nullptr) return true;
   const auto answer = beam_.loose()->accelerate(q, rate, beam_.gravity(t), a);
@@ -162,7 +162,7 @@ bool Accelerations<D>::solve_without_joints(const double* q, const double* rate,
 }
 
 template <int D>
-bool Accelerations<D>::press(const double* q, const double* rate, double* a, Tally& power) {
+bool Accelerations<D>::press(const double* q, const double* rate, double* a, EnergyBalance& power) {
   const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(a, beam_.coordinates());
   const auto held = static_cast<Eigen::Index>(links_.all().size());
   pressing_ = links_.all();

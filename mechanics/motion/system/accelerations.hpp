@@ -54,18 +54,18 @@ class Accelerations {
   /// Imposes what is prescribed at time t on what imposed_ holds.
   void impose(double t);
   /// Writes the accelerations; returns powers, nothing where there is no solution.
-  std::optional<Tally> solve(const double* q, const double* rate, double t, double* a);
+  std::optional<EnergyBalance> solve(const double* q, const double* rate, double t, double* a);
   // Forces in `a` become accelerations; `pull` is what moving supports do.
   bool solve_prescribed(const double* q, const double* rate, double t, double* a,
                         std::optional<PrescribedMotion<D>>& pull);
   bool solve_at_joints(const double* q, const double* rate, double t, double* a,
-                       std::optional<PrescribedMotion<D>>& pull, Tally& power);
+                       std::optional<PrescribedMotion<D>>& pull, EnergyBalance& power);
   bool solve_without_joints(const double* q, const double* rate, double t, double* a,
-                            std::optional<PrescribedMotion<D>>& pull, Tally& power);
+                            std::optional<PrescribedMotion<D>>& pull, EnergyBalance& power);
   /// What links do to the accelerations.
-  bool press(const double* q, const double* rate, double* a, Tally& power);
+  bool press(const double* q, const double* rate, double* a, EnergyBalance& power);
   /// What acts on the coordinates but for Unknowns, and its power but for what accelerations tell.
-  Tally add_forces(const double* q, const double* rate, double t, double* force, JointElements& elements) const;
+  EnergyBalance add_forces(const double* q, const double* rate, double t, double* force, JointElements& elements) const;
 
   CurrentBeam<D>& beam_;
   const BeamLinks<D>& links_;

@@ -24,11 +24,11 @@ bool BeamModel<D>::joints_stop_each_other() const {
 }
 
 template <int D>
-Tallies BeamModel<D>::tallies() const {
+BalanceEntries BeamModel<D>::balance() const {
   const bool gives = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part->gives(); });
-  Tallies asked{parts_work() || section.damped() || rubs(), loads.present() || gives, false, driven()};
+  BalanceEntries asked{parts_work() || section.damped() || rubs(), loads.present() || gives, false, driven()};
   for (const auto& room : rooms) room->count(asked);
-  Tallies counted = asked;
+  BalanceEntries counted = asked;
   for (const auto& room : rooms) counted = room->counted(counted);
   return counted;
 }

@@ -13,7 +13,7 @@
 #include "mechanics/motion/parts/loads.hpp"
 #include "mechanics/motion/parts/point_masses.hpp"
 #include "mechanics/motion/system/constraints.hpp"
-#include "mechanics/time/tallies.hpp"
+#include "mechanics/time/energy_balance.hpp"
 
 namespace vlbeam {
 
@@ -106,7 +106,7 @@ struct BeamModel {
   bool driven() const { return supports_move() || guides(); }
   bool turns() const { return start_motion.turns() || end_motion.turns(); }
   /// The energies that the state counts.
-  Tallies tallies() const;
+  BalanceEntries balance() const;
 };
 
 extern template struct BeamModel<2>;

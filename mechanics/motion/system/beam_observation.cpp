@@ -106,7 +106,7 @@ Observation<D> observe_beam(const CurrentBeam<D>& beam, const Eigen::VectorXd& y
     beam.unknowns()->observe(y.data(), y.data() + beam.coordinates(),
                              points == own_points ? beam.model().points_of_polynomials() : points, seen);
   }
-  const Tally counted = beam.layout().tallies.of(y);
+  const EnergyBalance counted = beam.dofs().balance.of(y);
   seen.energy.dissipated = counted.dissipated;
   seen.load_work = counted.loads;
   seen.end_work = counted.ends;

@@ -7,20 +7,20 @@ namespace vlbeam {
 
 template <int D>
 void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::VectorXd& old, Eigen::VectorXd& y) const {
-  y.setZero(layout_.state());
-  y.head(layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), layout_.mark());
-  y.segment(coordinates(), layout_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), layout_.mark());
+  y.setZero(dofs_.state());
+  y.head(dofs_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), dofs_.mark());
+  y.segment(coordinates(), dofs_.mark()) = Eigen::Map<const Eigen::VectorXd>(chain.rate.data(), dofs_.mark());
   write_joints(chain, y);
   for (std::size_t i = 0; i < free_masses_.size(); ++i) {
     y.segment<D>(free_mass_at(i)) = chain.free_masses[i].r;
     y.segment<D>(coordinates() + free_mass_at(i)) = chain.free_masses[i].v;
   }
   if (loose_) {
-    y[layout_.mark()] = chain.loose->x;
-    y[coordinates() + layout_.mark()] = chain.loose->rate;
+    y[dofs_.mark()] = chain.loose->x;
+    y[coordinates() + dofs_.mark()] = chain.loose->rate;
   }
-  const Eigen::Index tallies = layout_.tallies.count(), before = (old.size() - tallies) / 2;
-  if (old.size() > 0) y.tail(tallies) = old.tail(tallies);
+  const Eigen::Index balance = dofs_.balance.count(), before = (old.size() - balance) / 2;
+  if (old.size() > 0) y.tail(balance) = old.tail(balance);
   if (!unknowns_) return;
   const double* const were = old.size() > 0 ? old.data() + before - unknowns_->count() : nullptr;
   unknowns_->write(chain, were, were == nullptr ? nullptr : were + before, y.data(), y.data() + coordinates());
@@ -29,15 +29,15 @@ void CurrentBeam<D>::write_state(const ChainState<D>& chain, const Eigen::Vector
 template <int D>
 void CurrentBeam<D>::write_nodes(const ChainState<D>& chain, Eigen::VectorXd& y) const {
   const Eigen::Index first = Eigen::Index{node_size<D>} * chain.part.before, nodal = std::ssize(chain.q);
-  const Eigen::Index count = coordinates(), before = (y.size() - layout_.tallies.count()) / 2;
+  const Eigen::Index count = coordinates(), before = (y.size() - dofs_.balance.count()) / 2;
   if (count != before) {  // what stands behind these nodes stands elsewhere now
     const Eigen::Index behind = count - first - nodal;
-    Eigen::VectorXd moved(layout_.state());
+    Eigen::VectorXd moved(dofs_.state());
     for (const Eigen::Index half : {0, 1}) {
       moved.segment(half * count, first) = y.segment(half * before, first);
       moved.segment((half + 1) * count - behind, behind) = y.segment((half + 1) * before - behind, behind);
     }
-    moved.tail(layout_.tallies.count()) = y.tail(layout_.tallies.count());
+    moved.tail(dofs_.balance.count()) = y.tail(dofs_.balance.count());
     y.swap(moved);
   }
   y.segment(first, nodal) = Eigen::Map<const Eigen::VectorXd>(chain.q.data(), nodal);
@@ -76,8 +76,8 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
       result.mark_rates.push_back(prescribed_->marks()[k].rate);
     }
   }
-  take(std::span(y.data(), y.data() + layout_.mark()), node_size<D>, first, last + 1, result.q);
-  take(std::span(y.data() + coordinates(), y.data() + coordinates() + layout_.mark()), node_size<D>, first, last + 1,
+  take(std::span(y.data(), y.data() + dofs_.mark()), node_size<D>, first, last + 1, result.q);
+  take(std::span(y.data() + coordinates(), y.data() + coordinates() + dofs_.mark()), node_size<D>, first, last + 1,
        result.rate);
   result.rest.clear();
   if (!rest_.empty()) take(rest_, node_size<D>, first, last + 1, result.rest);
@@ -108,7 +108,7 @@ void CurrentBeam<D>::write_chain(const Eigen::VectorXd& y, double t, const BeamP
   }
   result.loose.reset();
   if (unknowns_) unknowns_->read(y.data(), y.data() + coordinates(), result);
-  if (loose_) loose_->write(result, y[layout_.mark()], y[coordinates() + layout_.mark()]);
+  if (loose_) loose_->write(result, y[dofs_.mark()], y[coordinates() + dofs_.mark()]);
 }
 
 template <int D>
@@ -123,7 +123,7 @@ void CurrentBeam<D>::take_rates(const Eigen::VectorXd& y, ChainState<D>& chain) 
   for (std::size_t i = 0; i < free_masses_.size(); ++i) {
     chain.free_masses[i].v = y.segment<D>(coordinates() + free_mass_at(i));
   }
-  if (loose_) chain.loose->rate = rate[layout_.mark()];
+  if (loose_) chain.loose->rate = rate[dofs_.mark()];
   if (unknowns_) unknowns_->read(y.data(), rate, chain);
 }
 

@@ -100,7 +100,7 @@ std::unique_ptr<SecondOrderSystem> BeamSystem<D>::new_second_order() {
 }
 
 template <int D>
-void BeamSystem<D>::exchange(Memory& memory) {
+void BeamSystem<D>::exchange(Archive& memory) {
   std::size_t evaluations = rhs_evaluations();
   memory(evaluations);
   accelerations_.set_evaluations(evaluations);

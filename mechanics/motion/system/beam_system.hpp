@@ -49,10 +49,10 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
  public:
   using Vector = Vec<double, D>;
   using Beam::coordinates;
+  using Beam::dofs;
   using Beam::has_joint;
   using Beam::joint;
   using Beam::joint_index;
-  using Beam::layout;
   using Beam::mesh;
   using Beam::model;
   using Beam::places;
@@ -63,8 +63,8 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   BeamSystem(const BeamModel<D>& of, const ChainState<D>& chain);
   ~BeamSystem() override;
 
-  Eigen::Index size() const override { return layout().state(); }
-  std::vector<FieldRun> fields() const override { return layout().fields(Beam::unknowns()); }
+  Eigen::Index size() const override { return dofs().state(); }
+  std::vector<FieldRun> fields() const override { return dofs().fields(Beam::unknowns()); }
   void rhs(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) override { accelerations_.rates(y, dydt, t); }
   Guards guards(const Eigen::VectorXd& y, double t) const override;
   void handle_event(int index, Eigen::VectorXd& y, double t) override;
@@ -82,7 +82,7 @@ class BeamSystem final : public EventedOde, public CurrentBeam<D> {
   void take(const ChainState<D>& chain);
   ChainState<D> chain_of(const Eigen::VectorXd& y, double t) const { return Beam::chain(y, t); }
   std::string fastest(const Eigen::VectorXd& y) const override;
-  void exchange(Memory& memory) override;
+  void exchange(Archive& memory) override;
 
   std::function<void(const Eigen::VectorXd& y, double t)> on_sample;
   std::function<void(const EventRecord<D>&)> on_event;

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/beam/beam_matrix.hpp"
+#include "mechanics/time/archive.hpp"
 #include "mechanics/time/fields.hpp"
-#include "mechanics/time/memory.hpp"
 
 namespace vlbeam {
 
@@ -39,7 +39,7 @@ class ConstraintSet {
   /// Takes over what the same set of another view has chosen.
   virtual void follow(const ConstraintSet& /*other*/) {}
   /// Writes or reads what it has chosen.
-  virtual void exchange(Memory& /*memory*/) {}
+  virtual void exchange(Archive& /*memory*/) {}
 };
 
 }  // namespace vlbeam

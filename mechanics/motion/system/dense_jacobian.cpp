@@ -28,7 +28,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
     equations_.assemble(q, v, a_, t, by, tangent_);
     dense.setZero(n, n);
     tangent_.expand(dense);
-    for (Eigen::Index k = 0; k < n; ++k) holding().project(dense.col(k).data());
+    for (Eigen::Index k = 0; k < n; ++k) supports().project(dense.col(k).data());
   };
   tangent({1, 0, 0}, stiffness_);
   tangent({0, 1, 0}, damping_);
@@ -53,7 +53,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
   dfdt.setZero();
   const auto& model = beam_.model();
   const bool rubs = model.rubs();
-  if (model.driven() || beam_.prescribed_mesh() != nullptr || model.tallies().loads ||
+  if (model.driven() || beam_.prescribed_mesh() != nullptr || model.balance().loads ||
       (rubs && t < model.gravity_ramp)) {
     add_drive(exact, t, dfdy, dfdt);
   } else if (t < model.gravity_ramp) {  // time is in the share of gravity alone, and f is affine in that
@@ -69,7 +69,7 @@ void ImplicitBeam<D>::jacobian(const Eigen::VectorXd& y, double t, Eigen::Matrix
 /// velocities, however large, but for friction, which has a velocity of its own.
 template <int D>
 void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy) {
-  const Eigen::Index n = coordinates(), tallies = y.size() - 2 * n;
+  const Eigen::Index n = coordinates(), balance = y.size() - 2 * n;
   double sliding = std::numeric_limits<double>::infinity();  // velocity at which friction fades
   for (const auto& joint : beam_.model().joints) {
     if (joint.law.friction) sliding = std::min(sliding, joint.law.friction->velocity);
@@ -77,9 +77,9 @@ void ImplicitBeam<D>::add_tallies(const Eigen::VectorXd& y, double t, Eigen::Mat
   Eigen::VectorXd more(y.size());
   auto difference = [&](Eigen::Index k, double size) {
     rhs_difference(y, t, k, size, more);
-    dfdy.col(k).tail(tallies) = more.tail(tallies);
+    dfdy.col(k).tail(balance) = more.tail(balance);
   };
-  for_each_coordinate(beam_.layout().fields(beam_.unknowns()), [&](Field field, Eigen::Index k) {
+  for_each_coordinate(beam_.dofs().fields(beam_.unknowns()), [&](Field field, Eigen::Index k) {
     const double size = field == Field::slope ? 1 : element_length();
     difference(k, size);
     difference(n + k, field == Field::mark && std::isfinite(sliding) ? sliding : size / wave_time());
@@ -119,7 +119,7 @@ void ImplicitBeam<D>::add_drive(const Eigen::VectorXd& y, double t, Eigen::Matri
     dfdy.col(places()[i].mark).setZero();
     dfdy.col(coordinates() + places()[i].mark).setZero();
   });
-  for (const HeldNode<D>& held : holding().nodes()) {
+  for (const HeldNode<D>& held : supports().nodes()) {
     if (held.motion == nullptr) continue;
     const Support<D>& support = *held.built;  // its frame does not matter for its point
     const Eigen::Matrix<double, D, D> keep =

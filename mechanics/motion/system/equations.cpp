@@ -31,7 +31,7 @@ double Equations<D>::residual(const ConstVector& q, const ConstVector& v, const 
     lost += beam_.loose()->add_residual(now, r.data());
   }
   for (std::size_t i = 0; i < beam_.free_masses().size(); ++i) {
-    const Eigen::Index at = beam_.layout().free_mass(static_cast<int>(i));
+    const Eigen::Index at = beam_.dofs().free_mass(static_cast<int>(i));
     const double mass = beam_.model().joints[static_cast<std::size_t>(beam_.free_masses()[i])].law.mass;
     r.segment<D>(at) = mass * (a.segment<D>(at) - now.gravity);
   }
@@ -95,7 +95,7 @@ template <int D>
 void Equations<D>::assemble(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t,
                             const TangentWeights& by, BeamMatrix<D>& tangent) {
   const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
-  tangent.start(beam_.layout().nodes, beam_.places());
+  tangent.start(beam_.dofs().nodes, beam_.places());
   if constexpr (D == 3) {
     if (beam_.unknowns() != nullptr && beam_.unknowns()->of_nodes()) tangent.add_angles();
   }

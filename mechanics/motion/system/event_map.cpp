@@ -43,7 +43,7 @@ void EventMap<D>::carry_node(const CurrentBeam<D>& beam, int node, const Eigen::
   if (from >= 0) {
     to.segment<node_size<D>>(Eigen::Index{node_size<D>} * node) =
         a.segment<node_size<D>>(Eigen::Index{node_size<D>} * from);
-    if (turns) to[beam.layout().angle() + node] = a[was.angle() + from];
+    if (turns) to[beam.dofs().angle() + node] = a[was.angle() + from];
     return;
   }
   const WeightTransport transport = beam.model().transport;
@@ -56,13 +56,13 @@ void EventMap<D>::carry_node(const CurrentBeam<D>& beam, int node, const Eigen::
   const auto behind = static_cast<std::size_t>(k);
   const double u = (x - x_before[behind]) / (x_before[behind + 1] - x_before[behind]);
   const Eigen::Index angle = was.angle() + chain.part.before + k;
-  to[beam.layout().angle() + node] = (1 - u) * a[angle] + u * a[angle + 1];
+  to[beam.dofs().angle() + node] = (1 - u) * a[angle] + u * a[angle + 1];
 }
 
 template <int D>
 bool EventMap<D>::carry(const CurrentBeam<D>& beam, const Eigen::VectorXd& a, Eigen::VectorXd& to) const {
   if (!before_ || before_->places.size() != beam.places().size()) return false;
-  const Layout<D>&was = before_->layout, &is = beam.layout();
+  const DofMap<D>&was = before_->layout, &is = beam.dofs();
   if (was.free_masses != is.free_masses || was.kinks != is.kinks || a.size() < was.coordinates()) return false;
 
   const BeamPart& part = before_->chain.part;

@@ -16,7 +16,7 @@ class EventMap {
   struct Beam {
     ChainState<D> chain;
     std::vector<JointPlace> places;
-    Layout<D> layout;
+    DofMap<D> layout;
   };
   /// After an event of the mesh: the beam as it was before it.
   void remember(Beam before) { before_ = std::move(before); }

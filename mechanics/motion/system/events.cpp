@@ -116,7 +116,7 @@ typename BeamSystem<D>::BeforeEvent BeamSystem<D>::look_before(const EventScope&
     before.own = observe(y, t, own_points).energy;
   }
   before.momenta = velocities_.momenta(y, t, scope.part);
-  before.work = layout().tallies.of(y).supports;
+  before.work = dofs().balance.of(y).supports;
   return before;
 }
 
@@ -178,7 +178,7 @@ void BeamSystem<D>::book_jumps(const EventScope& scope, const BeforeEvent& befor
     record.conserved = std::abs(record.discrete_jump) <= kept_energy * size;
   }
   if (model().driven()) {  // what supports do in an impact is no jump
-    const double work = layout().tallies.of(y).supports - before.work;
+    const double work = dofs().balance.of(y).supports - before.work;
     record.jump.kinetic -= work;
     record.jump.supplied -= work;
     record.discrete_jump -= work;
@@ -218,7 +218,7 @@ void BeamSystem<D>::handle_event(int index, Eigen::VectorXd& y, double t) {
   change_chain(source, dues, scope, records, y, t);
 
   const std::vector<JointPlace> places_before = places();
-  const Layout<D> layout_before = layout();
+  const DofMap<D> layout_before = dofs();
   for (const auto& other : sources_) other->keep();
   take(record.after);
   Beam::orient(t);

@@ -21,18 +21,18 @@ ImplicitBeam<D>::ImplicitBeam(Accelerations<D>& of)
 template <int D>
 void ImplicitBeam<D>::rebuild() const {
   revision_ = beam_.revision();
-  layout_ = beam_.layout();
+  dofs_ = beam_.dofs();
   reference_mass_ = beam_.model().section.rhoA * beam_.mesh().length() / beam_.mesh().elements();
   for (ConstraintSet<D>* set : constraints()) {
     set->adopt();
-    layout_.multipliers += set->count();
+    dofs_.multipliers += set->count();
   }
-  values_.resize(layout_.multipliers);
+  values_.resize(dofs_.multipliers);
 }
 
 template <int D>
 std::vector<FieldRun> ImplicitBeam<D>::fields() const {
-  std::vector<FieldRun> runs = layout().fields(beam_.unknowns());
+  std::vector<FieldRun> runs = dofs().fields(beam_.unknowns());
   at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) { set.add_fields(first, runs); });
   return runs;
 }
@@ -58,10 +58,10 @@ void ImplicitBeam<D>::find_acceleration(const ConstVector& q, const ConstVector&
   // what the equations of motion lack is what the other constraints give
   free_.resize(q.size());
   free_residual(q, v, a, t, free_);
-  holding().at(t);
-  double* const multipliers = a.data() + layout().multiplier();
+  supports().at(t);
+  double* const multipliers = a.data() + dofs().multiplier();
   supports_.balance(free_.data(), reference_mass_, multipliers);
-  holding().project(free_.data());
+  supports().project(free_.data());
   kinks_.choose(q.data());
   kinks_.balance(q.data(), free_.data(), reference_mass_, multipliers + supports_.count());
 }
@@ -74,8 +74,8 @@ bool ImplicitBeam<D>::carry(const Eigen::VectorXd& before, double t, Eigen::Vect
   assign(carried, a);
   if (tied() || !accelerations_.last_event().carry(beam_, before, carried)) return false;
   assign(carried, carried - a);
-  holding().at(t);
-  holding().project(carried.data());
+  supports().at(t);
+  supports().project(carried.data());
   at_guides([&](std::size_t i) { carried[places()[i].mark] = 0; });
   assign(a, a + carried);
   return true;
@@ -95,7 +95,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
                                  Eigen::VectorXd& r) {
   accelerations_.count_evaluation();
   refresh();
-  holding().at(t);
+  supports().at(t);
   if (!beam_.move_nodes(t)) {
     r.setConstant(std::numeric_limits<double>::quiet_NaN());
     return 0;
@@ -106,7 +106,7 @@ double ImplicitBeam<D>::residual(const Eigen::VectorXd& q, const Eigen::VectorXd
     if (&set != &links_) set.add_forces(q.data(), a.data() + first, reference_mass_, r.data());
     set.write_values(q.data(), r.data() + first);
   });
-  if (!with_multipliers()) holding().project(r.data());
+  if (!with_multipliers()) supports().project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
   if (of_unknowns_) of_unknowns_->constrain(q.data(), v.data(), a.data(), t, r.data());
   return dissipation;
@@ -130,8 +130,8 @@ bool ImplicitBeam<D>::inertia(const Eigen::VectorXd& q, const Eigen::VectorXd& a
     r.segment<D>(at) =
         beam_.model().joints[static_cast<std::size_t>(beam_.free_masses()[i])].law.mass * a.segment<D>(at);
   }
-  holding().at(t);
-  if (!with_multipliers()) holding().project(r.data());
+  supports().at(t);
+  if (!with_multipliers()) supports().project(r.data());
   at_guides([&](std::size_t i) { r[places()[i].mark] = 0; });
   return true;
 }
@@ -140,7 +140,7 @@ template <int D>
 ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                         double t) const {
   ConstraintResidual largest;
-  holding().at(t);
+  supports().at(t);
   refresh();
   auto of = [this](const ConstraintSet<D>& set) { return values_.head(set.count()).cwiseAbs().maxCoeff(); };
   at_constraints([&](const ConstraintSet<D>& set, Eigen::Index /*first*/) {
@@ -155,7 +155,7 @@ ConstraintResidual ImplicitBeam<D>::constraint_residual(const Eigen::VectorXd& q
 template <int D>
 void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                        Eigen::VectorXd& rates) const {
-  holding().at(t);
+  supports().at(t);
   at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) {
     set.write_rates(q.data(), v.data(), rates.data() + first);
   });
@@ -164,7 +164,7 @@ void ImplicitBeam<D>::constraint_rates(const Eigen::VectorXd& q, const Eigen::Ve
 template <int D>
 void ImplicitBeam<D>::add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const {
   at_constraints([&](const ConstraintSet<D>& set, Eigen::Index first) {
-    const Eigen::Index own = layout().multiplier() + i - first;
+    const Eigen::Index own = dofs().multiplier() + i - first;
     if (own >= 0 && own < set.count()) set.add_second_derivative(own, factor, dense);
   });
 }
@@ -175,16 +175,16 @@ bool ImplicitBeam<D>::driven_offset(const Eigen::VectorXd& q, double t, Eigen::V
   if (!beam_.model().driven() || (with_multipliers() && !guides)) return false;
   offset.setZero(q.size());
   at_guides([&](std::size_t i) { offset[places()[i].mark] = q[places()[i].mark] - beam_.guided(i, t)->value; });
-  if (!with_multipliers()) holding().add_offset(t, q.data(), offset.data());
+  if (!with_multipliers()) supports().add_offset(t, q.data(), offset.data());
   return true;
 }
 
 template <int D>
-Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                      double t) {
+EnergyBalance ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                              const Eigen::VectorXd& a, double t) {
   if (auto* of_mesh = equations_.of_mesh()) return of_mesh->power(nullptr, q.data(), v.data(), a.data(), t);
-  Tally power;
-  if (beam_.model().tallies().loads) {
+  EnergyBalance power;
+  if (beam_.model().balance().loads) {
     free_.setZero(q.size());
     const Motion<D> now = beam_.motion(q.data(), v.data(), a.data(), t);
     for (const auto& part : beam_.acting()) power.loads += part->load_power(now, free_.data());
@@ -202,8 +202,8 @@ Tally ImplicitBeam<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::Vec
   free_.resize(q.size());
   free_residual(q, v, a, t, free_, Equations<D>::Extent::ends);
   at_guides([&](std::size_t i) { power.supports += free_[places()[i].mark] * v[places()[i].mark]; });
-  holding().at(t);
-  power.supports += holding().power(free_.data(), v.data());
+  supports().at(t);
+  power.supports += supports().power(free_.data(), v.data());
   return power;
 }
 
@@ -241,7 +241,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
   equations_.assemble(q, v, a, t, by, tangent_);
   constraint_scale_ = reference_mass_ * by.a;  // as the rest of the tangent: by a mass and by.a
   add_constraints(q, a, t, constraint_scale_);
-  if (!with_multipliers()) holding().project(tangent_);
+  if (!with_multipliers()) supports().project(tangent_);
   at_guides([&](std::size_t i) { tangent_.fix(static_cast<int>(i), reference_mass_ * by.a); });
   if (of_unknowns_ && !of_unknowns_->prepare(by, reference_mass_ * by.a, tangent_)) return false;
   if (!tangent_.factor()) return false;
@@ -256,7 +256,7 @@ bool ImplicitBeam<D>::linearize(const Eigen::VectorXd& q, const Eigen::VectorXd&
 /// Rows and columns of constraints, times `scale`, and what their forces add to the tangent.
 template <int D>
 void ImplicitBeam<D>::add_constraints(const Eigen::VectorXd& q, const Eigen::VectorXd& a, double t, double scale) {
-  holding().at(t);
+  supports().at(t);
   at_constraints([&](ConstraintSet<D>& set, Eigen::Index first) {
     set.choose(q.data());
     set.add_tangent(q.data(), a.data() + first, reference_mass_, scale, tangent_);
@@ -282,7 +282,7 @@ void ImplicitBeam<D>::follow(const SecondOrderSystem& other) {
 }
 
 template <int D>
-void ImplicitBeam<D>::exchange(Memory& memory) {
+void ImplicitBeam<D>::exchange(Archive& memory) {
   refresh();
   for (ConstraintSet<D>* set : constraints()) set->exchange(memory);
 }
@@ -296,13 +296,13 @@ void ImplicitBeam<D>::solve(Eigen::VectorXd& r) const {
   const auto swap_multipliers = [&](Eigen::Index ahead) {
     std::rotate(r.begin() + angles(), r.end() - ahead, r.end());
   };
-  const Eigen::Index turning = layout().turning;
+  const Eigen::Index turning = dofs().turning;
   if (turning > 0) swap_multipliers(multipliers());
   tangent_.solve(r.data());
   if (turning > 0) swap_multipliers(turning);
   if (of_unknowns_) of_unknowns_->solve_after(r.data());
   if (beam_.model().turns() && !with_multipliers()) {  // the tangent may be an older one
-    holding().project(r.data());
+    supports().project(r.data());
   }
 }
 

@@ -33,8 +33,8 @@ class ImplicitBeam final : public ConstrainedSystem {
   explicit ImplicitBeam(Accelerations<D>& of);
 
   Accelerations<D>& accelerations() const { return accelerations_; }
-  Eigen::Index coordinates() const override { return layout().coordinates(); }
-  Eigen::Index multipliers() const override { return layout().multipliers; }
+  Eigen::Index coordinates() const override { return dofs().coordinates(); }
+  Eigen::Index multipliers() const override { return dofs().multipliers; }
   std::vector<FieldRun> fields() const override;
   void expand(const Eigen::VectorXd& y, Eigen::VectorXd& q, Eigen::VectorXd& v) const override;
   void contract(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& y) const override {
@@ -57,8 +57,9 @@ class ImplicitBeam final : public ConstrainedSystem {
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override {
     return turning_of(beam_, q.data(), v.data());
   }
-  Tallies tallies() const override { return beam_.model().tallies(); }
-  Tally supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
+  BalanceEntries balance() const override { return beam_.model().balance(); }
+  EnergyBalance supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                               double t) override;
   std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                            const Eigen::VectorXd& a0, const Eigen::VectorXd& a1, double h,
                                            double t) override;
@@ -70,7 +71,7 @@ class ImplicitBeam final : public ConstrainedSystem {
   void add_curvature(Eigen::Index i, double factor, Eigen::MatrixXd& dense) const override;
   double multiplier_unit() const override { return reference_mass_; }
   void follow(const SecondOrderSystem& other) override;
-  void exchange(Memory& memory) override;
+  void exchange(Archive& memory) override;
   /// Ode::jacobian().
   void jacobian(const Eigen::VectorXd& y, double t, Eigen::MatrixXd& dfdy, Eigen::VectorXd& dfdt);
 
@@ -97,7 +98,7 @@ class ImplicitBeam final : public ConstrainedSystem {
   /// Calls function(set, where its multipliers begin) for each set that has any constraints.
   template <class Function>
   void at_constraints(const Function& function) const {
-    Eigen::Index first = layout().multiplier();
+    Eigen::Index first = dofs().multiplier();
     for (ConstraintSet<D>* set : constraints()) {
       if (set->count() > 0) function(*set, first);
       first += set->count();
@@ -108,7 +109,7 @@ class ImplicitBeam final : public ConstrainedSystem {
   bool tied() const { return of_unknowns_ && of_unknowns_->ties(); }
   bool with_multipliers() const { return beam_.model().constraints == Constraints::multipliers; }
   const std::vector<JointPlace>& places() const { return beam_.places(); }
-  const Held<D>& holding() const { return beam_.holding(); }
+  const Supports<D>& supports() const { return beam_.supports(); }
   /// Calls function(which) for the joints on the beam whose material coordinate is prescribed: it has no equation.
   template <class Function>
   void at_guides(const Function& function) const {
@@ -117,15 +118,15 @@ class ImplicitBeam final : public ConstrainedSystem {
     }
   }
   /// That of the state, with multipliers.
-  const Layout<D>& layout() const {
+  const DofMap<D>& dofs() const {
     refresh();
-    return layout_;
+    return dofs_;
   }
-  int nodes() const { return layout().nodes; }
+  int nodes() const { return dofs().nodes; }
   /// Where what follows the nodes stands: the joints' material coordinates, the masses that have left.
-  Eigen::Index after_nodes() const { return layout().mark(); }
+  Eigen::Index after_nodes() const { return dofs().mark(); }
   /// Where Unknowns, or the angles of frames, stand.
-  Eigen::Index angles() const { return layout().angle(); }
+  Eigen::Index angles() const { return dofs().angle(); }
   /// acceleration(), of parts of a state, too.
   void find_acceleration(const ConstVector& q, const ConstVector& v, double t, Eigen::VectorXd& a);
   /// Residual without constraints.
@@ -142,7 +143,7 @@ class ImplicitBeam final : public ConstrainedSystem {
   CurrentBeam<D>& beam_;
   Equations<D> equations_;
   mutable std::size_t revision_ = static_cast<std::size_t>(-1);
-  mutable Layout<D> layout_;
+  mutable DofMap<D> dofs_;
   mutable SupportConstraints<D> supports_;
   mutable KinkConstraints<D> kinks_;
   mutable LinkConstraints<D> links_;

@@ -36,7 +36,7 @@ class KinkConstraints final : public ConstraintSet<D> {
     kinks_.add_second_derivative(i, factor, dense);
   }
   void follow(const ConstraintSet<D>& other) override { kinks_ = static_cast<const KinkConstraints&>(other).kinks_; }
-  void exchange(Memory& memory) override {
+  void exchange(Archive& memory) override {
     for (auto& kink : kinks_.all()) {
       memory(kink.omitted_axis);
       kinks_.omit(kink, kink.omitted_axis);

@@ -15,7 +15,7 @@ constexpr double beyond_forces = 0x1p100;
 template <int D>
 double mass_condition(BeamSystem<D>& system, const Eigen::VectorXd& y) {
   const Eigen::Index n = system.coordinates();
-  const Eigen::MatrixXd directions = system.holding().directions(n);
+  const Eigen::MatrixXd directions = system.supports().directions(n);
   const Eigen::VectorXd q = y.head(n), at_rest = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd momenta(n, directions.cols());
   Eigen::VectorXd a(n), r(n);

@@ -31,7 +31,7 @@ struct Observation {
   Vec<double, D> mass_moment = Vec<double, D>::Zero();       ///< integral of r over the mass [kg m]
   double mass = 0;                                           ///< of the beam, between its end nodes [kg]
   double momentum_about_axis = 0;                            ///< about the axis [kg m^2/s]
-  double load_work = 0, end_work = 0, mesh_work = 0;         ///< what Tally has of it, where counted [J]
+  double load_work = 0, end_work = 0, mesh_work = 0;         ///< what EnergyBalance has of it, where counted [J]
   double mass_in = 0;                                        ///< the same [kg]
   std::optional<StrainExtremes> extremes = {};               ///< at the points of the rule and the elements' ends
 

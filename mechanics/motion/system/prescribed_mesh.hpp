@@ -24,7 +24,8 @@ class MeshEquations {
   virtual void add_tangent(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const = 0;
   /// What the beam is given in a second at the accelerations `a`, if the model counts it; `elements` are those of the
   /// last evaluation, null for those of the last add_residual().
-  virtual Tally power(const Elements* elements, const double* q, const double* rate, const double* a, double t) = 0;
+  virtual EnergyBalance power(const Elements* elements, const double* q, const double* rate, const double* a,
+                              double t) = 0;
 };
 
 template <int D>

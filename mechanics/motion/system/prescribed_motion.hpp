@@ -96,7 +96,7 @@ class PrescribedMotion {
   static constexpr std::size_t usual = 6;  // sides: two supports and two joints
 
   void add_supports(const JointElements& at_joints, const double* q, const double* rate, double* force, double t) {
-    for (const HeldNode<D>& held : beam_->holding().at(t)) {
+    for (const HeldNode<D>& held : beam_->supports().at(t)) {
       if (held.end < 0) continue;
       const bool start = held.end == 0;
       Side& side = sides_.emplace_back(side_of(start ? 0 : beam_->mesh().elements() - 1, start ? 0 : 2, at_joints));
@@ -112,7 +112,7 @@ class PrescribedMotion {
   }
 
   void add_joints(const JointElements& at_joints, const double* force, double t) {
-    for (const HeldNode<D>& held : beam_->holding().at(t)) {
+    for (const HeldNode<D>& held : beam_->supports().at(t)) {
       if (held.joint < 0 || held.motion == nullptr) continue;
       for (const bool before : {true, false}) {
         Side& side = sides_.emplace_back(side_of(before ? held.node - 1 : held.node, before ? 2 : 0, at_joints));

@@ -2,7 +2,7 @@
 
 #include "core/geometry/prescribed.hpp"
 #include "core/geometry/vec.hpp"
-#include "mechanics/time/memory.hpp"
+#include "mechanics/time/archive.hpp"
 
 namespace vlbeam {
 
@@ -21,7 +21,7 @@ class RampWork {
   RampWork(const Vec<double, D>& gravity, double duration)
       : gravity_(gravity), duration_(gravity.isZero(0) ? 0 : duration) {}
 
-  void exchange(Memory& memory) {
+  void exchange(Archive& memory) {
     for (double* number : {&last_, &done_, &power_.value, &power_.rate}) memory(*number);
   }
 

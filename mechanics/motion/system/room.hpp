@@ -24,9 +24,9 @@ class Room {
   /// Whether it brings loads that have no potential, as those that follow the beam.
   virtual bool follows() const { return false; }
   /// Adds the energies that the state has to count for it.
-  virtual void count(Tallies& /*tallies*/) const {}
+  virtual void count(BalanceEntries& /*balance*/) const {}
   /// What a state counts in all, of what the rest of the model asks for.
-  virtual Tallies counted(const Tallies& asked) const { return asked; }
+  virtual BalanceEntries counted(const BalanceEntries& asked) const { return asked; }
   /// The mesh of a beam all of whose nodes move along it as it prescribes, with the weights at t = 0; or null.
   virtual std::unique_ptr<PrescribedMesh<D>> prescribed_mesh(const CurrentBeam<D>& /*beam*/,
                                                              const std::vector<WeightFunction>& /*weights*/) const {

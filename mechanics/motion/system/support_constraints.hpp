@@ -7,7 +7,7 @@ namespace vlbeam {
 
 /// What supports hold, as constraints: direction . (what it holds of a node - where it holds it) = 0. A multiplier is a
 /// reaction over `unit`. Directions at a node are orthonormal. Of a beam with angles a clamp holds the node's angle,
-/// too. Supports stand as CurrentBeam::holding() was looked at last.
+/// too. Supports stand as CurrentBeam::supports() was looked at last.
 template <int D>
 class SupportConstraints final : public ConstraintSet<D> {
  public:
@@ -76,7 +76,7 @@ class SupportConstraints final : public ConstraintSet<D> {
     Of of;
   };
 
-  const std::vector<HeldNode<D>>& held() const { return beam_.holding().nodes(); }
+  const std::vector<HeldNode<D>>& held() const { return beam_.supports().nodes(); }
   const HeldNode<D>& by(const Constraint& one) const { return held()[one.held]; }
   template <class Array>
   auto part(const Constraint& one, Array* a) const {

@@ -10,8 +10,8 @@
 #include "mechanics/motion/joint/sliding_joint.hpp"
 #include "mechanics/motion/parts/part.hpp"
 #include "mechanics/motion/system/observation.hpp"
+#include "mechanics/time/energy_balance.hpp"
 #include "mechanics/time/fields.hpp"
-#include "mechanics/time/tallies.hpp"
 
 namespace vlbeam {
 
@@ -68,7 +68,7 @@ class Unknowns {
   /// A path of equilibria has come to q: what they are counted from may follow.
   virtual void settle(const double* /*q*/) {}
   /// Writes or reads what they are counted from.
-  virtual void exchange(Memory& /*memory*/) {}
+  virtual void exchange(Archive& /*memory*/) {}
   /// Nodes travel, and are elsewhere.
   virtual void move() {}
 
@@ -94,8 +94,8 @@ class Unknowns {
   virtual bool supplied() const { return false; }
   /// Powers of what acts on them, but for what flows in: after follow(), or, where `free` is not null, by a residual
   /// without what holds.
-  virtual Tally power(const double* /*q*/, const double* /*rate*/, const double* /*a*/, double /*t*/,
-                      const double* /*free*/) {
+  virtual EnergyBalance power(const double* /*q*/, const double* /*rate*/, const double* /*a*/, double /*t*/,
+                              const double* /*free*/) {
     return {};
   }
 

@@ -84,7 +84,7 @@ void VelocityProjection<D>::project(const ChainState<D>& before, const ChainStat
   if (!mass_.solve(beam_.masses_at(y, t), y.data(), momentum_.data(), after.part)) return;
   auto rate = y.segment(beam_.coordinates(), beam_.coordinates());
   const Eigen::Index nodes = Eigen::Index{node_size<D>} * after.part.before, count = std::ssize(after.q);
-  const Eigen::Index others = beam_.layout().mark(), of_them = beam_.coordinates() - others;
+  const Eigen::Index others = beam_.dofs().mark(), of_them = beam_.coordinates() - others;
   rate.segment(nodes, count) += momentum_.segment(nodes, count);
   rate.segment(others, of_them) += momentum_.segment(others, of_them);
 }
@@ -97,7 +97,7 @@ void VelocityProjection<D>::rigid_rates(int mode, const Eigen::VectorXd& y, Eige
     rigid[vector + axes[0]] = -y[vector + axes[1]];
     rigid[vector + axes[1]] = y[vector + axes[0]];
   };
-  for (Eigen::Index node = 0; node < beam_.layout().mark(); node += node_size<D>) {
+  for (Eigen::Index node = 0; node < beam_.dofs().mark(); node += node_size<D>) {
     if (mode < D) {
       rigid[node + mode] = 1;
     } else {
@@ -132,7 +132,7 @@ Eigen::VectorXd VelocityProjection<D>::momenta(const Eigen::VectorXd& y, double 
       sum[i] += y[vector + a] * momentum_[vector + b] - y[vector + b] * momentum_[vector + a];
     }
   };
-  const Eigen::Index nodes = beam_.layout().nodes - part.before - part.behind;
+  const Eigen::Index nodes = beam_.dofs().nodes - part.before - part.behind;
   Eigen::VectorXd sum = sum_in_pieces<Sum>(nodes, node_size<D>, [&](Eigen::Index first, Eigen::Index n) {
     Sum of_some = Sum::Zero();
     for (Eigen::Index node = part.before + first; node < part.before + first + n; ++node) {
@@ -184,8 +184,8 @@ void VelocityProjection<D>::conserve_axis(const Eigen::VectorXd& all, const Ener
   rate += motion * velocities_of(momenta - rigid.transpose() * rate);
 
   Eigen::VectorXd fluctuation = rate - motion * velocities_of(momenta);
-  fluctuation.tail(beam_.layout().turning).setZero();
-  fluctuation.segment(beam_.layout().free_mass(), D * beam_.layout().free_masses).setZero();  // they fly on
+  fluctuation.tail(beam_.dofs().turning).setZero();
+  fluctuation.segment(beam_.dofs().free_mass(), D * beam_.dofs().free_masses).setZero();  // they fly on
   Eigen::VectorXd of_fluctuation(beam_.coordinates());
   mass_.multiply(elements, y.data(), fluctuation.data(), of_fluctuation.data());
   const double twice_kinetic = fluctuation.dot(of_fluctuation);

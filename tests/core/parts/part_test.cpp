@@ -14,7 +14,7 @@ class SpringToGround final : public Part<D> {
  public:
   SpringToGround(double x, double stiffness, double damping) : x_(x), stiffness_(stiffness), damping_(damping) {}
 
-  Tally add_force(const Motion<D>& now, double* force) const override {
+  EnergyBalance add_force(const Motion<D>& now, double* force) const override {
     const int k = now.beam.element_at(x_);
     const auto at = point_at<double, D>(now.beam.kinematics(k), x_);
     add_point_force<D>(now.beam, k, at, {-stiffness_ * at.r - damping_ * at.v, Vec<double, D>::Zero()}, force);
@@ -50,7 +50,7 @@ TYPED_TEST(PartTest, OfOnesOwnActsInAllViewsOfTheEquations) {
         model.parts = {std::make_shared<SpringToGround<D>>(0.45, 30, 2)};
       };
       HeldChain<D> c(shape, seed++, constraints, add);
-      const Tally booked = c.system->model().tallies().of(c.rates());
+      const EnergyBalance booked = c.system->model().balance().of(c.rates());
       const double given = c.support_power() + booked.loads;
       EXPECT_NEAR(c.energy_rate(), given, 1e-8 * (1 + std::abs(given)));
       EXPECT_GT(std::abs(booked.loads), 1e-3);

@@ -296,7 +296,7 @@ TYPED_TEST(BeamSystemOf, AGuideDoesTheWorkOfTheForceThatAFreeJointWouldNeed) {
     system.rhs(y, dydt, 0);
     double power = 0;
     for (std::size_t i = 0; i < 3; ++i) power += force[i] * chain.joints[i].rate;
-    EXPECT_NEAR(model.tallies().of(dydt).supports, power, 1e-10 * std::abs(power)) << kind.name();
+    EXPECT_NEAR(model.balance().of(dydt).supports, power, 1e-10 * std::abs(power)) << kind.name();
   }
 }
 

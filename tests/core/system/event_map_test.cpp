@@ -24,7 +24,7 @@ struct Carried {
     beam = std::make_unique<CurrentBeam<D>>(model, before);
     a = Eigen::VectorXd(beam->coordinates());
     for (double& number : a) number = random.uniform(-1, 1);
-    map.remember({before, beam->places(), beam->layout()});
+    map.remember({before, beam->places(), beam->dofs()});
     after = before;
     segment_and_merge(after, 0, Direction::forward, {}, model.length_control, beam->moving_law(0));
     places_before = beam->places();

@@ -84,7 +84,7 @@ Gap gap_of(const BeamModel<D>& model, const IntegrationOptions& options, double 
   double t = 0;
   integrate(beam, y, t, duration, {}, options, counters);
   const Observation<D> after = beam.observe(y, t, own_points);
-  const Tally ledger = model.tallies().of(y);
+  const EnergyBalance ledger = model.balance().of(y);
   EXPECT_GT(std::abs(ledger.ends), 1e-3);
   EXPECT_GT(std::abs(ledger.loads), 1e-3);
   const double passed = std::abs(ledger.ends) + std::abs(ledger.loads) + std::abs(ledger.mesh) + ledger.dissipated;
@@ -133,7 +133,7 @@ TYPED_TEST(FlowLedgerTest, EndsThatRestDoNoWork) {
   SolverCounters counters;
   double t = 0;
   integrate(beam, y, t, 0.3, {}, closely(), counters);
-  const Tally ledger = model.tallies().of(y);
+  const EnergyBalance ledger = model.balance().of(y);
   EXPECT_GT(std::abs(ledger.mesh), 1e-3);
   EXPECT_GT(std::abs(ledger.loads), 1e-3);
   EXPECT_LE(std::abs(ledger.ends), 1e-9 * (std::abs(ledger.mesh) + std::abs(ledger.loads)));

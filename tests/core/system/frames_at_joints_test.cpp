@@ -251,7 +251,7 @@ struct ChainInSpace {
     const Eigen::Index n = q.size();
     const auto some = [&](double size) {
       Eigen::VectorXd values = Eigen::VectorXd::NullaryExpr(n, [&] { return random.uniform(-size, size); });
-      system->holding().project(values.data());
+      system->supports().project(values.data());
       return values;
     };
     q += some(0.02);
@@ -280,7 +280,7 @@ TEST(FramesAtJoints, TangentIsTheDerivativeOfTheResidual) {
     auto& implicit = *chain.system->second_order();
     Random random(9);
     Eigen::VectorXd d = Eigen::VectorXd::NullaryExpr(chain.q.size(), [&] { return random.uniform(-1, 1); });
-    chain.system->holding().project(d.data());
+    chain.system->supports().project(d.data());
     const Eigen::VectorXd difference = slope_of([&](double s) {
       Eigen::VectorXd r(chain.q.size());
       implicit.residual(chain.q + s * by.q * d, chain.v + s * by.v * d, chain.a + s * by.a * d, 0, r);
@@ -289,7 +289,7 @@ TEST(FramesAtJoints, TangentIsTheDerivativeOfTheResidual) {
     Eigen::MatrixXd dense;
     implicit.tangent(chain.q, chain.v, chain.a, 0, by, dense);
     Eigen::VectorXd product = dense * d;
-    chain.system->holding().project(product.data());
+    chain.system->supports().project(product.data());
     EXPECT_LE((product - difference).norm(), 1e-8 * difference.norm()) << by.q << by.v << by.a;
     if (by.q * by.a == 0) continue;
     ASSERT_TRUE(implicit.linearize(chain.q, chain.v, chain.a, 0, by));

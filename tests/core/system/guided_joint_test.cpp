@@ -61,7 +61,7 @@ TYPED_TEST(GuidedEquations, ExplicitAndImplicitFormsAreTheSame) {
       implicit.acceleration(q, v, t, a);
       implicit.residual(q, v, a, t, r);
       EXPECT_LE(r.norm(), 1e-10 * (1 + a.norm()));
-      const double power = this->model_.tallies().of(dydt).supports;
+      const double power = this->model_.balance().of(dydt).supports;
       EXPECT_GT(std::abs(power), 1e-3);
       EXPECT_NEAR(implicit.supplied_power(q, v, a, t).supports, power, 1e-10 * (1 + a.norm()));
     }

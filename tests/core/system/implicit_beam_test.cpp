@@ -148,7 +148,7 @@ TYPED_TEST(ImplicitBeamTest, InertiaIsWhatMoreAccelerationAddsToTheResidual) {
     Eigen::VectorXd more =
         Eigen::VectorXd::NullaryExpr(c.q.size(), [&] { return static_cast<double>(c.random.uniform(-2, 2)); });
     more.tail(implicit.multipliers()).setZero();
-    if (shape.held) more[c.system->layout().mark()] = 0;
+    if (shape.held) more[c.system->dofs().mark()] = 0;
     Eigen::VectorXd inertia(c.q.size()), r(c.q.size()), r_of_more(c.q.size());
     const bool known = implicit.inertia(c.q, more, 0, inertia);
     EXPECT_EQ(known, !nut);

@@ -32,11 +32,11 @@ struct Walk {
       held.push_back(record.before.mesh.elements());
     };
     Eigen::VectorXd y = system.initial_state();
-    const double unit = model.length_control.standard_length, from = y[system.layout().mark()];
+    const double unit = model.length_control.standard_length, from = y[system.dofs().mark()];
     constexpr int steps = 240;
     for (int i = 1; i <= steps; ++i) {
       const double t = static_cast<double>(i) / steps;
-      y[system.layout().mark()] = from + unit * to_and_fro(t).value;
+      y[system.dofs().mark()] = from + unit * to_and_fro(t).value;
       const Guards guards = system.guards(y, t);
       const auto due = std::ranges::find_if(guards, [](const Guard& guard) { return guard.value > 0; });
       if (due == guards.end()) continue;

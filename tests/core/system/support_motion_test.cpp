@@ -63,7 +63,7 @@ TYPED_TEST(DrivenEquations, ExplicitAndImplicitFormsAreTheSame) {
       Eigen::VectorXd y = system.initial_state(), dydt(y.size());
       system.impose(y, t);
       system.rhs(y, dydt, t);
-      const std::array points{system.holding().at(t)[0].driven, system.holding().at(t)[1].driven};
+      const std::array points{system.supports().at(t)[0].driven, system.supports().at(t)[1].driven};
       const Eigen::Index n = system.coordinates();
       EXPECT_LE((dydt.head<D>() - points[0].rate).norm(), 1e-15);
       EXPECT_LE((dydt.segment<D>(n) - points[0].acceleration).norm(), 1e-12);

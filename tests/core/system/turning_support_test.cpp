@@ -67,7 +67,7 @@ TEST(TurningSupport, HoldsTheSlopeAsItTurns) {
       const auto e = static_cast<std::size_t>(end);
       const Eigen::Index at = (end == 0 ? 0 : Eigen::Index{4} * c.system->mesh().last()) + 2;
       auto held = [&](double s) -> Eigen::Vector2d {
-        const auto support = c.system->holding().at(instant + s)[e].support;
+        const auto support = c.system->supports().at(instant + s)[e].support;
         const Eigen::Vector2d slope =
             c.y.segment<2>(at) + s * rates.segment<2>(at) + s * s / 2 * rates.segment<2>(n + at);
         return (support.into_frame(slope).array() * (1 - support.free_slope)).matrix();
@@ -77,7 +77,7 @@ TEST(TurningSupport, HoldsTheSlopeAsItTurns) {
       const Eigen::Vector2d second = (held(h) + held(-h) - 2 * held(0)) / (h * h);
       const auto& model = c.system->model();
       const Eigen::Vector2d anchor =
-          ((end == 0 ? model.start : model.end).into_frame(c.system->holding().nodes()[e].anchor.tail<2>()).array() *
+          ((end == 0 ? model.start : model.end).into_frame(c.system->supports().nodes()[e].anchor.tail<2>()).array() *
            (1 - (end == 0 ? model.start : model.end).free_slope))
               .matrix();
       EXPECT_LE((held(0) - anchor).norm(), 1e-14);
@@ -108,7 +108,7 @@ TEST(TurningSupport, IsTheSameToImplicitMethods) {
       EXPECT_NEAR(implicit.supplied_power(q, v, a, instant).supports, power, 1e-11 * (1 + a.norm()));
       // forces on the point, and the moment about it
       const auto forces = c.system->forces(c.y, instant).supports;
-      const auto& held_ends = c.system->holding().at(instant);
+      const auto& held_ends = c.system->supports().at(instant);
       double work = 0;
       for (const std::size_t e : {0U, 1U}) {
         const Eigen::Index node = e == 0 ? 0 : Eigen::Index{4} * c.system->mesh().last();

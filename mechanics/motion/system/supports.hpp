@@ -34,7 +34,7 @@ struct HeldNode {
 /// What has no equation of motion since something holds it in space: the one place that knows which components of
 /// nodes are free.
 template <int D>
-class Held {
+class Supports {
  public:
   /// After each change of the mesh; `index` tells which of the model's joints those on the beam are, `angles` where
   /// those of the nodes stand, negative where they have none.
@@ -77,7 +77,7 @@ class Held {
   mutable double looked_at_ = 0;  ///< [s], the instant that `nodes_` belong to
 };
 
-extern template class Held<2>;
-extern template class Held<3>;
+extern template class Supports<2>;
+extern template class Supports<3>;
 
 }  // namespace vlbeam

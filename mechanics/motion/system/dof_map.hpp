@@ -4,19 +4,19 @@
 
 #include "core/beam/node_map.hpp"
 #include "mechanics/motion/system/unknowns.hpp"
+#include "mechanics/time/energy_balance.hpp"
 #include "mechanics/time/fields.hpp"
-#include "mechanics/time/tallies.hpp"
 
 namespace vlbeam {
 
-/// Where everything stands in a state y = (q, q', tallies). The coordinates q are, in this order: the nodes, position
+/// Where everything stands in a state y = (q, q', balance). The coordinates q are, in this order: the nodes, position
 /// and slope each; the material coordinates of joints, or of a mass that rides; the slopes behind joints that are
 /// kinked; the positions of masses that have left; the angles of a beam that spins; multipliers, where there are any.
 template <int D>
-struct Layout {
+struct DofMap {
   int nodes = 0, marks = 0, kinks = 0, free_masses = 0;
   Eigen::Index turning = 0, multipliers = 0;  ///< how many there are of angles (and twists), and of multipliers
-  Tallies tallies = {};
+  BalanceEntries balance = {};
 
   Eigen::Index mark(int i = 0) const { return Eigen::Index{node_size<D>} * nodes + i; }
   Eigen::Index kink(int i = 0) const { return mark(marks) + Eigen::Index{D} * i; }
@@ -24,7 +24,7 @@ struct Layout {
   Eigen::Index angle() const { return free_mass(free_masses); }
   Eigen::Index multiplier() const { return angle() + turning; }
   Eigen::Index coordinates() const { return multiplier() + multipliers; }
-  Eigen::Index state() const { return 2 * coordinates() + tallies.count(); }
+  Eigen::Index state() const { return 2 * coordinates() + balance.count(); }
 
   /// What they are, but for multipliers; `unknowns` is null without.
   std::vector<FieldRun> fields(const Unknowns<D>* unknowns) const {

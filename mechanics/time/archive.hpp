@@ -12,12 +12,12 @@ namespace vlbeam {
 
 /// What something keeps from step to step, as numbers: written by the calls that read it again, in the same order, so
 /// that one function does both. Integers must be exact as doubles.
-class Memory {
+class Archive {
  public:
   /// To be written.
-  Memory() = default;
+  Archive() = default;
   /// To be read. Reading past the end throws std::out_of_range.
-  explicit Memory(std::vector<double> numbers) : numbers_(std::move(numbers)), reads_(true) {}
+  explicit Archive(std::vector<double> numbers) : numbers_(std::move(numbers)), reads_(true) {}
 
   bool reads() const { return reads_; }
   const std::vector<double>& numbers() const { return numbers_; }

@@ -1,4 +1,4 @@
-#include "mechanics/motion/system/held.hpp"
+#include "mechanics/motion/system/supports.hpp"
 
 #include <limits>
 
@@ -30,8 +30,8 @@ Eigen::Map<Vec<double, D>> behind_kink(const HeldNode<D>& held, double* a) {
 }  // namespace
 
 template <int D>
-void Held<D>::adopt(const BeamModel<D>& model, int last, std::span<const JointPlace> joints,
-                    const std::vector<int>& index, Eigen::Index angles) {
+void Supports<D>::adopt(const BeamModel<D>& model, int last, std::span<const JointPlace> joints,
+                        const std::vector<int>& index, Eigen::Index angles) {
   nodes_.clear();
   looked_at_ = std::numeric_limits<double>::quiet_NaN();
   index_ = index;
@@ -56,7 +56,7 @@ void Held<D>::adopt(const BeamModel<D>& model, int last, std::span<const JointPl
 }
 
 template <int D>
-void Held<D>::anchor(const double* q) {
+void Supports<D>::anchor(const double* q) {
   anchored_ = true;
   const auto of = [&](int node) {
     return Eigen::Matrix<double, node_size<D>, 1>(
@@ -77,7 +77,7 @@ void Held<D>::anchor(const double* q) {
 }
 
 template <int D>
-void Held<D>::set_anchors() const {
+void Supports<D>::set_anchors() const {
   auto guide = anchors_.guides.begin();
   for (HeldNode<D>& held : nodes_) {
     held.anchor = held.end >= 0 ? anchors_.ends[static_cast<std::size_t>(held.end)]
@@ -88,7 +88,7 @@ void Held<D>::set_anchors() const {
 }
 
 template <int D>
-const std::vector<HeldNode<D>>& Held<D>::at(double t) const {
+const std::vector<HeldNode<D>>& Supports<D>::at(double t) const {
   if (!moves_ || t == looked_at_) return nodes_;
   looked_at_ = t;
   for (HeldNode<D>& held : nodes_) {
@@ -100,7 +100,7 @@ const std::vector<HeldNode<D>>& Held<D>::at(double t) const {
 }
 
 template <int D>
-void Held<D>::impose(double t, double* q, double* rate) const {
+void Supports<D>::impose(double t, double* q, double* rate) const {
   if (!moves_) return;
   for (const HeldNode<D>& held : at(t)) {
     if (held.motion == nullptr) continue;
@@ -121,7 +121,7 @@ void Held<D>::impose(double t, double* q, double* rate) const {
 }
 
 template <int D>
-void Held<D>::project(double* a) const {
+void Supports<D>::project(double* a) const {
   for (const HeldNode<D>& held : nodes_) {
     const Support<D>& by = held.support;
     position<D>(a, held.node) = freed<D>(by, position<D>(a, held.node), by.free_position);
@@ -132,12 +132,12 @@ void Held<D>::project(double* a) const {
 }
 
 template <int D>
-void Held<D>::project(BeamMatrix<D>& tangent) const {
+void Supports<D>::project(BeamMatrix<D>& tangent) const {
   for (const HeldNode<D>& held : nodes_) tangent.hold(held.node, held.behind, held.support);
 }
 
 template <int D>
-void Held<D>::add_offset(double t, const double* q, double* offset) const {
+void Supports<D>::add_offset(double t, const double* q, double* offset) const {
   for (const HeldNode<D>& held : at(t)) {
     if (held.motion == nullptr) continue;
     const Support<D>& by = held.support;
@@ -150,7 +150,7 @@ void Held<D>::add_offset(double t, const double* q, double* offset) const {
 }
 
 template <int D>
-double Held<D>::power(const double* lacking, const double* rate) const {
+double Supports<D>::power(const double* lacking, const double* rate) const {
   double sum = 0;
   for (const HeldNode<D>& held : nodes_) {
     if (held.motion == nullptr) continue;
@@ -166,7 +166,7 @@ double Held<D>::power(const double* lacking, const double* rate) const {
 }
 
 template <int D>
-Eigen::MatrixXd Held<D>::directions(Eigen::Index coordinates) const {
+Eigen::MatrixXd Supports<D>::directions(Eigen::Index coordinates) const {
   Eigen::MatrixXd directions = Eigen::MatrixXd::Identity(coordinates, coordinates);
   Eigen::ArrayXd free = Eigen::ArrayXd::Ones(coordinates);
   const auto hold = [&](Eigen::Index at, const Support<D>& support, const Components<D>& components) {
@@ -187,7 +187,7 @@ Eigen::MatrixXd Held<D>::directions(Eigen::Index coordinates) const {
   return directions.leftCols(kept);
 }
 
-template class Held<2>;
-template class Held<3>;
+template class Supports<2>;
+template class Supports<3>;
 
 }  // namespace vlbeam
