@@ -44,7 +44,7 @@ TEST(Timetable, OfNothingSaysNothing) {
 }
 
 /// The methods of Odeint, with the fixed one.
-class Corners : public ::testing::TestWithParam<IntegratorType> {
+class Corners : public ::testing::TestWithParam<IntegrationMethod> {
  protected:
   void run(EventedOde& ode, double t_end, const Timetable& timetable, double tolerance) {
     options_.type = GetParam();
@@ -61,9 +61,9 @@ class Corners : public ::testing::TestWithParam<IntegratorType> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, Corners,
-                         ::testing::Values(IntegratorType::dopri5, IntegratorType::cash_karp,
-                                           IntegratorType::fehlberg78, IntegratorType::bulirsch_stoer,
-                                           IntegratorType::rosenbrock4, IntegratorType::adams_bashforth_moulton));
+                         ::testing::Values(IntegrationMethod::dopri5, IntegrationMethod::cash_karp,
+                                           IntegrationMethod::fehlberg78, IntegrationMethod::bulirsch_stoer,
+                                           IntegrationMethod::rosenbrock4, IntegrationMethod::adams_bashforth_moulton));
 
 // The rate jumps at the corner: a step that sees both sides of it errs.
 TEST_P(Corners, AreWhereARateMayJump) {
@@ -73,7 +73,7 @@ TEST_P(Corners, AreWhereARateMayJump) {
   y_ = Eigen::VectorXd::Zero(1);
   run(ode, 2, Timetable({{0, 1.03, never_again}}), 1e-9);
   // what rosenbrock4 takes of the rate of change is a difference that reaches over the corner
-  const bool exactly = GetParam() != IntegratorType::rosenbrock4;
+  const bool exactly = GetParam() != IntegrationMethod::rosenbrock4;
   EXPECT_NEAR(y_[0], 4 * 0.97, exactly ? 1e-12 : 1e-8);
   EXPECT_TRUE(counters_.rejected == 0 || !exactly);
 }

@@ -67,8 +67,8 @@ inline FunctionOde oscillator() {
 }
 
 /// The methods that choose their step.
-inline constexpr std::array<IntegratorType, 5> integrators{IntegratorType::dopri5, IntegratorType::cash_karp,
-                                                           IntegratorType::fehlberg78, IntegratorType::bulirsch_stoer,
-                                                           IntegratorType::rosenbrock4};
+inline constexpr std::array<IntegrationMethod, 5> integrators{
+    IntegrationMethod::dopri5, IntegrationMethod::cash_karp, IntegrationMethod::fehlberg78,
+    IntegrationMethod::bulirsch_stoer, IntegrationMethod::rosenbrock4};
 
 }  // namespace vlbeam::test

@@ -106,7 +106,8 @@ TYPED_TEST(FreeBeam, KeepsItsMomentaAndItsEnergyWithAMassInsideAnEndElement) {
       for (const bool held : {false, true}) {
         const ChainShape shape{.elements = 4, .rational = kind.rational, .rider = rider, .held = held};
         auto model = model_of<TypeParam::value>(shape, this->random_);
-        bring<ContactRoom<D>>(model).at_support = {{AtSupport::rebound, 1}};  // nor does an impact lose anything
+        bring<ContactRoom<TypeParam::value>>(model).at_support = {
+            {AtSupport::rebound, 1}};  // nor does an impact lose anything
         model.section.stiffness.law = kind.law;
         model.axial_strain = kind.axial;
         model.gravity.setZero();

@@ -33,11 +33,11 @@ struct Case {
       if (held) joint.support = &joint == &model.joints.back() ? Support<D>::pin() : sleeve;
     }
     if (nut) {
-      model.joints.front().pitch = pitch;
       spin_in(model) = SpinModel{.section = {0.2, 0.3, 0.05},
                                  .field = AngleField::hermite,
                                  .rate = 0.8,
-                                 .drives = {{shape.elements, steadily(0, 1.5)}}};
+                                 .drives = {{shape.elements, steadily(0, 1.5)}},
+                                 .pitch = {pitch}};
     }
     system = std::make_unique<BeamSystem<D>>(model, random_chain<D>(shape, random));
     system->second_order()->expand(system->initial_state(), q, v);

@@ -1,4 +1,3 @@
-#include "mechanics/conserving/energy_momentum.hpp"
 #include "mechanics/flow/flow_room.hpp"
 #include "mechanics/motion/system/implicit_beam.hpp"
 
@@ -6,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/spin/spin_room.hpp"
+#include "scene/run_support.hpp"
 #include "tests/core/support/element_family.hpp"
 #include "tests/core/support/element_state.hpp"
 #include "tests/core/support/flows.hpp"
@@ -153,13 +153,12 @@ TYPED_TEST(ImplicitTravelTest, GeneralizedAlphaFollowsAnExplicitMethod) {
 }
 
 TEST(ImplicitTravel, RefusesMethodsThatDoNotApply) {
-  for (const IntegrationMethod type : {IntegrationMethod::rosenbrock4, IntegrationMethod::energy_momentum}) {
+  for (const IntegratorType type : {IntegratorType::rosenbrock4, IntegratorType::energy_momentum}) {
     const BeamModel<2> model = whirling<2>();
     BeamSystem<2> beam(model, straight_chain(model));
     Eigen::VectorXd y = straight_state<2>(beam, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX(), 1, 0, 0);
     IntegrationOptions options;
-    options.type = type;
-    if (type == IntegrationMethod::energy_momentum) options.other = energy_momentum({});
+    set_method(type, 1e-3, options);
     SolverCounters counters;
     double t = 0;
     EXPECT_THROW(integrate(beam, y, t, 0.1, {}, options, counters), InvalidInput);

@@ -7,7 +7,12 @@
 namespace vlbeam::test {
 namespace {
 
-/// Sums four points at once against those point by point, which a beam with rotary inertia takes: here it has none.
+template <int D>
+struct NoInertia final : SectionInertia<D> {
+  double kinetic(double /*weight*/, const Vec<double, D>& /*v_x*/) const override { return 0; }
+};
+
+/// Sums four points at once against those point by point, which a beam takes whose sections have inertia: here none.
 template <int D>
 void expect_alike(Random& random, const BeamSection& section, AxialStrain axial, bool rational,
                   WeightTransport transport) {
@@ -16,7 +21,7 @@ void expect_alike(Random& random, const BeamSection& section, AxialStrain axial,
   const SummedElement<D> element{q, coordinates<double, D>(random_rates<D>(random)), transport, weights};
   const SumTables tables(BeamRules(6, 11, axial));
   const Vec<double, D> gravity = random.vector<D>(9.81);
-  const RotaryInertia<D> none;
+  const NoInertia<D> none;
   const Observer<D> at_once(section, gravity, tables), point_by_point(section, gravity, tables, &none);
   Observation<D> a, b;
   a.extremes.emplace();

@@ -1,6 +1,5 @@
 // Supports whose point moves as a given function of time.
 #include "core/beam/support_motion.hpp"
-#include "mechanics/conserving/energy_momentum.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 #include "mechanics/motion/system/implicit_beam.hpp"
 #include "mechanics/sundials/sundials_stepper.hpp"
 #include "scene/build.hpp"
+#include "scene/run_support.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
 #include "tests/core/support/scenes.hpp"

@@ -7,6 +7,7 @@
 
 #include "mechanics/motion/system/implicit_beam.hpp"
 #include "scene/build.hpp"
+#include "scene/run_support.hpp"
 #include "scene/time_function.hpp"
 #include "tests/core/support/chain_models.hpp"
 #include "tests/core/support/differences.hpp"
