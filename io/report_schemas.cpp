@@ -491,7 +491,7 @@ Json converge_schema() {
       {"title", any_text},
       {"quantity", any_text},
       {"unit", any_text},
-      {"t", described(any_number, "time of the answer", "s")},
+      {"t", described(any_number, "time of the answer; 1, the load factor, of an equilibrium", "s")},
       {"error", described(any_number, "wanted, in the unit")},
       {"answer", described(nullable_number, "of the finest setting, in the unit")},
       {"uncertainty", described(nullable_number, "of the answer: of mesh, time and quadrature together")},
@@ -511,7 +511,7 @@ Json converge_schema() {
       {"scene", described(any_object, "in the cheapest setting, or as given where there is none")},
       {"provenance", any_object},
       {"timing", record({{"seconds", described(array_of(any_number), "of each level", "s")}})}};
-  return with_head("vlbeam convergence of a scene", record(properties, {"reason", "horizon"}));
+  return with_head("vlbeam convergence of a scene", record(properties, {"reason", "horizon", "predictable_until"}));
 }
 
 Json sweep_schema() {

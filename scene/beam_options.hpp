@@ -86,17 +86,24 @@ struct BeamOptions : OptionLines<Visitor, SceneT> {
     const Condition given = is(stiffness);
     number(at + "/radius", "m", Range::positive(), "radius of the full circular section; outer radius of a tube",
            of.radius, {.source = example1, .when = is(circle, tube)});
+    choice(at + "/standard", "a rolled profile by its name, in place of its sizes", of.standard,
+           {.source = "EN 10365", .when = is(profile)});
+    Condition sizes = is(rectangle, box, profile), plates = is(profile);
+    if (of.standard) sizes.holds = plates.holds = false;
+    const bool asked = !of.standard;
     number(at + "/width", "m", Range::positive(), "of a rectangle, a box or a profile, along the section's axis y",
-           of.width, {.when = is(rectangle, box, profile), .required = true});
+           of.width, {.when = sizes, .required = asked, .instead = "standard"});
     number(at + "/height", "m", Range::positive(),
            "of a rectangle, a box or a profile, along the section's axis z; in the plane it lies in it", of.height,
-           {.when = is(rectangle, box, profile), .required = true});
+           {.when = sizes, .required = asked, .instead = "standard"});
     number(at + "/wall", "m", Range::positive(), "thickness of the wall of a tube or a box", of.wall,
            {.when = is(tube, box), .required = true});
     number(at + "/web", "m", Range::positive(), "thickness of the web of a profile", of.web,
-           {.when = is(profile), .required = true});
+           {.when = plates, .required = asked, .instead = "standard"});
     number(at + "/flange", "m", Range::positive(), "thickness of the flanges of a profile", of.flange,
-           {.when = is(profile), .required = true});
+           {.when = plates, .required = asked, .instead = "standard"});
+    number(at + "/fillet", "m", Range::non_negative(), "radius between web and flanges of a profile", of.fillet,
+           {.when = plates});
     number(at + "/diameter", "m", Range::positive(), "nominal diameter of a rope; of the bar of a chain's links",
            of.diameter, {.when = is(rope, chain), .required = true});
     choice(at + "/construction", "of a rope, by which its stiffness and mass follow from the diameter", of.construction,

@@ -122,6 +122,11 @@ constexpr auto names(VelocityTransfer) {
   return std::to_array<Named<VelocityTransfer>>(
       {{nodal, "nodal"}, {projected, "projected"}, {conservative, "conservative"}});
 }
+constexpr auto names(StandardProfile) {
+  std::array<Named<StandardProfile>, standard_profiles.size()> list{};
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = {static_cast<StandardProfile>(i), standard_profiles[i].name};
+  return list;
+}
 constexpr auto names(IntegratorType) {
   using enum IntegratorType;
   return std::to_array<Named<IntegratorType>>({{dopri5, "dopri5"},

@@ -17,6 +17,7 @@
 #include "mechanics/ropes/winding.hpp"
 #include "mechanics/spin/angle_field.hpp"
 #include "scene/integrator_type.hpp"
+#include "scene/standard_profiles.hpp"
 
 namespace vlbeam {
 
@@ -100,6 +101,8 @@ struct Section {
   double diameter = 0;              ///< rope; chain: of the bar of its links [m]
   RopeConstruction construction = RopeConstruction::wire_wire_core;
   ChainLinks links = ChainLinks::studless;
+  double fillet = 0;                             ///< profile: radius between web and flanges [m]
+  std::optional<StandardProfile> standard = {};  ///< profile: in place of its sizes
 };
 
 /// Materials with their usual data.

@@ -44,13 +44,30 @@ SectionSizes box(double w, double h, double wall) {
           h / 2};
 }
 
-/// Two flanges and a web between them, without fillets; torsion without warping, that of thin strips.
-SectionSizes profile(double w, double h, double web, double flange) {
-  const double h_in = h - 2 * flange, area = 2 * w * flange + h_in * web;
+double cube(double x) { return x * x * x; }
+
+/// Torsion without warping of two flanges and a web: that of thin strips, or, with fillets, of these with what the
+/// junctions add (El Darwish & Johnston 1965), as tables of rolled profiles have it.
+double profile_torsion(double w, double h, double web, double flange, double fillet) {
+  const double h_in = h - 2 * flange;
+  if (fillet == 0) return (2 * w * cube(flange) + h_in * cube(web)) / 3;
+  const double one = fillet + web / 2, other = fillet + flange;
+  const double circle = (one * one + other * other - fillet * fillet) / (2 * fillet + flange);
+  return 2.0 / 3 * (w - 0.63 * flange) * cube(flange) + h_in * cube(web) / 3 +
+         2 * web / flange * (0.145 + 0.1 * fillet / flange) * circle * cube(circle);
+}
+
+/// Two flanges and a web between them, with four fillets.
+SectionSizes profile(double w, double h, double web, double flange, double fillet) {
+  const double h_in = h - 2 * flange, r2 = fillet * fillet;
+  const double corner = r2 * (1 - pi / 4), middle = fillet * (10 - 3 * pi) / (12 - 3 * pi);  // of one, from its edges
+  const double own = r2 * r2 * (1.0 / 3 - pi / 16 - 1 / (9 * (4 - pi)));
+  const auto fillets = [&](double distance) { return 4 * (own + corner * distance * distance); };
+  const double area = 2 * w * flange + h_in * web + 4 * corner;
   return {area,
-          (w * h * h * h - (w - web) * h_in * h_in * h_in) / (12 * area),
-          (2 * flange * w * w * w + h_in * web * web * web) / (12 * area),
-          (2 * w * flange * flange * flange + h_in * web * web * web) / 3,
+          ((w * cube(h) - (w - web) * cube(h_in)) / 12 + fillets(h_in / 2 - middle)) / area,
+          ((2 * flange * cube(w) + h_in * cube(web)) / 12 + fillets(web / 2 + middle)) / area,
+          profile_torsion(w, h, web, flange, fillet),
           w / 2,
           h / 2};
 }
@@ -107,8 +124,11 @@ std::optional<SectionSizes> sizes_of(const Section& section) {
       return tube(section.radius, section.wall);
     case Section::Type::box:
       return box(section.width, section.height, section.wall);
-    case Section::Type::profile:
-      return profile(section.width, section.height, section.web, section.flange);
+    case Section::Type::profile: {
+      if (!section.standard) return profile(section.width, section.height, section.web, section.flange, section.fillet);
+      const ProfileSizes& mm = sizes_of(*section.standard);
+      return profile(mm.width / 1000, mm.height / 1000, mm.web / 1000, mm.flange / 1000, mm.fillet / 1000);
+    }
     case Section::Type::stiffness:
     case Section::Type::rope:
     case Section::Type::chain:
@@ -164,7 +184,7 @@ std::string section_in_words(const BeamSpec& beam) {
   if (type == Section::Type::stiffness) return {};
   if (!named_material && (type == Section::Type::circle || type == Section::Type::rectangle)) return {};
   const BeamSection section = build_section(beam);
-  std::string text(to_string(type));
+  std::string text(beam.section.standard ? to_string(*beam.section.standard) : to_string(type));
   if (type == Section::Type::rope) text += ", " + std::string(to_string(beam.section.construction));
   if (type == Section::Type::chain) text += ", " + std::string(to_string(beam.section.links));
   if (named_material) text += " of " + std::string(to_string(beam.material.name));

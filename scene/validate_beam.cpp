@@ -55,9 +55,11 @@ void check_walls(const Section& section, const std::string& key) {
   if (section.type == Section::Type::tube) at_most("wall", section.wall, section.radius, "the radius");
   const double smaller = std::min(section.width, section.height) / 2;
   if (section.type == Section::Type::box) at_most("wall", section.wall, smaller, "half of width and height");
-  if (section.type != Section::Type::profile) return;
+  if (section.type != Section::Type::profile || section.standard) return;
   at_most("flange", section.flange, section.height / 2, "half of the height");
   at_most("web", section.web, section.width, "the width");
+  at_most("fillet", section.fillet, std::min((section.width - section.web) / 2, section.height / 2 - section.flange),
+          "what the plates leave");
 }
 
 /// Of a beam that has the section with that key all along.

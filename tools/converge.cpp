@@ -37,6 +37,8 @@ constexpr double least_tolerance = 1e-13, most_steps = 1e7;
 constexpr double least_small_rtol = 1e-14;  // where it is next to nothing beside the absolute tolerances
 constexpr int least_elements = 2;
 constexpr double perturbation = 1e-8;
+constexpr double same_time = 1e-12;  // relative: rounding of a time that is asked for
+constexpr double full_load = 1;      // the load factor of an equilibrium
 constexpr const char* absent = "the quantity is not there at this time";
 constexpr const char* no_time = "stopped: no time was left";
 
@@ -58,30 +60,28 @@ class Converger {
       : options_(options),
         scene_(keeping(scene, options.quantity)),
         quantity_(find_quantity(scene_, options.quantity)) {
-    if (scene.analysis == Analysis::statics) {
-      throw InvalidInput("/analysis", "\"statics\"",
-                         "converge refines motions: refine the mesh of an equilibrium with vlbeam sweep, over "
-                         "/beam/elements");
+    if (!in_time() && (options.at || options.horizon)) {
+      throw InvalidInput(options.at ? "--at" : "--horizon", "this option", "an equilibrium has no time: leave it out");
     }
     if (!(options.error > 0) || !std::isfinite(options.error)) {
       throw InvalidInput("--error", number_text(options.error), "it must be a number > 0");
     }
     if (options.relative && options.error < rounding) too_small(options.error);
     if (options.at) {
-      if (!(*options.at > 0) || *options.at > scene.duration) {
+      if (!(*options.at > 0) || *options.at > scene.duration * (1 + same_time)) {
         throw InvalidInput("--at", number_text(*options.at),
                            "it must be a time in (0, " + number_text(scene.duration) + "], the scene's duration [s]");
       }
-      scene_.duration = *options.at;
+      scene_.duration = std::min(*options.at, scene.duration);
     }
     scene_.output.configurations.clear();
     const Setting own = setting_of(scene_);
     found_.answer = found_.uncertainty = nan;  // until something is known
     found_.quantity = quantity_.name;
     found_.unit = quantity_.unit;
-    found_.t = scene_.duration;
+    found_.t = in_time() ? scene_.duration : full_load;
     now_ = own;
-    now_.accuracy = std::min(own.accuracy, has_step(scene_) ? scene_.duration / 40 : 1e-6);
+    if (in_time()) now_.accuracy = std::min(own.accuracy, has_step(scene_) ? scene_.duration / 40 : 1e-6);
   }
 
   Convergence operator()() {
@@ -97,6 +97,9 @@ class Converger {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// Else it is an equilibrium: mesh and quadrature alone are refined.
+  bool in_time() const { return scene_.analysis == Analysis::dynamics; }
 
   [[noreturn]] void too_small(double error) const {
     throw InvalidInput("--error", number_text(error),
@@ -117,7 +120,8 @@ class Converger {
     ConvergeLevel level{setting, refined, "", nan, {}, 0, 0, 0};
     const Scene scene = with_setting(scene_, setting);
     const RunResult result = simulate(scene, [this](double) { return !interrupted() && !late(); });
-    level.work = static_cast<double>(result.solver.rhs_evaluations) * setting.elements * setting.points;
+    const std::size_t evaluations = in_time() ? result.solver.rhs_evaluations : result.solver.newton.iterations;
+    level.work = static_cast<double>(evaluations) * setting.elements * setting.points;
     level.events = result.events.size();
     for (const Sample& sample : result.samples) level.series.push_back(quantity_.of(sample));
     if (result.status == RunStatus::failed) {
@@ -273,12 +277,13 @@ class Converger {
     const auto meshes = ladder(Refined::mesh, now_);
     ensure(last(meshes, 3), Refined::mesh);
     if (!found_.reason.empty()) return;
-    const Setting half = judged();
-    const auto times = ladder(Refined::time, half);
-    ensure(last(times, 3), Refined::time);
-    if (!found_.reason.empty()) return;
     const double known_to = rounding * std::abs(at(now_)->value);
-    found_.parts[1] = estimate_of(Refined::time, times, known_to);
+    if (in_time()) {
+      const auto times = ladder(Refined::time, judged());
+      ensure(last(times, 3), Refined::time);
+      if (!found_.reason.empty()) return;
+      found_.parts[1] = estimate_of(Refined::time, times, known_to);
+    }
     found_.parts[0] = estimate_of(Refined::mesh, meshes, std::max(known_to, 0.0));
     const double so_far = part(Refined::mesh) + part(Refined::time);
     if (so_far <= found_.error) {
@@ -372,7 +377,7 @@ class Converger {
     const bool nothing_known = late() && found_.finest.elements == 0;
     if (finest == nullptr) return;
     if (!interrupted() && !nothing_known) {
-      predict(*finest);
+      if (in_time()) predict(*finest);
       if (options_.horizon && !late()) look_for_horizon(*finest);
       if (found_.reached) choose_cheapest();
     }
@@ -425,7 +430,7 @@ class Converger {
       break;
     }
     const ConvergeLevel* judge = at(judged());
-    for (const Setting& setting : ladder(Refined::time, judged())) {
+    for (const Setting& setting : in_time() ? ladder(Refined::time, judged()) : std::vector<Setting>()) {
       const ConvergeLevel* level = at(setting);
       if (level == nullptr || !level->failure.empty() || std::abs(level->value - judge->value) > found_.error / 3)
         continue;

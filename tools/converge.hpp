@@ -42,7 +42,8 @@ struct ConvergeLevel {
   std::string failure;         ///< why there is no value, or empty
   double value = 0;            ///< NaN where there is none
   std::vector<double> series;  ///< at the samples
-  double work = 0;             ///< evaluations of the right-hand side or residual, times elements and points
+  double work = 0;  ///< evaluations of the right-hand side or residual (of an equilibrium, Newton iterations),
+                    ///< times elements and points
   std::size_t events = 0;
   double seconds = 0;
 };
@@ -65,7 +66,7 @@ struct ConvergeOptions {
 /// How far the quantity can be trusted.
 struct Convergence {
   std::string quantity, unit;
-  double t = 0;
+  double t = 0;            ///< [s]; of an equilibrium the load factor
   double error = 0;        ///< wanted, in the unit
   double answer = 0;       ///< of the finest setting
   double uncertainty = 0;  ///< of the answer: those of mesh, time and quadrature together
@@ -80,8 +81,9 @@ struct Convergence {
   double cost = 0;  ///< work of all runs over that of the finest
 };
 
-/// Refines mesh, time and quadrature of a scene, each by itself, until the quantity is known to the error wanted, or
-/// until that cannot be reached. Throws InvalidInput for what is not understood, and for an error no level can show.
+/// Refines mesh, time and quadrature of a scene, of an equilibrium without time, each by itself, until the quantity is
+/// known to the error wanted, or until that cannot be reached. Throws InvalidInput for what is not understood, and for
+/// an error no level can show.
 Convergence converge(const Scene& scene, const ConvergeOptions& options);
 
 /// The report (`vlbeam schema converge`), and the table of its levels.

@@ -17,8 +17,9 @@ namespace {
 constexpr std::array<const char*, 3> refined_names{"mesh", "time", "quadrature"};
 
 Json setting_json(const Scene& scene, const Setting& setting) {
-  return {
-      {"elements", setting.elements}, {"quadrature_points", setting.points}, {accuracy_name(scene), setting.accuracy}};
+  Json json = {{"elements", setting.elements}, {"quadrature_points", setting.points}};
+  if (scene.analysis == Analysis::dynamics) json[accuracy_name(scene)] = setting.accuracy;
+  return json;
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ Json convergence_to_json(const Scene& given, const Convergence& found) {
                {"uncertainty", number_or_null(found.uncertainty)},
                {"reached", found.reached}};
   if (!found.reached) json["reason"] = found.reason;
-  json["predictable_until"] = found.predictable_until;
+  if (scene.analysis == Analysis::dynamics) json["predictable_until"] = found.predictable_until;
   if (found.horizon) json["horizon"] = *found.horizon;
   json["setting"] = found.cheapest ? setting_json(scene, *found.cheapest) : Json();
   json["finest"] = setting_json(scene, found.finest);
@@ -63,14 +64,15 @@ Json convergence_to_json(const Scene& given, const Convergence& found) {
 
 std::string convergence_table(const Scene& given, const Convergence& found) {
   const Scene scene = to_converge(given);
-  std::string text = "refined,elements,quadrature_points," + accuracy_name(scene) +
-                     (has_step(scene) ? " [s]" : " [-]") + ",value [" + found.unit + "],difference [" + found.unit +
-                     "],error_bound [" + found.unit + "],work [element evaluations],events\n";
+  const bool in_time = scene.analysis == Analysis::dynamics;
+  const std::string accuracy = in_time ? "," + accuracy_name(scene) + (has_step(scene) ? " [s]" : " [-]") : "";
+  std::string text = "refined,elements,quadrature_points" + accuracy + ",value [" + found.unit + "],difference [" +
+                     found.unit + "],error_bound [" + found.unit + "],work [element evaluations],events\n";
   const auto number = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
   for (const ConvergeLevel& level : found.levels) {
     text += std::string(refined_names[static_cast<std::size_t>(level.refined)]) + "," +
-            std::to_string(level.setting.elements) + "," + std::to_string(level.setting.points) + "," +
-            number_text(level.setting.accuracy) + "," + number(level.value) + "," +
+            std::to_string(level.setting.elements) + "," + std::to_string(level.setting.points) +
+            (in_time ? "," + number_text(level.setting.accuracy) : "") + "," + number(level.value) + "," +
             number(std::abs(level.value - found.answer)) + "," +
             number(std::abs(level.value - found.answer) + found.uncertainty) + "," + number(level.work) + "," +
             std::to_string(level.events) + "\n";
@@ -90,7 +92,8 @@ std::string convergence_summary(const Scene& given, const Convergence& found) {
   const Scene scene = to_converge(given);
   std::ostringstream text;
   const bool known = std::isfinite(found.answer);
-  text << found.quantity << " at t = " << number_text(found.t) << " s: ";
+  const bool in_time = scene.analysis == Analysis::dynamics;
+  text << found.quantity << (in_time ? " at t = " + number_text(found.t) + " s" : " of the equilibrium") << ": ";
   if (known) {
     text << in_digits(found.answer, 10) << " +- " << in_digits(found.uncertainty, 2) << " " << found.unit << '\n';
   } else {
@@ -108,7 +111,7 @@ std::string convergence_summary(const Scene& given, const Convergence& found) {
     if (found.cheapest) text << "  cheapest    " << setting_text(scene, *found.cheapest) << '\n';
   } else {
     text << "  the error wanted, " << in_digits(found.error, 3) << ", is NOT reached: " << found.reason << '\n';
-    if (known) text << "  it is kept until t = " << number_text(found.predictable_until) << " s\n";
+    if (known && in_time) text << "  it is kept until t = " << number_text(found.predictable_until) << " s\n";
   }
   if (found.horizon) {
     text << "  horizon     a density changed in its 8th digit matters less than that until t = "

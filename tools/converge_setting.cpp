@@ -23,8 +23,8 @@ constexpr double explicit_start = 2e-8, implicit_start = 1e-5;
 }  // namespace
 
 std::string setting_text(const Scene& scene, const Setting& s) {
-  return std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points, " +
-         accuracy_name(scene) + " " + six_digits(s.accuracy);
+  const std::string text = std::to_string(s.elements) + " elements, " + std::to_string(s.points) + " quadrature points";
+  return scene.analysis == Analysis::statics ? text : text + ", " + accuracy_name(scene) + " " + six_digits(s.accuracy);
 }
 
 Scene to_converge(const Scene& scene) {
@@ -75,7 +75,9 @@ Scene with_tolerance(const Scene& scene, double share) {
 Scene with_setting(const Scene& given, const Setting& setting) {
   const Scene scene = to_converge(given);
   Scene changed = on_mesh(scene, setting.elements, setting.points);
-  if (has_step(scene)) {
+  if (scene.analysis == Analysis::statics) {
+    // no steps
+  } else if (has_step(scene)) {
     changed.integrator.step = setting.accuracy;
   } else {
     changed = with_tolerance(changed, setting.accuracy / scene.integrator.rtol);

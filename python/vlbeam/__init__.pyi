@@ -113,7 +113,7 @@ class Convergence(Record):
     uncertainty: float
     reached: bool
     reason: str
-    predictable_until: float
+    predictable_until: float  # of motions
     horizon: float
     setting: Record
     finest: Record

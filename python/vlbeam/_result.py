@@ -211,15 +211,18 @@ class Result(_Group):
 class Convergence(Record):
     """How far a quantity can be trusted: what `vlbeam converge` reports (`vlbeam.schema("converge")`).
 
-    answer, uncertainty, error: in `unit`, of `quantity` at time `t` [s]. reached: whether the uncertainty is no more than
+    answer, uncertainty, error: in `unit`, of `quantity` at time `t` [s], or of an equilibrium. reached: whether the uncertainty is no more than
     the error wanted; if not, `reason` says why. setting: the cheapest one that keeps the error. levels: all that was run.
     Every key of the report is an attribute, and a key of a dictionary, too.
     """
 
     def __repr__(self):
-        lines = [f"{self.quantity} at t = {self.t:g} s: {self.answer:.10g} +- {self.uncertainty:.2g} {self.unit}"]
+        lines = [f"{self.quantity}{self._when()}: {self.answer:.10g} +- {self.uncertainty:.2g} {self.unit}"]
         lines += [f"  {name:<12}{value}" for name, value in self._summary()]
         return "\n".join(lines)
+
+    def _when(self):
+        return " of the equilibrium" if self.scene.get("analysis") == "statics" else f" at t = {self.t:g} s"
 
     def _summary(self):
         lines = [(name, f"+- {part.uncertainty:.2g} {self.unit}, " + (f"order {part.order:.3g}" if part.order else part.get("refusal", "no order")))
@@ -230,7 +233,7 @@ class Convergence(Record):
         return lines
 
     def _repr_html_(self):
-        head = f"<b>{html.escape(self.quantity)} = {self.answer:.10g} ± {self.uncertainty:.2g} {html.escape(self.unit)}</b> at t = {self.t:g} s"
+        head = f"<b>{html.escape(self.quantity)} = {self.answer:.10g} ± {self.uncertainty:.2g} {html.escape(self.unit)}</b>{self._when()}"
         return head + _as_html(self._summary(), lambda axes: self.plot(ax=axes))
 
     def to_pandas(self):
