@@ -425,4 +425,17 @@ void plot_convergence(const Json& report, const Look& look, const std::filesyste
   draw_diagram(diagram, look, figure);
 }
 
+void plot_influence(const std::string& title, const Influence& found, const Look& look,
+                    const std::filesystem::path& figure) {
+  const std::string unit = found.lines.front().unit;
+  Diagram diagram{.title = (title.empty() ? "" : title + ": ") + "influence lines",
+                  .x_label = "material coordinate of the load (m)",
+                  .y_label = unit == "1" ? "ordinate (N/N)" : "ordinate (" + unit + ")",
+                  .series = {}};
+  for (const Influence::Line& line : found.lines) {
+    if (line.unit == unit) diagram.series.push_back({line.quantity, found.x, line.ordinates});
+  }
+  draw_diagram(diagram, look, figure);
+}
+
 }  // namespace vlbeam

@@ -7,6 +7,7 @@
 #include "io/json.hpp"
 #include "io/run_file.hpp"
 #include "tools/diagram.hpp"
+#include "tools/influence.hpp"
 
 namespace vlbeam {
 
@@ -20,5 +21,9 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
 
 /// Draws what `vlbeam converge` found: error against work.
 void plot_convergence(const Json& report, const Look& look, const std::filesystem::path& figure);
+
+/// Draws influence lines: one diagram where all have one unit, else of the first that have.
+void plot_influence(const std::string& title, const Influence& found, const Look& look,
+                    const std::filesystem::path& figure);
 
 }  // namespace vlbeam

@@ -32,6 +32,7 @@
 #include "studies/harness/source_folder.hpp"
 #include "tools/checked_run.hpp"
 #include "tools/converge.hpp"
+#include "tools/influence.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/kept_runs.hpp"
 #include "tools/own_sweep.hpp"
@@ -310,6 +311,37 @@ int list_command(bool names_only, const std::string& scenes) {
 int scene_command(const std::string& name, const std::string& scenes) {
   std::cout << library_scene_text(scenes_folder(scenes), name);
   return done;
+}
+
+int influence_command(const InfluenceArguments& arguments) {
+  RunOutputs outputs({{"the scene", arguments.scene}}, {{"--csv", arguments.csv}, {"--figure", arguments.figure}},
+                     true);
+  const Scene scene = read_scene(arguments.scene);
+  install_interrupt_handler();
+  InfluenceOptions options{.quantities = arguments.quantities,
+                           .force = arguments.force,
+                           .intervals = arguments.intervals,
+                           .jobs = jobs_or_processors(arguments.jobs)};
+  if (!arguments.direction.empty()) {
+    if (arguments.direction.size() != static_cast<std::size_t>(scene.dimension)) {
+      throw InvalidInput("--direction", std::to_string(arguments.direction.size()) + " components",
+                         "it must have " + std::to_string(scene.dimension) + ", as the scene has dimensions");
+    }
+    std::copy(arguments.direction.begin(), arguments.direction.end(), options.direction.emplace().begin());
+  }
+  const Influence found = influence(scene, options);
+  if (interrupted()) {
+    std::cerr << "vlbeam: interrupted; nothing was written\n";
+    return interrupted_exit_code();
+  }
+  const auto status = RunStatus::completed;
+  outputs.write(arguments.csv, status, [&](const TextSink& sink) { sink(influence_table(found)); });
+  outputs.write_with(arguments.figure, status,
+                     [&](const std::filesystem::path& file) { plot_influence(scene.title, found, {}, file); });
+  std::cerr << influence_summary(found);
+  for (const std::string& file : outputs.written()) std::cerr << "  written     " << printable(file) << '\n';
+  for (const std::string& problem : outputs.problems()) std::cerr << "vlbeam: " << printable(problem) << '\n';
+  return outputs.all_written() && found.failure.empty() ? done : computation_failed;
 }
 
 int converge_command(const ConvergeArguments& arguments) {

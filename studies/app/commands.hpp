@@ -68,6 +68,16 @@ struct ConvergeArguments {
   bool quiet = false;                                      ///< nothing while it computes
 };
 
+struct InfluenceArguments {
+  std::string scene;                    ///< "-" is standard input
+  std::vector<std::string> quantities;  ///< at least one
+  std::optional<double> force;          ///< [N]
+  std::vector<double> direction;        ///< empty: along gravity
+  int intervals = 1;                    ///< an element
+  std::string csv, figure;              ///< empty for none; "-" is standard output
+  int jobs = 0;                         ///< 0: one a processor
+};
+
 struct SweepArguments {
   std::string sweep;
   std::string out;          ///< empty: the sweep's name without .json
@@ -117,6 +127,7 @@ int claims_command(const ClaimsArguments& arguments);
 int list_command(bool names_only, const std::string& scenes);
 int scene_command(const std::string& name, const std::string& scenes);
 int converge_command(const ConvergeArguments& arguments);
+int influence_command(const InfluenceArguments& arguments);
 int sweep_command(const SweepArguments& arguments);
 int compare_command(const CompareArguments& arguments);
 int score_command(const ScoreArguments& arguments);

@@ -139,6 +139,28 @@ int dispatch(int argc, char** argv) {
 
   converge->add_flag("--quiet,-q", converge_arguments.quiet, "Nothing about the runs while they go on");
 
+  vlbeam::InfluenceArguments influence_arguments;
+  CLI::App* influence = app.add_subcommand(
+      "influence", "Influence lines: what a load of one newton does, wherever it stands on a beam at rest");
+  influence->add_option("scene", influence_arguments.scene, "Scene file, of statics; - reads standard input")
+      ->required();
+  influence
+      ->add_option(
+          "--quantity", influence_arguments.quantities,
+          "As samples name it: places.mid.bending_moment, reactions.start.position.y; may be given several times")
+      ->required();
+  influence->add_option("--force", influence_arguments.force,
+                        "Load by which the beam is disturbed [N] (default: small beside its weight)");
+  influence->add_option("--direction", influence_arguments.direction, "Of the load (default: along gravity)")
+      ->expected(2, 3);
+  influence->add_option("--intervals", influence_arguments.intervals, "An element, at whose ends the load stands")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  influence->add_option("--csv", influence_arguments.csv, "Write the ordinates (CSV) here; - is standard output");
+  influence->add_option("--figure", influence_arguments.figure, "Draw them here (SVG or PNG)");
+  influence->add_option("--jobs,-j", influence_arguments.jobs, "Runs at a time (default: one a processor)")
+      ->check(CLI::NonNegativeNumber);
+
   vlbeam::SweepArguments sweep_arguments;
   CLI::App* sweep =
       app.add_subcommand("sweep", "Run a scene for many values of its options; goes on where it was stopped");
@@ -231,6 +253,9 @@ int dispatch(int argc, char** argv) {
            "  vlbeam converge scene.json --quantity end.y --error 1e-3\n"
            "  vlbeam converge scene.json --quantity end.y --error 1e-4 --relative --at 0.2 --limit 60\n"
            "  vlbeam converge scene.json --quantity energy.kinetic --error 1e-3 --report c.json --figure c.svg\n");
+  examples(influence,
+           "  vlbeam influence bridge.json --quantity places.mid.bending_moment --csv - --figure moment.svg\n"
+           "  vlbeam influence bridge.json --quantity reactions.start.position.y --intervals 4\n");
   examples(sweep,
            "  vlbeam sweep sweep.json                                   all cases, into sweep/\n"
            "  vlbeam sweep sweep.json --case 3                          one of them, as a job of a cluster\n"
@@ -266,6 +291,7 @@ int dispatch(int argc, char** argv) {
   if (*list) return vlbeam::list_command(names_only, scenes);
   if (*scene) return vlbeam::scene_command(scene_name, scenes);
   if (*converge) return vlbeam::converge_command(converge_arguments);
+  if (*influence) return vlbeam::influence_command(influence_arguments);
   if (*sweep) return vlbeam::sweep_command(sweep_arguments);
   if (*compare) return vlbeam::compare_command(compare_arguments);
   if (*score) return vlbeam::score_command(score_arguments);
