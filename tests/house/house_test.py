@@ -101,6 +101,27 @@ def upward_includes():
     return dict(sorted(count.items()))
 
 
+MOST_LINES = 400  # of a file of the heart
+MODEL = "mechanics/motion/system/beam_model.hpp"
+
+
+def reached(path, seen):
+    """Headers of this project that a file includes, and these in turn."""
+    for included in re.findall(r'#include "([^"]+)"', (ROOT / path).read_text(encoding="utf-8")):
+        if included not in seen:
+            seen.add(included)
+            reached(included, seen)
+    return seen
+
+
+def sizes_of_the_heart():
+    """What a reader of the heart meets."""
+    long = [file for file in sources() if library_of(file.relative_to(ROOT).as_posix()) in HEART
+            and len(file.read_text(encoding="utf-8").splitlines()) > MOST_LINES]
+    return {"headers that the model's header reaches": len(reached(MODEL, set())),
+            f"files above {MOST_LINES} lines": len(long)}
+
+
 # The floors of the house: a file includes its own and those before it.
 FLOORS = ("core", "mechanics", "scene", "io", "tools", "studies/harness", "studies")
 
@@ -126,6 +147,7 @@ def arrows_upwards():
 def main():
     now, found = counted()
     now["includes upwards within the heart"] = upward_includes()
+    now["sizes of the heart"] = sizes_of_the_heart()
     if "--list" in sys.argv:
         print("\n".join(found))
         return 0
