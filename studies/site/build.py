@@ -54,6 +54,8 @@ DOCUMENTS = {
     theory.INDEX: ("Theory", "The equations, numbered, from kinematics to integration in time."),
     "core/README.md": ("The element library", "What each folder holds, and an hour's path through it."),
     "mechanics/README.md": ("A beam in motion", "The heart and its rooms, and an afternoon's path."),
+    "io/README.md": ("Files", "Scenes, reports, schemas, tables: where each is read and written."),
+    "tools/README.md": ("Tools", "Runs that tell their error, converge, sweep, influence lines, plots."),
     "studies/README.md": ("Writing a study", "A driver, a sweep as data, gates, claims."),
     "CONTRIBUTING.md": ("Contributing", "How to add a part, a scene, a study, an option."),
 }
