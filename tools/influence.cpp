@@ -86,23 +86,25 @@ Influence influence(const Scene& scene, const InfluenceOptions& options) {
   for (int i = 0; i <= last; ++i) found.x.push_back(i == last ? length : length * i / last);
 
   struct Case {
-    double x, force;
+    int place;
+    double force;
   };
   std::vector<Case> cases;
-  for (const double x : found.x) {
-    for (const double sign : {1.0, -1.0}) cases.push_back({x, sign * found.force});
+  for (int i = 0; i <= last; ++i) {
+    for (const double sign : {1.0, -1.0}) cases.push_back({i, sign * found.force});
   }
   const auto run = [&](const Case& item) -> Loaded {
     Scene loaded = scene;
     loaded.output.configurations.clear();
     LoadSpec& load = loaded.loads.emplace_back();
-    load.at = LoadPlace::point;
-    load.x.value = item.x;
+    load.at = item.place % options.intervals == 0 ? LoadPlace::node : LoadPlace::point;
+    load.node = item.place / options.intervals;
+    load.x.value = found.x[static_cast<std::size_t>(item.place)];
     load.magnitude.value = item.force;
     load.direction = direction;
     validate(loaded);
     const RunResult result = simulate(loaded, [](double) { return !interrupted(); });
-    if (result.status != RunStatus::completed) throw ComputationFailed(result.failure, item.x);
+    if (result.status != RunStatus::completed) throw ComputationFailed(result.failure, load.x.value);
     Loaded seen;
     for (const Quantity& quantity : quantities) seen.values.push_back(quantity.of(result.samples.back()));
     return seen;

@@ -428,7 +428,9 @@ void plot_convergence(const Json& report, const Look& look, const std::filesyste
 void plot_influence(const std::string& title, const Influence& found, const Look& look,
                     const std::filesystem::path& figure) {
   const std::string unit = found.lines.front().unit;
-  Diagram diagram{.title = (title.empty() ? "" : title + ": ") + "influence lines",
+  const bool one = found.lines.size() == 1;
+  Diagram diagram{.title = (title.empty() ? "" : title + ": ") +
+                           (one ? "influence line of " + found.lines.front().quantity : "influence lines"),
                   .x_label = "material coordinate of the load (m)",
                   .y_label = unit == "1" ? "ordinate (N/N)" : "ordinate (" + unit + ")",
                   .series = {}};

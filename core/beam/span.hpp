@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
+#include "core/beam/lumped_mass.hpp"
 #include "core/beam/mesh.hpp"
 #include "core/beam/node_block.hpp"
-#include "core/beam/lumped_mass.hpp"
 #include "core/beam/span_kernels.hpp"
 #include "core/beam/support.hpp"
 

@@ -255,8 +255,8 @@ double AssemblyEquations<D>::turning(const Eigen::VectorXd& q, const Eigen::Vect
 }
 
 template <int D>
-EnergyBalance AssemblyEquations<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                           double t) {
+EnergyBalance AssemblyEquations<D>::supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                   const Eigen::VectorXd& a, double t) {
   refresh();
   link_forces(q, v, a, forces_);
   hand_out(forces_);

@@ -39,7 +39,8 @@ class AssemblyEquations final : public SecondOrderSystem {
   bool driven_offset(const Eigen::VectorXd& q, double t, Eigen::VectorXd& offset) const override;
   double turning(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const override;
   BalanceEntries balance() const override { return system_.balance(); }
-  EnergyBalance supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double t) override;
+  EnergyBalance supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                               double t) override;
   std::optional<double> power_lost_between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                                            const Eigen::VectorXd& a0, const Eigen::VectorXd& a1, double h,
                                            double t) override;

@@ -95,7 +95,7 @@ class BodyEquations final : public SecondOrderSystem {
   }
   BalanceEntries balance() const override { return body_.balance(); }
   EnergyBalance supplied_power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& /*a*/,
-                       double t) override {
+                               double t) override {
     EnergyBalance power;
     Eigen::VectorXd none = Eigen::VectorXd::Zero(own_);
     power.loads = body_.add_forces(q.data(), v.data(), t, none.data());

@@ -19,7 +19,8 @@ class Flow final : public MeshEquations<D> {
   double add_residual(const double* q, const double* rate, const double* a, double t, double* r) override;
   void add_inertia(const double* a, double* r) const override { mesh().add_inertia(elements_, a, r); }
   void add_tangent(const Motion<D>& now, const TangentWeights& by, BeamMatrix<D>& tangent) const override;
-  EnergyBalance power(const Elements* elements, const double* q, const double* rate, const double* a, double t) override;
+  EnergyBalance power(const Elements* elements, const double* q, const double* rate, const double* a,
+                      double t) override;
 
  private:
   MovingMesh<D>& mesh() const { return moving_mesh_of(beam_); }

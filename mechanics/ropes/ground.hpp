@@ -5,8 +5,8 @@
 #include "core/geometry/elementary.hpp"
 #include "mechanics/contact/one_sided.hpp"
 #include "mechanics/motion/joint/axial_friction.hpp"
-#include "mechanics/motion/parts/part.hpp"
 #include "mechanics/motion/parts/acting_point_masses.hpp"
+#include "mechanics/motion/parts/part.hpp"
 #include "mechanics/ropes/line_force.hpp"
 
 namespace vlbeam {

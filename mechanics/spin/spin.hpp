@@ -6,8 +6,8 @@
 
 #include "core/tangent_weights.hpp"
 #include "mechanics/spin/spin_chain.hpp"
-#include "mechanics/time/fields.hpp"
 #include "mechanics/time/energy_balance.hpp"
+#include "mechanics/time/fields.hpp"
 
 namespace vlbeam {
 
@@ -79,7 +79,8 @@ class Spin {
   /// Puts the equations of driven angles in place of theirs.
   void drive(const double* a, double t, double* r) const;
   /// Powers of drives and torques at the accelerations `a`; `more` acts on the angles, too, unless it is null.
-  EnergyBalance power(const double* q, const double* rate, const double* a, double t, const Eigen::VectorXd* more = nullptr);
+  EnergyBalance power(const double* q, const double* rate, const double* a, double t,
+                      const Eigen::VectorXd* more = nullptr);
   /// Torque of each drive on the beam [N m], from what residual() wrote.
   std::vector<double> drive_torques(const double* residual) const;
   /// Adds the torques; returns their power [W]. What they do along the beam [N] is added to `on_marks`, one entry a

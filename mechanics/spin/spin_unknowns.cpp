@@ -194,7 +194,8 @@ void SpinUnknowns<D>::follow(const double* /*q*/, const double* /*rate*/, double
 }
 
 template <int D>
-EnergyBalance SpinUnknowns<D>::power(const double* q, const double* rate, const double* a, double t, const double* free) {
+EnergyBalance SpinUnknowns<D>::power(const double* q, const double* rate, const double* a, double t,
+                                     const double* free) {
   Eigen::VectorXd by_nut;
   const auto which = nut_place();
   if (free != nullptr && which) by_nut = nut_torque(*which, q, rate, free[beam_.places()[*which].mark]);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/tangent_weights.hpp"
-#include "mechanics/time/assign.hpp"
 #include "mechanics/time/archive.hpp"
+#include "mechanics/time/assign.hpp"
 #include "mechanics/time/energy_balance.hpp"
 
 namespace vlbeam {
@@ -36,7 +36,7 @@ struct EndAccelerations {
   Eigen::VectorXd true_acceleration;  ///< q'' that satisfies the equations of motion
   Eigen::VectorXd a;                  ///< the method's own acceleration
   double h = 0;                       ///< [s], length of the step that `a` belongs to
-  EnergyBalance power;                        ///< [W]
+  EnergyBalance power;                ///< [W]
 
   void resize(Eigen::Index coordinates) {
     true_acceleration.resize(coordinates);

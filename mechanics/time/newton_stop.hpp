@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "mechanics/time/fields.hpp"
 #include "mechanics/time/archive.hpp"
+#include "mechanics/time/fields.hpp"
 
 namespace vlbeam {
 

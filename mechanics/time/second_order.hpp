@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/tangent_weights.hpp"
-#include "mechanics/time/fields.hpp"
 #include "mechanics/time/archive.hpp"
-#include "mechanics/time/solver_counters.hpp"
 #include "mechanics/time/energy_balance.hpp"
+#include "mechanics/time/fields.hpp"
+#include "mechanics/time/solver_counters.hpp"
 
 namespace vlbeam {
 
@@ -69,8 +69,8 @@ class SecondOrderSystem {
   /// Which energies the state counts.
   virtual BalanceEntries balance() const { return {}; }
   /// Powers with which supports and loads do work at (q, v, a, t) [W].
-  virtual EnergyBalance supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*a*/,
-                               double /*t*/) {
+  virtual EnergyBalance supplied_power(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                       const Eigen::VectorXd& /*a*/, double /*t*/) {
     return {};
   }
   /// Power lost to damping half-way between two states, by the velocity of the way from the one to the other in a time

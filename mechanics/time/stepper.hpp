@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "mechanics/time/integration_method.hpp"
 #include "mechanics/time/archive.hpp"
+#include "mechanics/time/integration_method.hpp"
 #include "mechanics/time/ode.hpp"
 
 namespace vlbeam {

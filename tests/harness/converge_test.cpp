@@ -77,11 +77,11 @@ TEST(Converge, MostUncertaintiesAreCloseToTheTrueError) {
 
 /// A cantilever of length 1 under P = EI: its tip sinks by 0.30172 (Mattiasson, Int. J. Numer. Meth. Eng. 17, 1981).
 TEST(Converge, KnowsAnEquilibrium) {
-  Scene scene = scene_from_json(Json::parse(R"({"analysis": "statics",
+  Scene scene = scene_from_json(Json::parse(R"({"analysis": "statics", "gravity": [0, 0],
     "beam": {"curve": {"type": "line", "end": [1, 0]}, "elements": 4,
              "section": {"type": "stiffness", "EA": 1e7, "EI": 1, "rhoA": 1}},
     "supports": [{"at": "start", "type": "clamp"}],
-    "loads": [{"node": 4, "type": "force", "direction": [0, -1], "magnitude": 1}]})"));
+    "loads": [{"node": 4, "type": "force", "direction": [0, -1], "magnitude": {"value": 1}}]})"));
   const Convergence found = converge(scene, {.quantity = "end.y", .error = 1e-6});
   EXPECT_TRUE(found.reached) << found.reason;
   EXPECT_NEAR(found.answer, -0.30172, found.uncertainty + 5e-6);

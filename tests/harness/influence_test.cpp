@@ -20,7 +20,7 @@ Scene girder(const std::string& more = "") {
              "section": {"type": "stiffness", "EA": 4e9, "EI": 1e8, "rhoA": 100}},
     "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "slide"})" +
                                      more + R"(],
-    "output": {"places": [{"name": "mid", "x": 5}, {"name": "quarter", "x": 2.5}]}})"));
+    "places": [{"name": "mid", "x": 5}, {"name": "quarter", "x": 2.5}]})"));
 }
 
 TEST(Influence, OfAGirderOnTwoSupportsIsStraight) {
