@@ -17,7 +17,7 @@ namespace {
 
 using Points = std::vector<ShapePoint>;
 
-constexpr const char* head = "<?xml version=\"1.0\"?>\n";
+constexpr const char* file_head = "<?xml version=\"1.0\"?>\n";
 
 TextWriter& operator<<(TextWriter& out, const Point& v) { return out << v[0] << " " << v[1] << " " << v[2]; }
 
@@ -30,7 +30,7 @@ void data_array(const std::string& attributes, const Points& points, const Of& o
 
 void write_grid(const Points& points, std::size_t elements, int per_element, TextWriter& out) {
   const auto lines = elements * static_cast<std::size_t>(per_element);
-  out << head
+  out << file_head
       << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <UnstructuredGrid>\n"
       << "    <Piece NumberOfPoints=\"" << std::to_string(points.size()) << "\" NumberOfCells=\""
       << std::to_string(lines) << "\">\n      <Points>\n";
@@ -70,7 +70,7 @@ std::string file_name(std::size_t i) {
 
 void write_vtk(const Scene& scene, const Shapes& shapes, int per_element, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  std::string series = head;
+  std::string series = file_head;
   series += "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
   std::size_t count = 0;
   const auto part_of = [&scene](const Configuration& shape) {
