@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The checks that take too long for each change, one after another; all run, whatever fails. What was found stands in
 # build-nightly/: a log for each, and last.txt, which .ci/run repeats.
-#   scripts/nightly.sh [STAGE...]   sanitizers, fuzzing, mutants, documents, studies, trust (default: all)
+#   scripts/nightly.sh [STAGE...]   sanitizers, fuzzing, mutants, documents, studies, trust, fifty (default: all)
 set -uo pipefail
 cd "$(dirname "$0")/.."
 out=build-nightly
@@ -34,11 +34,13 @@ trust() {  # all scenes of the study, of which its report has every fourth
   build/vlbeam study trust --studies $out/trust/studies --out $out/trust/reports --jobs "$jobs"
 }
 
+fifty() { make build && scripts/converge_fifty.py build/vlbeam $out/fifty; }
+
 scripts/packages.sh ci || exit 1
 failed=0
 {
   echo "$(date -u '+%F %R'), commit $(git rev-parse --short HEAD)"
-  for stage in "${@:-sanitizers fuzzing mutants documents studies trust}"; do
+  for stage in "${@:-sanitizers fuzzing mutants documents studies trust fifty}"; do
     for name in $stage; do
       SECONDS=0
       verdict=passed
