@@ -242,7 +242,9 @@ class Reader {
         throw InvalidInput(field, InvalidInput::missing, "it must be " + allowed_text<T>(option));
       }
     } else if (!option.when.holds) {
-      throw InvalidInput(field, "this key", "it is used only where " + text(option.when));
+      const std::string beside =
+          option.instead.empty() ? "" : ", and not beside \"" + std::string(option.instead) + "\"";
+      throw InvalidInput(field, "this key", "it is used only where " + text(option.when) + beside);
     } else if (!read(*value, option, member)) {
       throw InvalidInput(field, excerpt(*value), "it must be " + allowed_text<T>(option));
     }

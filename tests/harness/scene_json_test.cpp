@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "scene/automatic_integrator.hpp"
+#include "scene/names.hpp"
 #include "tests/harness/example_scene.hpp"
 
 namespace vlbeam {
@@ -93,6 +94,22 @@ TEST(SceneJson, SectionByStiffness) {
   EXPECT_EQ(scene.beam.section.type, Section::Type::stiffness);
   EXPECT_EQ(scene.beam.section.EA, 100);
   EXPECT_FALSE(scene_to_json(scene)["beam"]["material"].contains("density"));
+}
+
+TEST(SceneJson, AProfileHasANameOrSizes) {
+  const Json named = {{"duration", 1}, {"beam", {{"section", {{"type", "profile"}, {"standard", "IPE 300"}}}}}};
+  const Scene scene = scene_from_json(named);
+  EXPECT_EQ(to_string(scene.beam.section.standard.value()), "IPE 300");
+  EXPECT_EQ(scene_to_json(scene_from_json(scene_to_json(scene))), scene_to_json(scene));
+  Json both = named;
+  both["beam"]["section"]["width"] = 0.15;
+  try {
+    scene_from_json(both);
+    FAIL() << "a name and a size";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, "/beam/section/width");
+    EXPECT_NE(std::string(error.what()).find("not beside \"standard\""), std::string::npos) << error.what();
+  }
 }
 
 TEST(SceneJson, SectionsStandInPlaceOfOne) {
