@@ -40,6 +40,7 @@ constexpr double aimed_share = 0.8;   // of what is allowed, when a run is done 
 constexpr double most_growth = 3;     // of the steps of a repetition, over what its ratio would make of them
 constexpr double finest_ratio = 4;    // of steps from one repetition to the next
 constexpr double hopeless_ratio = 8;  // that the order seen asks for: a second repetition would be far from it
+constexpr double near_tie = 1e-12;    // relative: thousands of times what the C library's powers err
 constexpr double least_order_seen =
     0.5;                         // below, runs differ as much with shorter steps: no repetition brings them together
 constexpr double much_more = 3;  // of what is wrong along the beam, over that of its end, joints and masses
@@ -507,12 +508,6 @@ class Checked {
   RunError error_;
   Places mesh_places_, time_places_;
 };
-
-}  // namespace
-
-namespace {
-
-constexpr double near_tie = 1e-12;  // relative: thousands of times what the C library's powers err
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 #include "scene/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
-#include "scene/section_data.hpp"
+#include "scene/sections.hpp"
 #include "scene/simulate.hpp"
 #include "scene/validate.hpp"
 #include "tools/interrupt.hpp"
@@ -33,8 +33,8 @@ Point usual_direction(const Scene& scene) {
 
 /// A force that changes little: a share of the weight, or of what bends the beam by a usual strain.
 double usual_force(const Scene& scene) {
-  const BeamSection section = build_section(scene.beam);
-  const double length = beam_length(scene), weight = section.rhoA * length * size(scene.gravity);
+  const BeamSection section = build_section(scene);
+  const double length = beam_length(scene), weight = mean_mass(scene.beam, length) * length * size(scene.gravity);
   const double bends = section.stiffness.EI / (length * length), stretches = usual_strain * section.stiffness.EA;
   return small_share * (weight > 0 ? weight : bends > 0 ? bends : stretches);
 }
@@ -46,9 +46,20 @@ std::string over_a_newton(const std::string& unit) {
   return unit + "/N";
 }
 
-struct Loaded {
-  std::vector<double> values;  ///< of the quantities
-};
+/// The nodes, and so many intervals between each two of them.
+std::vector<double> places_of_load(const Scene& scene, int intervals) {
+  const std::vector<double> breaks =
+      scene.dimension == 2 ? build_axis<2>(scene).breaks() : build_axis<3>(scene).breaks();
+  const std::vector<double> nodes = place_nodes(scene, breaks).x;
+  std::vector<double> places{nodes.front()};
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    for (int i = 1; i <= intervals; ++i) {
+      const double share = static_cast<double>(i) / intervals;
+      places.push_back((1 - share) * nodes[k] + share * nodes[k + 1]);
+    }
+  }
+  return places;
+}
 
 void sum_up(const std::vector<double>& x, Influence::Line& line) {
   line.least = line.largest = no_number;
@@ -81,33 +92,31 @@ Influence influence(const Scene& scene, const InfluenceOptions& options) {
 
   Influence found;
   found.force = options.force.value_or(usual_force(scene));
-  const int last = scene.beam.elements * options.intervals;
-  const double length = beam_length(scene);
-  for (int i = 0; i <= last; ++i) found.x.push_back(i == last ? length : length * i / last);
+  found.x = places_of_load(scene, options.intervals);
 
   struct Case {
-    int place;
-    double force;
+    double x, force;
   };
   std::vector<Case> cases;
-  for (int i = 0; i <= last; ++i) {
-    for (const double sign : {1.0, -1.0}) cases.push_back({i, sign * found.force});
+  for (const double x : found.x) {
+    for (const double sign : {1.0, -1.0}) cases.push_back({x, sign * found.force});
   }
-  const auto run = [&](const Case& item) -> Loaded {
+  const auto run = [&](const Case& item) {
     Scene loaded = scene;
     loaded.output.configurations.clear();
     LoadSpec& load = loaded.loads.emplace_back();
-    load.at = item.place % options.intervals == 0 ? LoadPlace::node : LoadPlace::point;
-    load.node = item.place / options.intervals;
-    load.x.value = found.x[static_cast<std::size_t>(item.place)];
+    const bool at_end = item.x == found.x.front() || item.x == found.x.back();
+    load.at = at_end ? LoadPlace::node : LoadPlace::point;
+    load.node = item.x == found.x.front() ? 0 : scene.beam.elements;
+    load.x.value = item.x;
     load.magnitude.value = item.force;
     load.direction = direction;
     validate(loaded);
     const RunResult result = simulate(loaded, [](double) { return !interrupted(); });
-    if (result.status != RunStatus::completed) throw ComputationFailed(result.failure, load.x.value);
-    Loaded seen;
-    for (const Quantity& quantity : quantities) seen.values.push_back(quantity.of(result.samples.back()));
-    return seen;
+    if (result.status != RunStatus::completed) throw ComputationFailed(result.failure, item.x);
+    std::vector<double> values;
+    for (const Quantity& quantity : quantities) values.push_back(quantity.of(result.samples.back()));
+    return values;
   };
   const auto outcomes = sweep("influence", cases, options.jobs, run, [](const Case&) { return 1; });
   for (std::size_t q = 0; q < quantities.size(); ++q) {
@@ -118,7 +127,7 @@ Influence influence(const Scene& scene, const InfluenceOptions& options) {
       const auto &there = outcomes[2 * i], &back = outcomes[2 * i + 1];
       const bool both = there && back;
       if (!both && found.failure.empty()) found.failure = there ? back.failure : there.failure;
-      line.ordinates.push_back(both ? (there->values[q] - back->values[q]) / (2 * found.force) : no_number);
+      line.ordinates.push_back(both ? ((*there)[q] - (*back)[q]) / (2 * found.force) : no_number);
     }
     sum_up(found.x, line);
   }

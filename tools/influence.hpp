@@ -13,7 +13,7 @@ struct InfluenceOptions {
   std::vector<std::string> quantities;  ///< as samples name them
   std::optional<double> force = {};     ///< [N] by which it is disturbed; if not given, small beside what it bears
   std::optional<Point> direction = {};  ///< of the load; along gravity if not given, or against the last axis but x
-  int intervals = 1;                    ///< an element, at whose ends the load stands
+  int intervals = 1;                    ///< an element, at whose ends the load stands: at 1 the nodes
   int jobs = 1;                         ///< equilibria at a time
 };
 

@@ -427,15 +427,16 @@ void plot_convergence(const Json& report, const Look& look, const std::filesyste
 
 void plot_influence(const std::string& title, const Influence& found, const Look& look,
                     const std::filesystem::path& figure) {
-  const std::string unit = found.lines.front().unit;
   const bool one = found.lines.size() == 1;
+  const std::string unit = found.lines.front().unit;
+  const bool one_unit = std::ranges::all_of(found.lines, [&](const auto& line) { return line.unit == unit; });
   Diagram diagram{.title = (title.empty() ? "" : title + ": ") +
                            (one ? "influence line of " + found.lines.front().quantity : "influence lines"),
                   .x_label = "material coordinate of the load (m)",
-                  .y_label = unit == "1" ? "ordinate (N/N)" : "ordinate (" + unit + ")",
+                  .y_label = one_unit ? "ordinate (" + unit + ")" : "ordinate (units in the key)",
                   .series = {}};
   for (const Influence::Line& line : found.lines) {
-    if (line.unit == unit) diagram.series.push_back({line.quantity, found.x, line.ordinates});
+    diagram.series.push_back({line.quantity + (one_unit ? "" : " (" + line.unit + ")"), found.x, line.ordinates});
   }
   draw_diagram(diagram, look, figure);
 }

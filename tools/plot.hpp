@@ -22,7 +22,7 @@ void plot_run(const RunFile& run, const std::string& what, const std::vector<std
 /// Draws what `vlbeam converge` found: error against work.
 void plot_convergence(const Json& report, const Look& look, const std::filesystem::path& figure);
 
-/// Draws influence lines: one diagram where all have one unit, else of the first that have.
+/// Draws influence lines into one diagram.
 void plot_influence(const std::string& title, const Influence& found, const Look& look,
                     const std::filesystem::path& figure);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -39,6 +40,17 @@ TEST(Influence, OfAGirderOnTwoSupportsIsStraight) {
   EXPECT_NEAR(std::max(moment.largest, -moment.least), L / 4, 1e-5);
   EXPECT_NEAR(std::abs(moment.area), L * L / 8, 1e-4) << "q L^2/8";
   EXPECT_NEAR(reaction.at_largest, 0, 1e-12);
+}
+
+/// A node stands where a point mass is, and its neighbours are no longer evenly spaced.
+TEST(Influence, KnowsWhereNodesStand) {
+  Scene scene = girder();
+  scene.point_masses.push_back({.mass = 10, .position = 3.3});
+  const Influence found = influence(scene, {.quantities = {"reactions.start.position.y"}, .jobs = 2});
+  EXPECT_NE(std::ranges::find_if(found.x, [](double x) { return std::abs(x - 3.3) < 1e-12; }), found.x.end());
+  for (std::size_t i = 0; i < found.x.size(); ++i) {
+    EXPECT_NEAR(found.lines[0].ordinates[i], 1 - found.x[i] / L, 1e-6) << found.x[i];
+  }
 }
 
 /// With the load at a in the first of two equal spans the middle support bears (3 s - s^3)/2, s = 2 a/L.

@@ -127,8 +127,8 @@ FLOORS = ("core", "mechanics", "scene", "io", "tools", "studies/harness", "studi
 
 
 def floor_of(path):
-    return next((i for i in reversed(range(len(FLOORS))) if path.startswith(FLOORS[i] + "/") and
-                 not (FLOORS[i] == "studies" and path.startswith("studies/harness/"))), None)
+    floors = [floor for floor in FLOORS if path.startswith(floor + "/")]
+    return FLOORS.index(max(floors, key=len)) if floors else None
 
 
 def arrows_upwards():
