@@ -40,7 +40,6 @@ constexpr double aimed_share = 0.8;   // of what is allowed, when a run is done 
 constexpr double most_growth = 3;     // of the steps of a repetition, over what its ratio would make of them
 constexpr double finest_ratio = 4;    // of steps from one repetition to the next
 constexpr double hopeless_ratio = 8;  // that the order seen asks for: a second repetition would be far from it
-constexpr double near_tie = 1e-12;    // relative: thousands of times what the C library's powers err
 constexpr double least_order_seen =
     0.5;                         // below, runs differ as much with shorter steps: no repetition brings them together
 constexpr double much_more = 3;  // of what is wrong along the beam, over that of its end, joints and masses
@@ -200,10 +199,10 @@ Told told(const Track::Row& row, const Seen* first, const Seen* second, OrderRan
   Told told;
   told.t = found.t;
   told.of_axis = row.quantity == "shape";
+  if (found.first.empty()) return told;
+  const ErrorOrders runs(first->ratio, second != nullptr ? second->ratio : 1, orders);
   for (std::size_t i = 0; i < found.first.size(); ++i) {
-    const bool both = i < found.second.size();
-    const ToldError at = told_error(found.first[i], both ? found.second[i] : -1, first->ratio,
-                                    second != nullptr ? second->ratio : 1, orders);
+    const ToldError at = runs.told(found.first[i], i < found.second.size() ? found.second[i] : -1);
     told.error.push_back(told.error.empty() ? at.error : std::max(at.error, told.error.back()));
     told.order = at.order;
     told.falls = at.falls;
@@ -511,25 +510,38 @@ class Checked {
 
 }  // namespace
 
-ToldError told_error(double distance, double next, double ratio, double next_ratio, OrderRange orders) {
-  if (next < 0) return {distance / (ratio - 1), 1};
-  const auto growth = [&](double p) {  // of the distances, with errors that go with the power p
-    const double first = portable::pow(ratio, p);
-    return first * (portable::pow(next_ratio, p) - 1) / (first - 1);
-  };
-  // the same powers on all machines take most of a run: they are asked where the C library's leave a tie
-  const auto grown = [&](double p) {
-    const double first = std::pow(ratio, p), roughly = first * (std::pow(next_ratio, p) - 1) / (first - 1) * distance;
-    return std::abs(roughly - next) > near_tie * std::max(roughly, next) ? roughly : growth(p) * distance;
-  };
-  double low = orders.lowest, high = orders.best;
-  constexpr int halvings = 30;
-  for (int i = 0; i < halvings; ++i) {
+ErrorOrders::ErrorOrders(double ratio, double next_ratio, OrderRange orders)
+    : ratio_(ratio),
+      orders_(orders),
+      lowest_(power(ratio, next_ratio, orders.lowest)),
+      least_seen_(growth(power(ratio, next_ratio, least_order_seen))) {
+  // powers of half an order are square roots, which all machines take alike
+  Powers step = power(ratio, next_ratio, orders.best - orders.lowest);
+  for (Powers& half : halves_) half = step = {std::sqrt(step.first), std::sqrt(step.next)};
+}
+
+ErrorOrders::Powers ErrorOrders::power(double ratio, double next_ratio, double order) {
+  return {portable::pow(ratio, order), portable::pow(next_ratio, order)};
+}
+
+double ErrorOrders::growth(Powers of) { return of.first * (of.next - 1) / (of.first - 1); }
+
+ToldError ErrorOrders::told(double distance, double next) const {
+  if (next < 0) return {distance / (ratio_ - 1), 1};
+  double low = orders_.lowest, high = orders_.best;
+  Powers at_low = lowest_;
+  for (const Powers& half : halves_) {
     const double middle = (low + high) / 2;
-    (grown(middle) < next ? low : high) = middle;
+    const Powers at_middle{at_low.first * half.first, at_low.next * half.next};
+    if (growth(at_middle) * distance < next) {
+      low = middle;
+      at_low = at_middle;
+    } else {
+      high = middle;
+    }
   }
   const double order = (low + high) / 2;
-  return {distance / (portable::pow(ratio, order) - 1), order, next >= grown(least_order_seen)};
+  return {distance / (portable::pow(ratio_, order) - 1), order, next >= least_seen_ * distance};
 }
 
 bool has_automatic_steps(const Scene& scene) {

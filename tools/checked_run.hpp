@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "scene/simulate.hpp"
 
 namespace vlbeam {
@@ -23,9 +25,7 @@ bool has_automatic_steps(const Scene& scene);
 RunResult checked_run(const Scene& scene, const ProgressCallback& progress, const RunOutput& output, int jobs,
                       double* work = nullptr);
 
-/// Error of the finest of three runs, by how far it is from the second one and that from the third, whose steps or
-/// elements are `ratio` and `next_ratio` times as large as those of the run before. Without the third one, `next` < 0,
-/// order 1 is taken.
+/// Error of the finest of three runs.
 struct ToldError {
   double error = 0;
   double order = 1;
@@ -35,6 +35,28 @@ struct ToldError {
 struct OrderRange {
   double lowest, best;
 };
-ToldError told_error(double distance, double next, double ratio, double next_ratio, OrderRange orders);
+/// Orders of three runs, by how far one is from the next: the finest one, a second one with steps or elements `ratio`
+/// times as large, and a third one with these `next_ratio` times as large again.
+class ErrorOrders {
+ public:
+  ErrorOrders(double ratio, double next_ratio, OrderRange orders);
+  /// By the distance of the first run from the second one, and `next`, that of the second one from the third. Without
+  /// a third one, `next` < 0, order 1 is taken.
+  ToldError told(double distance, double next) const;
+
+ private:
+  struct Powers {
+    double first, next;  ///< of the two ratios
+  };
+  static Powers power(double ratio, double next_ratio, double order);
+  /// `next` over the distance, of errors that go with the order of these powers.
+  static double growth(Powers of);
+
+  double ratio_;
+  OrderRange orders_;
+  Powers lowest_;
+  double least_seen_;
+  std::array<Powers, 30> halves_;  ///< of half the range of orders, a quarter of it, and so on
+};
 
 }  // namespace vlbeam

@@ -34,39 +34,41 @@ ThreeRuns three_runs(double p, double ratio, double next_ratio) {
   return {1e-6, 1e-6 * (second - 1), 1e-6 * (third - second)};
 }
 
-TEST(ToldError, IsTheErrorWhereTheOrderIsWithinItsBounds) {
+TEST(ErrorOrders, IsTheErrorWhereTheOrderIsWithinItsBounds) {
   for (const double p : {0.5, 1.0, 1.7, 2.0}) {
     for (const double ratio : {1.5, 2.0}) {
       const ThreeRuns runs = three_runs(p, ratio, 2);
-      const ToldError told = told_error(runs.distance, runs.next, ratio, 2, {0.5, 2});
+      const ToldError told = ErrorOrders(ratio, 2, {0.5, 2}).told(runs.distance, runs.next);
       EXPECT_NEAR(told.error, runs.error, 1e-6 * runs.error) << p;
       EXPECT_NEAR(told.order, p, 1e-6);
     }
   }
 }
 
-TEST(ToldError, TrustsNoOrderBeyondTheBest) {
+TEST(ErrorOrders, TrustsNoOrderBeyondTheBest) {
   const ThreeRuns runs = three_runs(4, 2, 2);
-  EXPECT_NEAR(told_error(runs.distance, runs.next, 2, 2, {0.5, 2}).error, 5 * runs.error, 1e-6 * runs.error);
+  EXPECT_NEAR(ErrorOrders(2, 2, {0.5, 2}).told(runs.distance, runs.next).error, 5 * runs.error, 1e-6 * runs.error);
 }
 
-TEST(ToldError, ExceedsTheDistanceWhereRunsDoNotApproachEachOther) {
-  EXPECT_GT(told_error(1, 0.5, 2, 2, {0.5, 2}).error, 2);
+TEST(ErrorOrders, ExceedsTheDistanceWhereRunsDoNotApproachEachOther) {
+  EXPECT_GT(ErrorOrders(2, 2, {0.5, 2}).told(1, 0.5).error, 2);
 }
 
-TEST(ToldError, SaysWhetherRunsApproachEachOther) {
+TEST(ErrorOrders, SaysWhetherRunsApproachEachOther) {
   for (const double p : {0.6, 1.0, 2.0}) {
     for (const double ratio : {2.0, 4.0}) {
       const ThreeRuns runs = three_runs(p, ratio, 2);
-      EXPECT_TRUE(told_error(runs.distance, runs.next, ratio, 2, {1, 2}).falls) << p;
+      EXPECT_TRUE(ErrorOrders(ratio, 2, {1, 2}).told(runs.distance, runs.next).falls) << p;
     }
   }
   const ThreeRuns hardly = three_runs(0.4, 2, 2);
-  EXPECT_FALSE(told_error(hardly.distance, hardly.next, 2, 2, {1, 2}).falls);
-  EXPECT_FALSE(told_error(1, 1, 2, 2, {1, 2}).falls);
+  EXPECT_FALSE(ErrorOrders(2, 2, {1, 2}).told(hardly.distance, hardly.next).falls);
+  EXPECT_FALSE(ErrorOrders(2, 2, {1, 2}).told(1, 1).falls);
 }
 
-TEST(ToldError, OfTwoRunsIsTheirDistanceWhereStepsAreDoubled) { EXPECT_EQ(told_error(3, -1, 2, 1, {1, 2}).error, 3); }
+TEST(ErrorOrders, OfTwoRunsIsTheirDistanceWhereStepsAreDoubled) {
+  EXPECT_EQ(ErrorOrders(2, 1, {1, 2}).told(3, -1).error, 3);
+}
 
 // The judge: the same scene with a thousandth of the tolerance, and on four times the elements.
 TEST(CheckedRun, TellsTheErrorsOfAFallingBeam) {
