@@ -490,8 +490,7 @@ class Checked {
                                    mesh_places_.but_for_axis(), ", of a motion of ", error_.motion, " m"),
                           "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
     }
-    if (const auto warning = scene.assembly ? std::nullopt : sudden_gravity(scene, last.result))
-      warnings.push_back(*warning);
+    if (const auto warning = sudden_gravity(scene, last.result)) warnings.push_back(*warning);
     last.result.error = std::make_shared<const RunError>(std::move(error_));
   }
 

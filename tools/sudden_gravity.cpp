@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
+#include "scene/assembly.hpp"
 #include "scene/derived.hpp"
 #include "scene/simulate.hpp"
 
@@ -22,12 +25,26 @@ double strain_energy(const Sample& sample) {
 
 double gravity_of(const Scene& scene) { return std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]); }
 
-/// The strain energy [J] that fast vibrations have in their equilibrium under the weight; 0 where it is not found.
-double borne_by_the_stiff(const Scene& given) {
+/// The scene without what moves it but its weight.
+Scene left_to_gravity(const Scene& given) {
   Scene scene = given;
-  const double step = share_of_swing * 2 * std::numbers::pi * std::sqrt(beam_length(scene) / gravity_of(scene));
   scene.loads.clear();
   scene.initial_velocity.reset();
+  if (!given.assembly) return scene;
+  AssemblySpec parts = *given.assembly;
+  for (AssemblySpec::Beam& beam : parts.beams) beam.scene = left_to_gravity(beam.scene);
+  for (BodySpec& body : parts.bodies) {
+    body.loads.clear();
+    body.velocity = body.angular_velocity = {};
+  }
+  scene.assembly = std::make_shared<const AssemblySpec>(std::move(parts));
+  return scene;
+}
+
+/// The strain energy [J] that fast vibrations have in their equilibrium under the weight; 0 where it is not found.
+double borne_by_the_stiff(const Scene& given) {
+  Scene scene = left_to_gravity(given);
+  const double step = share_of_swing * 2 * std::numbers::pi * std::sqrt(beam_length(scene) / gravity_of(scene));
   scene.integrator = {};
   scene.integrator.type = IntegratorType::generalized_alpha;
   scene.integrator.rho_inf = 0;
@@ -55,9 +72,10 @@ std::optional<Warning> sudden_gravity(const Scene& scene, const RunResult& resul
   if (!(borne > warned_share * largest) || largest == 0) return {};
   std::ostringstream message;
   message.precision(2);
-  message << "gravity acts at once on a beam that is drawn unstrained: " << std::min(borne, largest) << " J of its "
-          << largest << " J of strain energy are vibrations about the place where its weight would hold it, and forces "
-          << "and moments are up to twice as large as without them";
+  message << "gravity acts at once on " << (scene.assembly ? "beams that are" : "a beam that is")
+          << " drawn unstrained: " << std::min(borne, largest) << " J of " << largest
+          << " J of strain energy are vibrations about the equilibrium under weight, and forces and moments are up to "
+          << "twice as large as without them";
   return Warning{WarningKind::sudden_gravity, message.str(),
                  "\"gravity_ramp\": a few periods of the beam [s], or \"initial_shape\": \"equilibrium\""};
 }

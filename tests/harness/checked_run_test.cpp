@@ -250,6 +250,19 @@ TEST(SuddenGravity, IsNamedWhereItMakesAGirderVibrate) {
   EXPECT_FALSE(warns_of(checked(girder(0.5)), WarningKind::sudden_gravity));
 }
 
+TEST(SuddenGravity, IsNamedInAnAssembly) {
+  Json scene = Json::parse(R"({
+    "beams": [{"name": "girder", "elements": 8, "curve": {"type": "line", "start": [0, 0], "end": [20, 0]},
+               "section": {"type": "stiffness", "EA": 4e9, "EI": 6e8, "rhoA": 250},
+               "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "slide"}]}],
+    "bodies": [{"name": "load", "mass": 500, "position": [10, 0]}],
+    "links": [{"name": "hook", "type": "pin", "between": [{"beam": "girder", "at": {"x": 10}}, {"body": "load"}]}],
+    "integrator": {"type": "generalized-alpha", "step": 0.002}, "duration": 1, "output": {"interval": 0.01}})");
+  EXPECT_TRUE(warns_of(checked(scene_from_json(scene)), WarningKind::sudden_gravity));
+  scene["gravity_ramp"] = 0.5;
+  EXPECT_FALSE(warns_of(checked(scene_from_json(scene)), WarningKind::sudden_gravity));
+}
+
 TEST(SuddenGravity, IsAMotionWhereABeamFalls) {
   EXPECT_FALSE(warns_of(checked(library_scene_to_check("falling_beam")), WarningKind::sudden_gravity));
 }
