@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "io/nearest.hpp"
 #include "io/scene_json.hpp"
 #include "scene/assembly_names.hpp"
 #include "scene/automatic_integrator.hpp"
+#include "scene/derived.hpp"
 #include "scene/names.hpp"
 #include "scene/options.hpp"
 #include "scene/validate.hpp"
@@ -113,8 +115,8 @@ void check_key(const std::string& at, const std::string& key) {
 /// A function of time, read as one of the options of a scene: the magnitude of a load.
 TimeSpec time_from(const Json& json, const std::string& at) {
   const Json scene = {{"beam", {{"curve", {{"end", {1, 0}}}}}},
-                      {"loads", {{{"at", "point"}, {"magnitude", json}, {"type", "force"}}}},
-                      {"integrator", {{"type", "generalized-alpha"}}}};
+                      {"loads", {{{"magnitude", json}, {"type", "force"}, {"node", 1}, {"direction", {0, 1}}}}},
+                      {"duration", 1}};
   try {
     return scene_from_json(scene).loads.front().magnitude;
   } catch (const InvalidInput& error) {
@@ -213,10 +215,26 @@ struct MemberNames {
   std::vector<std::string> beams, bodies;
 };
 
+/// The node of a material coordinate [m]; throws InvalidInput where none stands there.
+int node_at(double x, const Scene& beam, const std::string& at) {
+  constexpr double rounding = 1e-9;  // of an element
+  const double l = beam_length(beam) / beam.beam.elements, node = std::round(x / l);
+  const bool even =
+      std::ranges::none_of(beam.point_masses, [](const PointMassSpec& mass) { return mass.position.has_value(); });
+  if (even && node >= 0 && node <= beam.beam.elements && std::abs(x / l - node) < rounding) {
+    return static_cast<int>(node);
+  }
+  throw InvalidInput(at, six_digits(x),
+                     even ? "a node must stand there, so a multiple of " + six_digits(l) + " m up to " +
+                                six_digits(beam_length(beam)) + " m: other /elements may have one"
+                          : "beside point masses at a position nodes do not stand evenly: take {\"node\": k}");
+}
+
 LinkEndSpec end_from(const Json& json, const std::string& at, const AssemblySpec& parts, const MemberNames& names,
                      int dimension) {
   const std::string allowed =
-      "it must be {\"beam\", \"at\": \"start\", \"end\" or {\"node\": k}}, {\"beam\", \"joint\"}, {\"body\", "
+      "it must be {\"beam\", \"at\": \"start\", \"end\", {\"node\": k} or {\"x\": m}}, {\"beam\", \"joint\"}, "
+      "{\"body\", "
       "\"point\"} or "
       "{\"ground\": place}";
   if (!json.is_object()) throw InvalidInput(at, excerpt(json), allowed);
@@ -249,7 +267,7 @@ LinkEndSpec end_from(const Json& json, const std::string& at, const AssemblySpec
     end.of = LinkEndSpec::Of::joint;
     end.joint = joint->get<int>();
   } else {
-    const Json& where = fields.need("at", "\"start\", \"end\" or {\"node\": k}");
+    const Json& where = fields.need("at", "\"start\", \"end\", {\"node\": k} or {\"x\": m}");
     if (where == "start") {
       end.of = LinkEndSpec::Of::beam_start;
     } else if (where == "end") {
@@ -258,8 +276,12 @@ LinkEndSpec end_from(const Json& json, const std::string& at, const AssemblySpec
                where.at("node").is_number_integer()) {
       end.of = LinkEndSpec::Of::node;
       end.joint = where.at("node").get<int>();
+    } else if (where.is_object() && where.size() == 1 && where.contains("x") && where.at("x").is_number()) {
+      end.of = LinkEndSpec::Of::node;
+      end.joint = node_at(where.at("x").get<double>(), parts.beams[end.which].scene, at + "/at/x");
     } else {
-      throw InvalidInput(at + "/at", excerpt(where), "it must be \"start\", \"end\" or {\"node\": k}");
+      throw InvalidInput(at + "/at", excerpt(where),
+                         "it must be \"start\", \"end\", {\"node\": k} or {\"x\": material coordinate of a node}");
     }
   }
   fields.end("a place on a beam");
@@ -534,9 +556,11 @@ void add_assembly_schema(Json& scene) {
       "rigid bodies and point masses beside the beams");
   const Json node =
       object({{"node", {{"type", "integer"}, {"minimum", 0}, {"description", "of a beam without joints"}}}}, {"node"});
+  const Json material = object(
+      {{"x", {{"type", "number"}, {"minimum", 0}, {"description", "material coordinate of a node [m]"}}}}, {"x"});
   const Json end =
       object({{"beam", typed("string", "name of a beam")},
-              {"at", {{"anyOf", {{{"enum", {"start", "end"}}}, node}}, {"description", "where on the beam"}}},
+              {"at", {{"anyOf", {{{"enum", {"start", "end"}}}, node, material}}, {"description", "where on the beam"}}},
               {"joint", {{"type", "integer"}, {"minimum", 0}, {"description", "of its sliding joints, from 0"}}},
               {"body", typed("string", "name of a body")},
               {"point", typed("string", "one of its points; if not given its center of mass")},

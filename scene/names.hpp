@@ -224,7 +224,9 @@ constexpr auto names(WarningKind) {
                                             {error_of_mesh, "error-of-mesh"},
                                             {redundant_links, "redundant-links"},
                                             {sudden_gravity, "sudden-gravity"},
-                                            {lifting_wheel, "lifting-wheel"}});
+                                            {lifting_wheel, "lifting-wheel"},
+                                            {free_twist, "free-twist"},
+                                            {no_ground_friction, "no-ground-friction"}});
 }
 
 /// A choice whose values have names.

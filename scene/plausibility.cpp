@@ -204,6 +204,16 @@ void check_stability(const Scene& scene, const RunResult& result, std::vector<Wa
                       "a smaller EA, fewer elements, or a support that holds the beam"});
 }
 
+/// Friction of the ground is against a velocity, which an equilibrium has not.
+void check_ground(const Scene& scene, std::vector<Warning>& warnings) {
+  if (scene.analysis != Analysis::statics || !scene.ground || !scene.ground->friction) return;
+  warnings.push_back(
+      {WarningKind::no_ground_friction,
+       "in an equilibrium nothing slides: the friction of the ground does nothing, and the beam pulls at "
+       "its support as on a smooth one",
+       "leave /ground/friction out, or lower the beam in a motion"});
+}
+
 }  // namespace
 
 std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
@@ -211,6 +221,7 @@ std::vector<Warning> implausible(const Scene& scene, const RunResult& result) {
   check_material(scene, warnings);
   check_section(scene, warnings);
   check_corners(scene, warnings);
+  check_ground(scene, warnings);
   if (result.samples.empty()) return warnings;
   check_strain(scene, result, warnings);
   check_compression(scene, result, warnings);

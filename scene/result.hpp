@@ -277,6 +277,8 @@ enum class WarningKind {
   redundant_links,         ///< links hold what others hold already
   sudden_gravity,          ///< gravity that acts at once on an unstrained beam makes it vibrate
   lifting_wheel,           ///< a wheel would leave the beam, which holds it
+  free_twist,              ///< a clamp in space lets a beam without frames turn about its axis
+  no_ground_friction,      ///< an equilibrium on a ground whose friction does nothing
 };
 
 /// Something that the results of a run do not show by themselves, and that its user should know.

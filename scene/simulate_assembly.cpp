@@ -46,6 +46,7 @@ class AssemblyRun {
     system_->corrects = whole.integrator.type != IntegratorType::generalized_alpha;
     check_velocities();
     settle();
+    warn_of_twist();
     system_->on_sample = [this](const Eigen::VectorXd& y, double t) { sample(y, t); };
     system_->on_step = [this](double t) { return !progress_ || progress_(t); };
     system_->on_event = [this](double jump) { event_of_whole(jump); };
@@ -167,6 +168,27 @@ class AssemblyRun {
                                 "other links hold already what " + names + (redundant.size() > 1 ? " hold" : " holds") +
                                     ": the motion is right, and how they share the force is not known",
                                 "leave out what is held twice, or take a \"pin\" in place of a \"clamp\""});
+  }
+
+  /// A clamp in space holds the tangent of a beam. Its sections turn about it as they like where they have no frames.
+  void warn_of_twist() {
+    if (D == 2) return;
+    std::vector<std::string> free;
+    for (const LinkSpec& link : parts_.links) {
+      if (link.type != LinkType::clamp) continue;
+      for (const LinkEndSpec& end : link.between) {
+        const std::string& name = parts_.beams[end.is_of_beam() ? end.which : 0].name;
+        const bool one_beam = link.between[0].is_of_beam() && link.between[1].is_of_beam();
+        if (end.is_of_beam() && !one_beam && std::ranges::find(free, name) == free.end()) free.push_back(name);
+      }
+    }
+    if (free.empty()) return;
+    std::string names;
+    for (const std::string& name : free) names += (names.empty() ? "\"" : ", \"") + name + "\"";
+    result_.warnings.push_back({WarningKind::free_twist,
+                                "what is clamped to " + names + " turns freely about the axis there: without frames " +
+                                    "beams have no torsion, and GIp is not used",
+                                "hold its turning otherwise, by a second beam or a link"});
   }
 
   IntegrationOptions options_of_shortest_wave() const {

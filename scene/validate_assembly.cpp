@@ -151,9 +151,8 @@ void check_link(const Scene& whole, const LinkSpec& link, const std::string& at)
     }
     if (whole.dimension == 3 && a.is_of_beam() && b.is_of_beam() && !are_one_beam(whole, a, b)) {
       refuse(at + "/type", "\"clamp\"",
-             "in space beams of one section that go on straight are clamped to each other, others to a body: put a "
-             "small one "
-             "between them");
+             "in space beams of one section that go on straight are clamped to each other; a small body between others "
+             "holds their directions, and lets each turn about its axis");
     }
     for (const LinkEndSpec* end : {&a, &b}) {
       if (end->of == LinkEndSpec::Of::body && parts_of(whole).bodies[end->which].inertia.empty()) {

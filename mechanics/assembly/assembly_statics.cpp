@@ -88,6 +88,36 @@ class Search {
     return false;
   }
 
+  /// Goes from an equilibrium in which the energy falls, as exp(t sqrt(rate)), to one below it: pushed off, the whole
+  /// creeps down as if in honey, for its mass times twice that rate resists each step.
+  bool slide_down(double factor, double rate) {
+    constexpr int most = 300;
+    constexpr double push = 1e-5, far = 1e-2, near = 1e-4;  // of the length
+    const Eigen::Index own = q.size() - equations.multipliers();
+    double uneven = 0;
+    for_each_coordinate(fields_, [&](Field field, Eigen::Index i) {
+      uneven += 0.6180339887;
+      uneven -= uneven > 1 ? 1 : 0;
+      if (field == Field::position) q[i] += push * options_.length * (uneven - 0.5);
+    });
+    bool on_its_way = false;
+    for (int i = 0; i < most; ++i) {
+      equations.residual(q, zero, a, factor, r_);
+      if (!r_.allFinite() || !equations.linearize(q, zero, a, factor, {1, 0, 2 * rate})) return false;
+      equations.solve(r_);
+      if (!r_.allFinite()) return false;
+      ++counters_.newton.iterations;
+      const Sizes step = sizes(r_);
+      const double share = 1 / std::max({1.0, step.position / (largest_move_at_rest * options_.length),
+                                         step.slope / largest_turn_at_rest});
+      q.head(own) -= share * r_.head(own);
+      a.tail(a.size() - own) -= share * 2 * rate * r_.tail(r_.size() - own);
+      on_its_way = on_its_way || step.position > far * options_.length;
+      if (on_its_way && step.position < near * options_.length) break;
+    }
+    return solve(factor);
+  }
+
   /// A direction of the path, or a point of it.
   struct Along {
     Eigen::VectorXd q, a;
@@ -203,9 +233,16 @@ class Search {
   Eigen::VectorXd r_, by_load_;
 };
 
-/// Eigenvalues of K x = l M x about a point, the nearest to `-shift` first, within what links allow.
+/// Eigenvalues of K x = l M x about a point, within what links allow.
+struct Spectrum {
+  std::vector<double> nearest = {};  ///< to minus the shift, in their order
+  int below = 0;  ///< values below 0 that were seen, wherever they are; there may be more, for only those of the space
+                  ///< spanned are known, and never fewer
+  double lowest = 0;  ///< of those seen
+};
+
 template <int D>
-std::vector<double> eigenvalues(Search<D>& search, double factor, double shift, int wanted) {
+Spectrum eigenvalues(Search<D>& search, double factor, double shift, int wanted) {
   AssemblyEquations<D>& equations = search.equations;
   if (!equations.linearize(search.q, search.zero, search.a, factor, {1, 0, shift})) {
     throw ComputationFailed("the tangent about this equilibrium is singular", factor);
@@ -258,24 +295,34 @@ std::vector<double> eigenvalues(Search<D>& search, double factor, double shift, 
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(projected.topLeftCorner(count, count), Eigen::EigenvaluesOnly)
           .eigenvalues();
-  std::vector<double> found;
-  for (const double value : values) found.push_back(1 / value - shift);
-  std::ranges::sort(found, [shift](double p, double q) { return std::abs(p + shift) < std::abs(q + shift); });
-  if (found.size() > static_cast<std::size_t>(wanted)) found.resize(static_cast<std::size_t>(wanted));
-  std::ranges::sort(found);
+  constexpr double rounding = 1e-10;  // of the largest inverse
+  const double largest_inverse = values.cwiseAbs().maxCoeff();
+  std::vector<double> all;
+  for (const double value : values) {
+    if (std::abs(value) > rounding * largest_inverse) all.push_back(1 / value - shift);
+  }
+  std::ranges::sort(all, [shift](double p, double q) { return std::abs(p + shift) < std::abs(q + shift); });
+  Spectrum found;
+  const auto nearest = static_cast<std::ptrdiff_t>(std::min(all.size(), static_cast<std::size_t>(wanted)));
+  found.nearest.assign(all.begin(), all.begin() + nearest);
+  std::ranges::sort(found.nearest);
+  const double largest = std::max(std::abs(found.nearest.front()), std::abs(found.nearest.back()));
+  found.below = static_cast<int>(std::ranges::count_if(all, [&](double v) { return v < -falls_beyond * largest; }));
+  found.lowest = std::ranges::min(all);
   return found;
 }
 
 /// The same with a shift of the size of the lowest, which is looked for from that of axial waves down.
 template <int D>
-std::vector<double> lowest_eigenvalues(Search<D>& search, double factor, double wave_rate, int wanted) {
+Spectrum lowest_eigenvalues(Search<D>& search, double factor, double wave_rate, int wanted) {
   double shift = wave_rate * wave_rate;
-  std::vector<double> found;
+  Spectrum found;
   for (int i = 0; i < 6; ++i) {
     found = eigenvalues(search, factor, shift, wanted);
-    if (found.empty()) return found;
-    const double lowest = std::ranges::min(found, {}, [](double value) { return std::abs(value); });
-    const double next = std::clamp(std::abs(lowest), 1e-4 * shift, shift);
+    if (found.nearest.empty()) return found;
+    const double lowest = std::ranges::min(found.nearest, {}, [](double value) { return std::abs(value); });
+    constexpr double beside = 1.37;  // minus a value below 0 is no shift: the tangent is singular there
+    const double next = std::clamp(lowest < 0 ? -beside * lowest : lowest, 1e-4 * shift, shift);
     if (next > 0.1 * shift) break;
     shift = next;
   }
@@ -329,20 +376,23 @@ void follow_arc(Search<D>& search, const AssemblyStaticsOptions& options, const 
 template <int D>
 void trace_equilibria(AssemblySystem<D>& system, const AssemblyStaticsOptions& options,
                       const std::function<bool(const AssemblyEquilibrium&)>& on_point, SolverCounters& counters) {
+  constexpr int most_slides = 5;
   Search<D> search(system, options, counters);
+  double falls_at = 0;  // the steepest eigenvalue below 0, of the last point
   const auto point = [&](double factor) {
     AssemblyEquilibrium at = search.point(factor);
     at.falls_known = factor > 0 && search.has_mass();
     if (at.falls_known) {
-      const auto values = lowest_eigenvalues(search, factor, options.wave_rate, 3);
-      const double largest = values.empty() ? 0 : std::max(std::abs(values.front()), std::abs(values.back()));
+      const Spectrum spectrum = lowest_eigenvalues(search, factor, options.wave_rate, 3);
       at = search.point(factor);
       at.falls_known = true;
-      at.falls = static_cast<int>(std::ranges::count_if(values, [&](double v) { return v < -falls_beyond * largest; }));
+      at.falls = spectrum.below;
+      falls_at = -spectrum.lowest;
     }
     return at;
   };
-  if (search.rests(0) && !on_point(point(0))) return;
+  const bool rested = search.rests(0);
+  if (rested && !on_point(point(0))) return;
   if (options.arc_length) return follow_arc(search, options, point, on_point, counters);
   const auto advance = [&](const auto& self, double from, double to, int halvings) -> bool {
     const Eigen::VectorXd q = search.q, a = search.a;
@@ -361,7 +411,16 @@ void trace_equilibria(AssemblySystem<D>& system, const AssemblyStaticsOptions& o
                               from);
     }
     ++counters.steps;
-    if (!on_point(point(to))) return;
+    AssemblyEquilibrium at = point(to);
+    for (int slide = 0; slide < most_slides && !rested && at.falls > 0; ++slide) {
+      if (search.slide_down(to, falls_at)) {
+        at = point(to);
+      } else {
+        search.go_to(at);
+        break;
+      }
+    }
+    if (!on_point(at)) return;
   }
 }
 
@@ -372,7 +431,7 @@ std::vector<double> natural_frequencies(AssemblySystem<D>& system, const Assembl
   Search<D> search(system, options, counters);
   search.go_to(at);
   std::vector<double> frequencies;
-  for (const double value : lowest_eigenvalues(search, at.factor, options.wave_rate, count)) {
+  for (const double value : lowest_eigenvalues(search, at.factor, options.wave_rate, count).nearest) {
     frequencies.push_back((value < 0 ? -1 : 1) * std::sqrt(std::abs(value)) / (2 * std::numbers::pi));
   }
   return frequencies;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "io/files.hpp"
@@ -45,6 +46,48 @@ TEST(AssemblyScene, ReadsBackAsItIsWritten) {
     const Scene scene = read_scene(source / "scenes" / (std::string(name) + ".json"));
     const Json written = scene_to_json(scene);
     EXPECT_EQ(scene_to_json(scene_from_json(written)), written) << name;
+  }
+}
+
+TEST(AssemblyScene, LoadsAccelerateABody) {
+  Json json = crane();
+  json["gravity"] = {0, 0};
+  json["bodies"].push_back(
+      {{"name", "disc"},
+       {"mass", 2},
+       {"inertia", 0.5},
+       {"position", {20, 0}},
+       {"loads", Json::array({{{"type", "force"}, {"magnitude", Json::object({{"rate", 10}})}, {"direction", {0, 1}}},
+                              {{"type", "torque"}, {"magnitude", Json::object({{"value", 3}})}}})}});
+  json["duration"] = 1;
+  json.erase("output");
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene_to_json(scene_from_json(scene_to_json(scene))), scene_to_json(scene));
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  const BodySample& disc = result.samples.back().assembly->bodies.back();
+  EXPECT_NEAR(disc.position[1], 10.0 / 2 / 6, 1e-4);
+  EXPECT_NEAR(disc.rotation[2] * std::numbers::pi / 180, 3 / 0.5 / 2, 1e-4);
+}
+
+TEST(AssemblyScene, ALinkHoldsTheNodeOfAMaterialCoordinate) {
+  Json json = parse_json(R"({
+    "analysis": "statics",
+    "beams": [{"name": "girder", "elements": 8, "curve": {"start": [0, 0], "end": [20, 0]},
+               "section": {"type": "stiffness", "EA": 4e9, "EI": 6e8, "rhoA": 250},
+               "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "slide"}]}],
+    "bodies": [{"name": "load", "mass": 500, "position": [15, 0]}],
+    "links": [{"name": "hook", "type": "pin", "between": [{"beam": "girder", "at": {"x": 15}}, {"body": "load"}]}]})");
+  const Scene scene = scene_from_json(json);
+  EXPECT_EQ(scene.assembly->links[0].between[0].joint, 6);
+  EXPECT_EQ(scene_to_json(scene_from_json(scene_to_json(scene))), scene_to_json(scene));
+  json["links"][0]["between"][0]["at"]["x"] = 14;
+  try {
+    scene_from_json(json);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.field, "/links/0/between/0/at/x");
+    EXPECT_THAT(error.allowed, testing::HasSubstr("a multiple of 2.5 m"));
   }
 }
 
@@ -290,6 +333,55 @@ TEST(AssemblyScene, LeesFrameFollowsItsPathPastTheLimit) {
   EXPECT_GT(frame.way, 52) << "past the limit, at 48.5";
   EXPECT_NEAR(frame.limit, 1.85560, 1e-3) << "between two of its points";
   EXPECT_LT(frame.off, 1e-6 * frame.limit);
+}
+
+Json bob_on_a_rod(const char* beam) {
+  Json json = parse_json(R"({
+    "analysis": "statics", "bodies": [{"name": "bob", "mass": 25, "position": [500, 0.2]}],
+    "links": [{"name": "rod", "type": "distance", "between": [{"ground": [500, 0]}, {"body": "bob"}]}]})");
+  json["beams"] = parse_json(beam);
+  return json;
+}
+
+// A bob that stands on its rod falls a hundred times faster than the soft beam beside it swings: the three lowest
+// eigenvalues do not show it.
+TEST(AssemblyScene, StabilityIsThatOfTheStiffestToo) {
+  Json json = bob_on_a_rod(R"([
+    {"name": "beam", "elements": 8, "curve": {"start": [0, 0], "end": [0, -40]},
+     "section": {"type": "stiffness", "EA": 1e5, "EI": 1e3, "rhoA": 1.8}, "supports": [{"at": "start", "type": "pin"}]}])");
+  const auto falls = [&] {
+    const RunResult result = simulate(scene_from_json(json));
+    EXPECT_EQ(result.status, RunStatus::completed) << result.failure;
+    return result.samples.back().equilibrium->negative_pivots;
+  };
+  EXPECT_EQ(falls(), 1);
+  json["bodies"][0]["position"][1] = -0.2;
+  EXPECT_EQ(falls(), 0);
+}
+
+// Ropes that are drawn slack fall to where they hang on the way to the first equilibrium, and so does what stands.
+TEST(AssemblyScene, WhatIsDrawnSlackGoesToAStableEquilibrium) {
+  const Scene scene = scene_from_json(bob_on_a_rod(R"([
+    {"name": "rope", "elements": 8, "curve": {"type": "polyline", "points": [[0, 0], [200, -20], [400, 0]]},
+     "section": {"type": "stiffness", "EA": 3.6e7, "EI": 0, "rhoA": 1.8},
+     "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "pin"}]}])"));
+  const RunResult result = simulate(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.failure;
+  EXPECT_EQ(result.samples.back().equilibrium->negative_pivots, 0);
+  EXPECT_NEAR(last(scene, result, "bob.position.y"), -0.2, 1e-8);
+}
+
+// In space a clamp holds the direction of a beam without frames, and nothing of its twist.
+TEST(AssemblyScene, ACornerThatTurnsFreelyIsWarnedOf) {
+  const Json json = parse_json(R"({
+    "dimension": 3, "gravity": [0, 0, 0], "analysis": "statics",
+    "beams": [{"name": "leg", "elements": 4, "curve": {"start": [0, 0, 0], "end": [10, 0, 0]},
+               "section": {"type": "stiffness", "EA": 1e6, "EI": 1e3, "GIp": 1e3, "rhoA": 1},
+               "supports": [{"at": "start", "type": "clamp"}]}],
+    "bodies": [{"name": "knee", "mass": 1, "inertia": [1, 1, 1], "position": [10, 0, 0]}],
+    "links": [{"name": "a", "type": "clamp", "between": [{"beam": "leg", "at": "end"}, {"body": "knee"}]}]})");
+  const RunResult result = simulate(scene_from_json(json));
+  EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const Warning& w) { return w.kind == WarningKind::free_twist; }));
 }
 
 // Clamped ends of one section that go on straight are one beam.
