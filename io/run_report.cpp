@@ -302,7 +302,11 @@ void write_run_report(const Scene& scene, const RunResult& result, const Shapes&
   list("events", [&](const auto& entry) {
     for (const Event& e : result.events) entry(event(e));
   });
-  value("energy_ledger", ledger_json(energy_ledger(result)));
+  EnergyLedger ledger = energy_ledger(result);
+  if (scene.analysis == Analysis::statics) {  // nobody adds up what loads do on the way to an equilibrium
+    ledger.supplied = ledger.unexplained = ledger.largest_unexplained = nan;
+  }
+  value("energy_ledger", ledger_json(ledger));
   if (!result.frequencies.empty()) value("frequencies", result.frequencies);
   if (starts_in_equilibrium(scene) && !result.samples.empty()) {
     const StaticSample& start = *result.samples.front().equilibrium;

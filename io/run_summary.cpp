@@ -157,6 +157,15 @@ double largest_energy(const RunResult& result) {
   return size;
 }
 
+/// What the elements may make wrong of a natural frequency, where companions have told.
+std::string error_of_frequency(const RunResult& result, std::size_t which) {
+  if (!result.error) return "";
+  const auto& told = result.error->quantities;
+  const auto row = std::ranges::find(told, "frequencies." + std::to_string(which), &QuantityError::quantity);
+  if (row == told.end() || !row->mesh) return "";
+  return ", of the mesh " + in_digits(*row->mesh, 2) + " Hz";
+}
+
 std::string ledger_text(const EnergyLedger& ledger, double size) {
   const auto joules = [size](double energy) { return energy_text(energy, size, 4); };
   return "changed by " + joules(ledger.change) + " = supplied " + joules(ledger.supplied) + ", at events " +
@@ -343,7 +352,9 @@ std::string static_summary(const Scene& scene, const RunResult& result) {
     if (!scene.assembly) place_lines(scene, last, line);
     line("energy", in_digits(last.energy.total(), 8) + " J");
   }
-  for (const double frequency : result.frequencies) line("frequency", in_digits(frequency, 8) + " Hz");
+  for (std::size_t k = 0; k < result.frequencies.size(); ++k) {
+    line("frequency", in_digits(result.frequencies[k], 8) + " Hz" + error_of_frequency(result, k));
+  }
   if (result.error) line("error", error_text(scene, result));
   line("wall time", in_digits(result.timing.motion, 3) + " s");
   warning_lines(result, line);

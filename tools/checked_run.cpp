@@ -200,8 +200,12 @@ Told told(const Track::Row& row, const Seen* first, const Seen* second, OrderRan
   told.t = found.t;
   told.of_axis = row.quantity == "shape";
   if (found.first.empty()) return told;
+  if (row.kind == TrackKind::force) orders = {std::min(orders.lowest, 0.5), 1};
+  // only where a place is in error at a time is asked
+  const std::size_t asked_from = row.kind == TrackKind::place ? 0 : found.first.size() - 1;
+  told.t.erase(told.t.begin(), told.t.begin() + static_cast<std::ptrdiff_t>(asked_from));
   const ErrorOrders runs(first->ratio, second != nullptr ? second->ratio : 1, orders);
-  for (std::size_t i = 0; i < found.first.size(); ++i) {
+  for (std::size_t i = asked_from; i < found.first.size(); ++i) {
     const ToldError at = runs.told(found.first[i], i < found.second.size() ? found.second[i] : -1);
     told.error.push_back(told.error.empty() ? at.error : std::max(at.error, told.error.back()));
     told.order = at.order;
@@ -389,10 +393,10 @@ class Checked {
       error_.no_time = "an equilibrium has none";
       return main_;
     }
+    double share = 1;  // of the motion that an automatic run's tolerances are made for
     if (scene.integrator.automatic) {
       const double length = longest(main_);
-      const double share =
-          std::clamp(error_.motion / (whole_motion_share * length), least_motion / whole_motion_share, 1.0);
+      share = std::clamp(error_.motion / (whole_motion_share * length), least_motion / whole_motion_share, 1.0);
       error_.allowed = scene.integrator.accuracy * length * share;
     }
     if (at(time_, 0) == nullptr) {
@@ -416,7 +420,7 @@ class Checked {
     };
     estimate();
     while (scene.integrator.automatic && *error_.time > error_.allowed && error_.repeats < most_repeats &&
-           !sensitive(*chain[0])) {
+           (!sensitive(*chain[0]) || (share < 1 && error_.repeats == 0))) {
       const double order = error_.repeats == 0 ? orders.best : time_places_.order;
       const double wanted = portable::pow(*error_.time / (aimed_share * error_.allowed), 1 / order);
       if (error_.repeats > 0 && wanted > hopeless_ratio) break;
@@ -430,6 +434,12 @@ class Checked {
       error_.quantities[i].time = told(row, chain[1], chain.size() > 2 ? chain[2] : nullptr, orders).last();
     }
     return *chain[0];
+  }
+
+  /// Whether the last equilibrium of statics is not stable.
+  static bool falls(const RunResult& result) {
+    const auto& last = result.samples.back().equilibrium;
+    return last && last->negative_pivots > 0;
   }
 
   /// Whether steps follow the motion, and what runs differ by does not fall with them: the motion magnifies it. Where
@@ -488,7 +498,10 @@ class Checked {
       warnings.push_back({WarningKind::error_of_mesh,
                           in_words("the elements may make places wrong by ", *error_.mesh, " m",
                                    mesh_places_.but_for_axis(), ", of a motion of ", error_.motion, " m"),
-                          "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
+                          falls(last.result)
+                              ? "more /statics/steps: the equilibrium found is not stable, and another one "
+                                "than that of fewer elements"
+                              : "about " + std::to_string(error_.elements_wanted) + " elements (/beam/elements)"});
     }
     if (const auto warning = sudden_gravity(scene, last.result)) warnings.push_back(*warning);
     last.result.error = std::make_shared<const RunError>(std::move(error_));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/json.hpp"
+#include "io/quantity.hpp"
 #include "scene/assembly.hpp"
 #include "scene/bearings.hpp"
 #include "scene/build.hpp"
@@ -103,6 +104,24 @@ std::vector<double> drawn_probes(const Scene& scene) {
 
 namespace {
 
+/// Reactions, what is asked of places, and forces of links and supports, by their names.
+void add_asked(const Scene& scene, Tracker& tracker) {
+  for (const Quantity& quantity : quantities(scene)) {
+    const auto says = [&quantity](const char* word) { return quantity.name.find(word) != std::string::npos; };
+    if (!says("places.") && !says("reactions.") && !says("force.")) continue;
+    const bool force = quantity.unit == "N" || quantity.unit == "N m" || quantity.unit == "Pa";
+    tracker.row(quantity.name, quantity.unit, force ? TrackKind::force : TrackKind::other,
+                [&quantity](const Sample& s) { return one_number(quantity.of(s)); });
+  }
+}
+
+/// About the last equilibrium.
+void add_frequencies(const RunResult& result, Track& track) {
+  for (std::size_t k = 0; k < result.frequencies.size(); ++k) {
+    track.rows.push_back({"frequencies." + std::to_string(k), "Hz", TrackKind::other, {1}, {{result.frequencies[k]}}});
+  }
+}
+
 /// Of several beams and bodies.
 Track track_of_assembly(const Scene& scene, const RunResult& result) {
   Tracker tracker(scene, result);
@@ -128,6 +147,8 @@ Track track_of_assembly(const Scene& scene, const RunResult& result) {
   }
   tracker.row("energy", "J", TrackKind::other, [](const Sample& s) { return one_number(s.energy.total()); });
   tracker.row("kinetic energy", "J", TrackKind::other, [](const Sample& s) { return one_number(s.energy.kinetic); });
+  add_asked(scene, tracker);
+  add_frequencies(result, tracker.track);
   return std::move(tracker.track);
 }
 
@@ -175,7 +196,9 @@ Track track_of(const Scene& scene, const RunResult& result, const std::vector<do
                         : std::vector<double>(static_cast<std::size_t>(d), nan);
     });
   }
+  add_asked(scene, tracker);
   Track track = std::move(tracker.track);
+  add_frequencies(result, track);
   if (shapes.empty() || result.samples.empty()) return track;
   if (scene.analysis == Analysis::dynamics) {
     track.rows.push_back({"shape", "m", TrackKind::place, times, shapes});

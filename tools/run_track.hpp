@@ -9,8 +9,12 @@
 
 namespace vlbeam {
 
-/// Whether a quantity is a place, so that it counts in what a run may be off in space.
-enum class TrackKind { place, other };
+/// What a quantity is of.
+enum class TrackKind {
+  place,  ///< counts in what a run may be off in space
+  force,  ///< at one place: its errors change their sign from mesh to mesh, and have no order
+  other,
+};
 
 /// What two runs of a scene are compared by: quantities over time, each a point of up to several numbers.
 struct Track {
@@ -29,8 +33,9 @@ std::vector<double> probe_times(const Scene& scene);
 std::vector<double> probes(const Scene& scene, const Configuration& shape);
 
 /// The end, the joints, the masses, what winches have paid out, angles, energies and the largest forces of the samples,
-/// and the shape at `times`, as probes() gives it. Of statics the first and the last equilibrium, as times 0 and 1, and
-/// the shape as it is drawn and at last: a chain may hang in nearly one shape under all of its loads.
+/// reactions, places and forces of links by their names, frequencies, and the shape at `times`, as probes() gives it.
+/// Of statics the first and the last equilibrium, as times 0 and 1, and the shape as it is drawn and at last: a chain
+/// may hang in nearly one shape under all of its loads.
 Track track_of(const Scene& scene, const RunResult& result, const std::vector<double>& times,
                const std::vector<std::vector<double>>& shapes);
 

@@ -5,12 +5,14 @@
 #include <memory>
 #include <numbers>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
 #include "scene/assembly.hpp"
 #include "scene/derived.hpp"
 #include "scene/simulate.hpp"
+#include "scene/time_function.hpp"
 
 namespace vlbeam {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 constexpr double warned_share = 0.1;      // of the largest strain energy
 constexpr double share_of_swing = 0.005;  // of a pendulum as long as the beam: a step that damps what is faster
 constexpr int damping_steps = 4;          // until fast vibrations have died out
+constexpr int most_steps = 40;            // where they have to be cut: else no such equilibrium is near
 
 double strain_energy(const Sample& sample) {
   return sample.energy.axial + sample.energy.bending + sample.energy.torsion;
@@ -25,10 +28,12 @@ double strain_energy(const Sample& sample) {
 
 double gravity_of(const Scene& scene) { return std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]); }
 
-/// The scene without what moves it but its weight.
+/// The scene without what moves it but its weight, and loads that always act along the whole beam, which may bear it.
 Scene left_to_gravity(const Scene& given) {
   Scene scene = given;
-  scene.loads.clear();
+  std::erase_if(scene.loads,
+                [](const LoadSpec& load) { return load.at != LoadPlace::beam || !is_constant(load.magnitude); });
+  scene.vehicles.clear();
   scene.initial_velocity.reset();
   if (!given.assembly) return scene;
   AssemblySpec parts = *given.assembly;
@@ -52,7 +57,8 @@ double borne_by_the_stiff(const Scene& given) {
   scene.duration = damping_steps * step;
   scene.output = {.interval = scene.duration, .configurations = {}};
   try {
-    const RunResult result = simulate(scene);
+    int steps = 0;
+    const RunResult result = simulate(scene, [&steps](double) { return ++steps <= most_steps; });
     if (result.status != RunStatus::completed) return 0;
     return strain_energy(result.samples.back()) - strain_energy(result.samples.front());
   } catch (const InvalidInput&) {
@@ -76,8 +82,11 @@ std::optional<Warning> sudden_gravity(const Scene& scene, const RunResult& resul
           << " drawn unstrained: " << std::min(borne, largest) << " J of " << largest
           << " J of strain energy are vibrations about the equilibrium under weight, and forces and moments are up to "
           << "twice as large as without them";
-  return Warning{WarningKind::sudden_gravity, message.str(),
-                 "\"gravity_ramp\": a few periods of the beam [s], or \"initial_shape\": \"equilibrium\""};
+  return Warning{
+      WarningKind::sudden_gravity, message.str(),
+      std::string("\"gravity_ramp\": a few periods of the beam [s]") +
+          (scene.vehicles.empty() && scene.blocks.empty() && !scene.assembly ? ", or \"initial_shape\": \"equilibrium\""
+                                                                             : "")};
 }
 
 }  // namespace vlbeam

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "io/scene_json.hpp"
 #include "scene/automatic_integrator.hpp"
@@ -230,6 +231,28 @@ TEST(CheckedRun, AHangingRopeMovesFromWhereItIsDrawn) {
   EXPECT_FALSE(warns_of(run, WarningKind::error_of_mesh)) << *run.error->mesh;
 }
 
+TEST(CheckedRun, TellsTheErrorOfFrequencies) {
+  Scene scene;
+  scene.analysis = Analysis::statics;
+  scene.gravity = {};
+  scene.beam.curve.end = {20, 0, 0};
+  scene.beam.section = {.type = Section::Type::stiffness, .EA = 4e11, .EI = 6e8, .rhoA = 250};
+  scene.beam.elements = 8;
+  scene.start.type = SupportType::pin;
+  scene.end.type = SupportType::slide;
+  scene.statics.frequencies = 3;
+  const RunResult run = checked(scene);
+  ASSERT_EQ(run.frequencies.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double n = static_cast<double>(k) + 1, exact = n * n * std::numbers::pi / 2 * std::sqrt(6e8 / 250) / 400;
+    const auto told =
+        std::ranges::find(run.error->quantities, "frequencies." + std::to_string(k), &QuantityError::quantity);
+    ASSERT_TRUE(told != run.error->quantities.end() && told->mesh);
+    EXPECT_GE(1.5 * *told->mesh, std::abs(run.frequencies[k] - exact)) << k;
+    EXPECT_LE(*told->mesh, 20 * std::abs(run.frequencies[k] - exact)) << k;
+  }
+}
+
 Scene girder(double gravity_ramp) {
   Scene scene;
   scene.beam.curve.end = {20, 0, 0};
@@ -256,7 +279,7 @@ TEST(SuddenGravity, IsNamedInAnAssembly) {
                "section": {"type": "stiffness", "EA": 4e9, "EI": 6e8, "rhoA": 250},
                "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "slide"}]}],
     "bodies": [{"name": "load", "mass": 500, "position": [10, 0]}],
-    "links": [{"name": "hook", "type": "pin", "between": [{"beam": "girder", "at": {"x": 10}}, {"body": "load"}]}],
+    "links": [{"name": "hook", "type": "pin", "between": [{"beam": "girder", "at": {"node": 4}}, {"body": "load"}]}],
     "integrator": {"type": "generalized-alpha", "step": 0.002}, "duration": 1, "output": {"interval": 0.01}})");
   EXPECT_TRUE(warns_of(checked(scene_from_json(scene)), WarningKind::sudden_gravity));
   scene["gravity_ramp"] = 0.5;
