@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -126,32 +127,80 @@ double step_of(double range, double most) {
   return step;
 }
 
-/// Ranges of both axes that hold every point, with a margin; of a straight line, too. In a column there is room for few
-/// numbers below the diagram, and for fewer where equal scales make it narrow.
-std::string ranges_of(const Diagram& diagram, const Look& look) {
-  constexpr double margin = 0.05, infinite = std::numeric_limits<double>::infinity();
-  std::array<double, 4> box{infinite, -infinite, infinite, -infinite};
+/// What a diagram reaches over, of its points and the places of its symbols: left, right, low, high.
+using Box = std::array<double, 4>;
+
+Box box_of(const Diagram& diagram) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Box box{infinite, -infinite, infinite, -infinite};
+  const auto hold = [&box](double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
+  };
   for (const Series& series : diagram.series) {
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
-      if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
-      box = {std::min(box[0], series.x[i]), std::max(box[1], series.x[i]), std::min(box[2], series.y[i]),
-             std::max(box[3], series.y[i])};
-    }
+    for (std::size_t i = 0; i < series.x.size(); ++i) hold(series.x[i], series.y[i]);
   }
+  for (const Symbol& symbol : diagram.symbols) {
+    if (symbol.kind == Symbol::Kind::hanger) hold(symbol.other[0], symbol.other[1]);
+    if (symbol.kind == Symbol::Kind::floor) hold(box[0], symbol.at[1]);
+  }
+  return box;
+}
+
+/// Ranges of both axes, as a box, with a margin around every point; of a straight line, too.
+Box ranges_of(const Diagram& diagram) {
+  const Box box = box_of(diagram);
+  const double margin = diagram.symbols.empty() ? 0.05 : 0.1;  // symbols stand around points
   const double size = std::max({box[1] - box[0], box[3] - box[2], 1e-12});
-  const auto range = [&](const char* axis, double low, double high) {
+  const auto some = [&](bool across, double low, double high) {
     // With equal scales a flat shape still gets a frame to stand in, and an upright one room for the numbers below it.
-    const double least = diagram.equal_scales ? (*axis == 'x' ? 0.8 : 0.25) * size : 0;
+    const double least = diagram.equal_scales ? (across ? 0.8 : 0.25) * size : 0;
     const double widen =
         margin * (diagram.equal_scales ? size : high - low) + std::max(0.0, (least - (high - low)) / 2);
-    const double some = widen > 0 ? widen : std::max(1e-12, 0.05 * std::abs(high));
-    return std::string("set ") + axis + "range [" + number_text(low - some) + ":" + number_text(high + some) + "]\n";
+    return widen > 0 ? widen : std::max(1e-12, 0.05 * std::abs(high));
   };
-  std::string script = range("x", box[0], box[1]) + range("y", box[2], box[3]);
+  const double x = some(true, box[0], box[1]), y = some(false, box[2], box[3]);
+  return {box[0] - x, box[1] + x, box[2] - y, box[3] + y};
+}
+
+/// In a column there is room for few numbers below the diagram, and for fewer where equal scales make it narrow.
+std::string set_ranges(const Diagram& diagram, const Look& look) {
+  const Box ranges = ranges_of(diagram), box = box_of(diagram);
+  const std::string script = "set xrange [" + number_text(ranges[0]) + ":" + number_text(ranges[1]) +
+                             "]\nset yrange [" + number_text(ranges[2]) + ":" + number_text(ranges[3]) + "]\n";
   if (!look.column) return script;
+  const double size = std::max({box[1] - box[0], box[3] - box[2], 1e-12});
   const double width = std::max(box[1] - box[0], diagram.equal_scales ? 0.8 * size : 0);
   const double share = diagram.equal_scales ? std::min(1.0, width / (1.3 * (box[3] - box[2]))) : 1;
   return script + "set xtics " + number_text(step_of(box[1] - box[0] > 0 ? width : 1, std::max(2.0, 5 * share))) + "\n";
+}
+
+constexpr const char* with_symbol_lines = " using 1:2 with lines linewidth 1.2 linecolor rgb '#555555' notitle";
+
+/// Lines of symbols, apart from each other by a blank line; `frame`: those of one time, and what stands all the time.
+std::string symbol_data(const Diagram& diagram, std::optional<std::size_t> frame) {
+  constexpr double share = 0.035, one_place = 0.6;  // of the picture; of a symbol's size
+  const Box box = ranges_of(diagram);
+  const double wide = box[1] - box[0], high = box[3] - box[2];
+  const double size = share * std::max(wide, high);
+  const std::array<double, 2> sizes =
+      diagram.equal_scales ? std::array{size, size} : std::array{share * wide, 1.4 * share * high};
+  std::vector<const Symbol*> drawn;
+  std::string data;
+  for (const Symbol& symbol : diagram.symbols) {
+    if (frame && symbol.frame != *frame && symbol.kind != Symbol::Kind::floor) continue;
+    const bool again = std::ranges::any_of(drawn, [&](const Symbol* other) {
+      return other->kind == symbol.kind && std::abs(other->at[0] - symbol.at[0]) < one_place * sizes[0] &&
+             std::abs(other->at[1] - symbol.at[1]) < one_place * sizes[1];
+    });
+    if (again) continue;
+    drawn.push_back(&symbol);
+    for (const auto& line : lines_of(symbol, sizes, box[0], box[1])) {
+      for (const auto& point : line) data += number_text(point[0]) + "," + number_text(point[1]) + "\n";
+      data += "\n";
+    }
+  }
+  return data.empty() ? "NaN,NaN\n" : data;
 }
 
 constexpr const char* palette =
@@ -189,19 +238,22 @@ void draw_diagram(const Diagram& diagram, const Look& look, const std::filesyste
     return draw_figure_of(script + field_script(diagram.field, look), field_data(diagram.field), figure);
   }
   if (diagram.ordered_colours) script += palette;
-  if (!diagram.logarithmic) script += ranges_of(diagram, look);
+  if (!diagram.logarithmic) script += set_ranges(diagram, look);
   if (diagram.equal_scales) script += "set size ratio -1\n";
   if (diagram.series.size() == 1) script += "unset key\n";  // the axis says it
   const std::size_t most = look.column ? longest_below : longest_key;
   const std::size_t each = (diagram.series.size() + most - 1) / most;
-  for (std::size_t i = 0; i < diagram.series.size(); ++i) {
-    script += (i == 0 ? "plot data" : ", \\\n  data") + std::string(" index ") + std::to_string(i) +
-              " using 1:2 with " + style_of(diagram, i) +
+  script += "plot";
+  const std::size_t n = diagram.series.size();
+  if (!diagram.symbols.empty()) script += " data index " + std::to_string(n) + with_symbol_lines + ",";
+  for (std::size_t i = 0; i < n; ++i) {
+    script += (i == 0 ? " data" : ", \\\n  data") + std::string(" index ") + std::to_string(i) + " using 1:2 with " +
+              style_of(diagram, i) +
               (i % each == 0 || diagram.series[i].style == Series::Style::points
                    ? " title " + text_of(key_of(diagram, look, i))
                    : std::string(" notitle"));
   }
-  draw_figure_of(script + "\n", data_of(diagram), figure);
+  draw_figure_of(script + "\n", data_of(diagram) + symbol_data(diagram, {}), figure);
 }
 
 void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, double seconds,
@@ -211,11 +263,16 @@ void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, d
   const double shown = std::clamp(seconds, 2.0, 10.0);
   const auto delay = std::max(2, static_cast<int>(std::lround(100 * shown / static_cast<double>(frames))));
   std::string script = "delay = " + std::to_string(delay) + "\n" + frame_of(diagram, look, ".gif") + palette +
-                       ranges_of(diagram, look) + "unset key\n";
+                       set_ranges(diagram, look) + "unset key\n";
   if (diagram.equal_scales) script += "set size ratio -1\n";
+  std::string data = data_of(diagram);
   for (std::size_t i = 0; i < frames; ++i) {
-    if (!look.bare) script += "set title " + text_of(diagram.title + ", t = " + diagram.series[i].title + " s") + "\n";
-    script += "plot data index " + std::to_string(i) + " using 1:2 with lines linewidth 3 linecolor rgb '#08306b'";
+    const std::string now =
+        diagram.in_time ? ", t = " + diagram.series[i].title + " s" : ", equilibrium " + diagram.series[i].title;
+    if (!look.bare) script += "set title " + text_of(diagram.title + now) + "\n";
+    data += symbol_data(diagram, i) + "\n\n";
+    script += "plot data index " + std::to_string(diagram.series.size() + i) + with_symbol_lines + ", data index " +
+              std::to_string(i) + " using 1:2 with lines linewidth 3 linecolor rgb '#08306b'";
     for (std::size_t joint = frames; joint < diagram.series.size(); ++joint) {
       if (!std::isfinite(diagram.series[joint].x[i])) continue;
       const std::string frame = std::to_string(i);
@@ -224,8 +281,8 @@ void draw_frames(const Diagram& diagram, const Look& look, std::size_t frames, d
     }
     script += "\n";
   }
-  if (film) return draw_film_of(script, data_of(diagram), figure);
-  draw_figure_of(script, data_of(diagram), figure);
+  if (film) return draw_film_of(script, data, figure);
+  draw_figure_of(script, data, figure);
 }
 
 }  // namespace vlbeam

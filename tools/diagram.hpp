@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/symbol.hpp"
+
 namespace vlbeam {
 
 /// A curve, or points, of a figure; what is not a number leaves a gap.
@@ -31,6 +33,8 @@ struct Diagram {
   bool ordered_colours = false;  ///< of lines, from dark blue to orange in their order; points are black
   std::string key_title = {};
   ColourField field = {};
+  std::vector<Symbol> symbols = {};  ///< below the curves; those of one place are drawn once
+  bool in_time = true;               ///< frames of an animation are instants
 };
 
 /// How a figure is set.

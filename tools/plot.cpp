@@ -14,6 +14,7 @@
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
 #include "scene/shape.hpp"
+#include "tools/scene_symbols.hpp"
 
 namespace vlbeam {
 namespace {
@@ -162,6 +163,14 @@ Series body_at(const RunFile& run, const std::string& name, const std::vector<Co
   return series;
 }
 
+/// Whether a joint is a wheel of its own or one of a block's.
+bool is_wheel(const Scene& scene, std::size_t joint) {
+  const auto of_it = [joint](const BlockSpec& block) {
+    return std::ranges::find(block.joints, static_cast<int>(joint)) != block.joints.end();
+  };
+  return sliding_joints(scene)[joint].pulley || std::ranges::any_of(scene.blocks, of_it);
+}
+
 /// At how many times shapes were kept: of several beams there is one each.
 std::size_t times_of(const std::vector<Configuration>& shapes) {
   std::size_t times = 0;
@@ -197,8 +206,17 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
     }
   }
   diagram.equal_scales = comparable(diagram);
+  if (!diagram.equal_scales) diagram.y_label += ", on a scale of its own";
+  diagram.in_time = run.scene.analysis != Analysis::statics;
+  diagram.symbols = symbols_of(run, shapes, across, up);
   for (std::size_t i = 0; i < sliding_joints(run.scene).size(); ++i) {
     diagram.series.push_back(masses_at(run, shapes, across, up, i));
+    if (!is_wheel(run.scene, i)) continue;
+    const Series& places = diagram.series.back();
+    for (std::size_t k = 0; k < places.x.size(); ++k) {
+      if (std::isfinite(places.x[k]) && std::isfinite(places.y[k]))
+        diagram.symbols.push_back(wheel_at(run.scene, shapes[k], {places.x[k], places.y[k]}, across, up, k));
+    }
   }
   if (!run.scene.point_masses.empty()) diagram.series.push_back(point_masses_at(run, shapes, across, up));
   if (run.scene.assembly) {
