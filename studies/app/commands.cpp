@@ -14,6 +14,7 @@
 #include "io/checkpoint_file.hpp"
 #include "io/files.hpp"
 #include "io/messages.hpp"
+#include "io/moordyn.hpp"
 #include "io/provenance.hpp"
 #include "io/run_file.hpp"
 #include "io/run_report.hpp"
@@ -26,6 +27,7 @@
 #include "scene/names.hpp"
 #include "scene/simulate.hpp"
 #include "scene/stiffness.hpp"
+#include "scene/validate.hpp"
 #include "studies/app/registry.hpp"
 #include "studies/app/run_outputs.hpp"
 #include "studies/harness/claims.hpp"
@@ -311,6 +313,19 @@ int list_command(bool names_only, const std::string& scenes) {
 int scene_command(const std::string& name, const std::string& scenes) {
   std::cout << library_scene_text(scenes_folder(scenes), name);
   return done;
+}
+
+int import_command(const ImportArguments& arguments) {
+  RunOutputs outputs({{"the " + arguments.format + " file", arguments.file}}, {{"-o", arguments.out}}, true);
+  const ImportedScene imported =
+      naming_file(arguments.file, [&] { return scene_of_moordyn(read_text(arguments.file)); });
+  validate(scene_from_json(imported.scene));
+  outputs.write(arguments.out, RunStatus::completed,
+                [&](const TextSink& sink) { sink(pretty(imported.scene)); });
+  for (const std::string& what : imported.left_out) std::cerr << "  left out    " << printable(what) << '\n';
+  for (const std::string& file : outputs.written()) std::cerr << "  written     " << printable(file) << '\n';
+  for (const std::string& problem : outputs.problems()) std::cerr << "vlbeam: " << printable(problem) << '\n';
+  return outputs.all_written() ? done : computation_failed;
 }
 
 int influence_command(const InfluenceArguments& arguments) {

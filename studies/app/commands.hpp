@@ -68,6 +68,11 @@ struct ConvergeArguments {
   bool quiet = false;                                      ///< nothing while it computes
 };
 
+struct ImportArguments {
+  std::string format, file;  ///< "-" is standard input
+  std::string out = "-";     ///< "-" is standard output
+};
+
 struct InfluenceArguments {
   std::string scene;                    ///< "-" is standard input
   std::vector<std::string> quantities;  ///< at least one
@@ -127,6 +132,7 @@ int claims_command(const ClaimsArguments& arguments);
 int list_command(bool names_only, const std::string& scenes);
 int scene_command(const std::string& name, const std::string& scenes);
 int converge_command(const ConvergeArguments& arguments);
+int import_command(const ImportArguments& arguments);
 int influence_command(const InfluenceArguments& arguments);
 int sweep_command(const SweepArguments& arguments);
 int compare_command(const CompareArguments& arguments);

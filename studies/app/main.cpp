@@ -139,6 +139,15 @@ int dispatch(int argc, char** argv) {
 
   converge->add_flag("--quiet,-q", converge_arguments.quiet, "Nothing about the runs while they go on");
 
+  vlbeam::ImportArguments import_arguments;
+  CLI::App* import = app.add_subcommand("import", "Make a scene of another program's input; says what it left out");
+  import->add_option("format", import_arguments.format, "moordyn: mooring lines, versions 1 and 2")
+      ->required()
+      ->check(CLI::IsMember({"moordyn"}));
+  import->add_option("file", import_arguments.file, "Input file; - reads standard input")->required();
+  import->add_option("-o,--out", import_arguments.out, "Write the scene (JSON) here; - is standard output")
+      ->capture_default_str();
+
   vlbeam::InfluenceArguments influence_arguments;
   CLI::App* influence = app.add_subcommand(
       "influence", "Influence lines: what a load of one newton does, wherever it stands on a beam at rest");
@@ -253,6 +262,9 @@ int dispatch(int argc, char** argv) {
            "  vlbeam converge scene.json --quantity end.y --error 1e-3\n"
            "  vlbeam converge scene.json --quantity end.y --error 1e-4 --relative --at 0.2 --limit 60\n"
            "  vlbeam converge scene.json --quantity energy.kinetic --error 1e-3 --report c.json --figure c.svg\n");
+  examples(import,
+           "  vlbeam import moordyn lines.txt -o lines.json\n"
+           "  vlbeam import moordyn lines.txt | vlbeam run - --report lines.report.json\n");
   examples(influence,
            "  vlbeam influence bridge.json --quantity places.mid.bending_moment --csv - --figure moment.svg\n"
            "  vlbeam influence bridge.json --quantity reactions.start.position.y --intervals 4\n");
@@ -291,6 +303,7 @@ int dispatch(int argc, char** argv) {
   if (*list) return vlbeam::list_command(names_only, scenes);
   if (*scene) return vlbeam::scene_command(scene_name, scenes);
   if (*converge) return vlbeam::converge_command(converge_arguments);
+  if (*import) return vlbeam::import_command(import_arguments);
   if (*influence) return vlbeam::influence_command(influence_arguments);
   if (*sweep) return vlbeam::sweep_command(sweep_arguments);
   if (*compare) return vlbeam::compare_command(compare_arguments);

@@ -6,7 +6,7 @@
 A document is worked through in a folder of its own, from its first block to its last:
 
 * commands of the program are run; --slow also runs those that take more than 10 s,
-* "`NAME.json`:" before a JSON block writes that file; a part of a scene is put into a scene that has room for it, and run,
+* "`NAME.json`:" before a JSON block writes that file, "`NAME.txt`:" before a block of `text`; a part of a scene is put into a scene that has room for it, and run,
 * Python is executed, C++ and CMake stand in an example that is compiled,
 * a block of `text` is what the block before it prints; "..." stands for any lines.
 """
@@ -63,7 +63,10 @@ class Blocks(unittest.TestCase):
                 printed, names = "", {"__name__": "document"}
                 for language, code, before in blocks(path.read_text(encoding="utf-8")):
                     ran[language] = ran.get(language, 0) + 1
-                    if language == "text":
+                    file = re.search(r"`(\w+\.txt)`:$", before)
+                    if language == "text" and file:
+                        (Path(folder) / file[1]).write_text(code)
+                    elif language == "text":
                         if printed is not None:
                             self.assertRegex(printed, pattern(code))
                     elif language == "sh":
