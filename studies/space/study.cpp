@@ -11,6 +11,7 @@
 #include "core/geometry/elementary.hpp"
 #include "io/files.hpp"
 #include "io/scene_json.hpp"
+#include "scene/build.hpp"
 #include "scene/options.hpp"
 #include "tools/observed_order.hpp"
 
