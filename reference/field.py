@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Computes the answers of reference/field.json anew: numbers that other programs' tests, manuals and papers print, and what is right.
 
-A problem has the scene that vlbeam runs, and numbers: a quantity of its last sample (or at a time, `at`), of which factor * quantity + offset
-is what is printed, within half a unit of the last digit or what their own test allows. `answer` is the right value of the model that vlbeam
-has, `known_to` its uncertainty, `theirs` that of the model that printed the number, where it is another one. field_beams.py and
-field_cables.py have the equations. All else in the file is written by hand.
+A problem has the scene that vlbeam runs, and numbers: a quantity of its last sample (or at a time, `at`), of which factor * quantity +
+offset is what is printed, within half a unit of the last digit or what their own words or test allow. `answer` is the right value of the
+model that vlbeam has, `known_to` its uncertainty, `theirs` the right value of the model that printed the number, where it is another
+one. field_beams.py and field_cables.py have the equations. All else in the file is written by hand.
 
     field.py               needs numpy, scipy and mpmath; a minute
 """
@@ -16,10 +16,10 @@ import field_beams
 import field_cables
 
 HERE = Path(__file__).resolve().parent
-ABOUT = ("Problems that the tests, manuals and papers of other programs print numbers of, with the right values of these numbers. ours = factor * "
-         "quantity + offset, of the last sample or at a time; printed, and what it is right within by its own digits, words or test; answer: the "
-         "right value of vlbeam's model, known_to: its uncertainty; theirs: the right value of their model, where that is another one. "
-         "reference/field.py computes answer, known_to and theirs.")
+ABOUT = ("Problems that the tests, manuals and papers of other programs print numbers of, with the right values of these numbers. ours = "
+         "factor * quantity + offset, of the last sample or at a time; printed, and what it is right within by its own digits, words or "
+         "test; answer: the right value of vlbeam's model, known_to: its uncertainty; theirs: the right value of their model, where that "
+         "is another one. Made by reference/field.py: it computes answer, known_to and theirs; the rest is written by hand.")
 
 
 def uncertainty(value, told):

@@ -128,7 +128,8 @@ def plane_problems():
 
     for load in (1, 2, 5, 10):  # theirs without stretch
         own, theirs = (cantilever(1, EA, 1, (0, -load)) for EA in (1e8, INF))
-        answers[f"mattiasson_{load}"] = {"end.y": (-own[0][1], own[1][1], -theirs[0][1]), "end.x": (1 - own[0][0], own[1][0], 1 - theirs[0][0])}
+        answers[f"mattiasson_{load}"] = {"end.y": (-own[0][1], own[1][1], -theirs[0][1]),
+                                         "end.x": (1 - own[0][0], own[1][0], 1 - theirs[0][0])}
 
     answers["rollup"] = {"end.x": (-10.0, 0.0)}  # a full circle: closed form
     answers["lee_frame"], answers["l_frame"] = lee_frame(), l_frame()
@@ -192,8 +193,8 @@ def space_cantilever(until, C, K, force, curvature=lambda u: 0.0, speed=lambda u
 
 
 def bends():
-    """The bend of 45 degrees (Bathe & Bolourchi, IJNME 14, 1979) under a force across its plane. GJ: of the polar moment (GXBeam), or of the
-    torsion constant (NAFEMS)."""
+    """The bend of 45 degrees (Bathe & Bolourchi, IJNME 14, 1979) under a force across its plane. GJ: of the polar moment (GXBeam), or of
+    the torsion constant (NAFEMS)."""
     answers = {}
     R, an, EA, EI = 100, math.pi / 4, 1e7, 1e7 / 12
     rest = np.array([R * math.sin(an), -R * (1 - math.cos(an)), 0])
@@ -244,7 +245,8 @@ def moving_force(P, L, EI, rhoA, v, t, modes):
     """Deflection of the middle at t, the force from the first support at t = 0; no damping."""
     n = np.arange(1, modes + 1)
     own, forced = (n * math.pi / L)**2 * math.sqrt(EI / rhoA), n * math.pi * v / L
-    return float(np.sum(2 * P / (rhoA * L) * np.sin(n * math.pi / 2) / (own**2 - forced**2) * (np.sin(forced * t) - forced / own * np.sin(own * t))))
+    vibrates = np.sin(forced * t) - forced / own * np.sin(own * t)
+    return float(np.sum(2 * P / (rhoA * L) * np.sin(n * math.pi / 2) / (own**2 - forced**2) * vibrates))
 
 
 def moving_forces():
@@ -257,7 +259,8 @@ def moving_forces():
     inner = h - 2 * tf
     corner, middle = r * r * (1 - math.pi / 4), r * (10 - 3 * math.pi) / (12 - 3 * math.pi)
     A = 2 * b * tf + inner * tw + 4 * corner
-    I = (b * h**3 - (b - tw) * inner**3) / 12 + 4 * (r**4 * (1 / 3 - math.pi / 16 - 1 / (9 * (4 - math.pi))) + corner * (inner / 2 - middle)**2)
+    fillet = r**4 * (1 / 3 - math.pi / 16 - 1 / (9 * (4 - math.pi))) + corner * (inner / 2 - middle)**2
+    I = (b * h**3 - (b - tw) * inner**3) / 12 + 4 * fillet
     F, L, v, EI, rhoA = 700, 12, 1.8, 2.1e11 * I, 7850 * A
     sag = F * L**3 / (48 * EI)
     vibration = sag * math.pi * v / L / ((math.pi / L)**2 * math.sqrt(EI / rhoA))
@@ -280,7 +283,7 @@ def moving_forces():
 # --------------------------------------------------------------------------------------------------------------- pendulums
 def pendulum(rate, t):
     """x - 1 and y of the end of a bar of 1 m from the horizontal: theta'' = -rate sin(theta)."""
-    theta = solve_ivp(lambda t, y: [y[1], -rate * math.sin(y[0])], (0, t), [math.pi / 2, 0], method="DOP853", rtol=1e-13, atol=1e-13).y[0, -1]
+    theta = last(lambda t, y: [y[1], -rate * math.sin(y[0])], t, [math.pi / 2, 0], 1e-13)[0]
     return math.sin(theta) - 1, -math.cos(theta)
 
 

@@ -119,8 +119,9 @@ def floors():
 
 
 def bridle(floor, friction):
-    """MAP++, docs/source/python_example.rst: H, V at the upper end of a chain of 450 m, from (400, 0, -350), which two ropes of 90 m hold at
-    (25, +-20, -10). Friction that has come into play holds back a share of the pull along the floor (Jonkman, NREL/TP-500-41958, 2007)."""
+    """MAP++, docs/source/python_example.rst: H, V at the upper end of a chain of 450 m, from (400, 0, -350), which two ropes of 90 m hold
+    at (25, +-20, -10). Friction that has come into play holds back a share of the pull along the floor (Jonkman, NREL/TP-500-41958,
+    2007)."""
     g, rho, L, rope, EA, soft = 9.81, 1025, 450, 90, 9.8e9, 9.8e8
     w = (320 - rho * math.pi / 4 * 0.25**2) * g
     light = (100 - rho * math.pi / 4 * 0.30**2) * g
@@ -207,8 +208,8 @@ def pulleys():
 
 # ----------------------------------------------------------------------------------------------------------- overhead lines
 def otls():
-    """Catenaries under weight and a load across, the same along the span: each lies in the plane of its chord and of the load. The length is
-    that of the inextensible curve of the pull H; with EA = 1e12 it stretches by 1e-9."""
+    """Catenaries under weight and a load across, the same along the span: each lies in the plane of its chord and of the load. The length
+    is that of the inextensible curve of the pull H; with EA = 1e12 it stretches by 1e-9."""
     def span(across, along, q, H):
         k = mp.mpf(H) / q
         a = mp.findroot(lambda a: k * (mp.cosh((a + across) / k) - mp.cosh(a / k)) - along, along * k / across - across / 2)

@@ -142,6 +142,7 @@ StudyReport run(const StudyContext& context) {
                           "verdict", "ours", "our_error", "their_error", "told", "converged", "uncertainty", "steps"}};
   int agree = 0, err = 0, other = 0, ran = 0, told = 0, covered = 0, silent = 0, limits = 0, limits_held = 0;
   double worst = 0;
+  double furthest = 0;  // of what converge finds, in its uncertainties
   int closer = 0;
   std::vector<double> errors;
   std::set<std::string> communities;
@@ -176,7 +177,9 @@ StudyReport run(const StudyContext& context) {
       silent += off - number.known_to > 0.01 * size && !found.warned ? 1 : 0;
       if (ours.converged) {
         ++limits;
-        limits_held += std::abs(*ours.converged - number.answer) <= *ours.uncertainty + number.known_to ? 1 : 0;
+        const double of_uncertainty = std::abs(*ours.converged - number.answer) / (*ours.uncertainty + number.known_to);
+        limits_held += of_uncertainty <= 1 ? 1 : 0;
+        furthest = std::max(furthest, of_uncertainty);
       }
       table.rows.push_back({problem.name, problem.community, number.what, number.unit, number.value, number.within,
                             number.answer, number.known_to, number.theirs ? Json(*number.theirs) : Json(), verdict,
@@ -199,6 +202,7 @@ StudyReport run(const StudyContext& context) {
                      {"told", told},
                      {"not_covered", told - covered},
                      {"silent", silent},
+                     {"furthest_limit", furthest},
                      {"limits", limits},
                      {"limits_missed", limits - limits_held}};
   report.tables = {std::move(table)};
