@@ -320,8 +320,7 @@ int import_command(const ImportArguments& arguments) {
   const ImportedScene imported =
       naming_file(arguments.file, [&] { return scene_of_moordyn(read_text(arguments.file)); });
   validate(scene_from_json(imported.scene));
-  outputs.write(arguments.out, RunStatus::completed,
-                [&](const TextSink& sink) { sink(pretty(imported.scene)); });
+  outputs.write(arguments.out, RunStatus::completed, [&](const TextSink& sink) { sink(pretty(imported.scene)); });
   for (const std::string& what : imported.left_out) std::cerr << "  left out    " << printable(what) << '\n';
   for (const std::string& file : outputs.written()) std::cerr << "  written     " << printable(file) << '\n';
   for (const std::string& problem : outputs.problems()) std::cerr << "vlbeam: " << printable(problem) << '\n';
