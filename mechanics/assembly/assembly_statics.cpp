@@ -58,23 +58,14 @@ class Search {
 
   /// Corrects q and the multipliers until they are an equilibrium at that factor; false where they do not come to one.
   bool solve(double factor) {
-    const Eigen::Index own = q.size() - equations.multipliers();
     if (by_a_ == 0) first_mass(factor);
     Eigen::VectorXd offset;  // supports are where the factor has them
     if (equations.driven_offset(q, factor, offset)) q -= offset;
     double by_a = by_a_, before = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_corrections_at_rest; ++i) {
-      equations.residual(q, zero, a, factor, r_);
-      if (!r_.allFinite() || !equations.linearize(q, zero, a, factor, {1, 0, by_a})) return false;
-      equations.solve(r_);
-      if (!r_.allFinite()) return false;
-      ++counters_.newton.iterations;
-      const Sizes step = sizes(r_);
+      const auto [step, share, there] = correct(factor, by_a);
+      if (!there) return false;
       const double size = std::max(step.position / options_.length, step.slope);
-      const double share = 1 / std::max({1.0, step.position / (largest_move_at_rest * options_.length),
-                                         step.slope / largest_turn_at_rest});
-      q.head(own) -= share * r_.head(own);
-      a.tail(a.size() - own) -= share * by_a * r_.tail(r_.size() - own);
       if (size <= options_.tolerance) return true;
       if (size < before) {
         by_a = std::max(calm * by_a, least_mass * by_a_);
@@ -93,7 +84,6 @@ class Search {
   bool slide_down(double factor, double rate) {
     constexpr int most = 300;
     constexpr double push = 1e-5, far = 1e-2, near = 1e-4;  // of the length
-    const Eigen::Index own = q.size() - equations.multipliers();
     double uneven = 0;
     for_each_coordinate(fields_, [&](Field field, Eigen::Index i) {
       uneven += 0.6180339887;
@@ -102,16 +92,8 @@ class Search {
     });
     bool on_its_way = false;
     for (int i = 0; i < most; ++i) {
-      equations.residual(q, zero, a, factor, r_);
-      if (!r_.allFinite() || !equations.linearize(q, zero, a, factor, {1, 0, 2 * rate})) return false;
-      equations.solve(r_);
-      if (!r_.allFinite()) return false;
-      ++counters_.newton.iterations;
-      const Sizes step = sizes(r_);
-      const double share = 1 / std::max({1.0, step.position / (largest_move_at_rest * options_.length),
-                                         step.slope / largest_turn_at_rest});
-      q.head(own) -= share * r_.head(own);
-      a.tail(a.size() - own) -= share * 2 * rate * r_.tail(r_.size() - own);
+      const auto [step, share, there] = correct(factor, 2 * rate);
+      if (!there) return false;
       on_its_way = on_its_way || step.position > far * options_.length;
       if (on_its_way && step.position < near * options_.length) break;
     }
@@ -180,6 +162,27 @@ class Search {
   Eigen::VectorXd q, a, zero;
 
  private:
+  /// A correction towards the equilibrium, that mass times `by_a` resists; only a share of it where it is large.
+  struct Correction {
+    Sizes step = {};
+    double share = 1;
+    bool there = false;  ///< else it could not be found
+  };
+  Correction correct(double factor, double by_a) {
+    const Eigen::Index own = q.size() - equations.multipliers();
+    equations.residual(q, zero, a, factor, r_);
+    if (!r_.allFinite() || !equations.linearize(q, zero, a, factor, {1, 0, by_a})) return {};
+    equations.solve(r_);
+    if (!r_.allFinite()) return {};
+    ++counters_.newton.iterations;
+    const Sizes step = sizes(r_);
+    const double share = 1 / std::max({1.0, step.position / (largest_move_at_rest * options_.length),
+                                       step.slope / largest_turn_at_rest});
+    q.head(own) -= share * r_.head(own);
+    a.tail(a.size() - own) -= share * by_a * r_.tail(r_.size() - own);
+    return {step, share, true};
+  }
+
   /// by_a with which what acts would move the whole by its length.
   void first_mass(double factor) {
     equations.residual(q, zero, zero, factor, r_);
