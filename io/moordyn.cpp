@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/geometry/elementary.hpp"
 #include "io/nearest.hpp"
 
 namespace vlbeam {
@@ -145,7 +146,7 @@ struct Drawn {
 Place between(const Place& a, const Place& b, double part) {
   return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])};
 }
-double distance(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Place& a, const Place& b) { return portable::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 double length_of(const std::vector<Place>& corners) {
   double length = 0;
   for (std::size_t i = 1; i < corners.size(); ++i) length += distance(corners[i - 1], corners[i]);
@@ -176,7 +177,7 @@ Drawn drawn(const Place& a, const Place& b, double length, std::optional<double>
         "between two free points " + std::to_string(chord) + " m apart it must be no shorter: nothing holds them");
   }
   // a V that hangs down in the vertical plane of both points
-  const double across = std::hypot(b[0] - a[0], b[1] - a[1]), sag = std::sqrt(length * length - chord * chord) / 2;
+  const double across = portable::hypot(b[0] - a[0], b[1] - a[1]), sag = std::sqrt(length * length - chord * chord) / 2;
   Place corner = between(a, b, 0.5);
   const double rise = (b[2] - a[2]) / chord, level = across / chord;
   const std::array<double, 2> along =
@@ -315,7 +316,7 @@ class Import {
     const Place& origin = points_.front().at;
     double far = 0;
     for (const LinePoint& point : points_) {
-      const double way = std::hypot(point.at[0] - origin[0], point.at[1] - origin[1]);
+      const double way = portable::hypot(point.at[0] - origin[0], point.at[1] - origin[1]);
       if (way > far) {
         far = way;
         along_ = {(point.at[0] - origin[0]) / way, (point.at[1] - origin[1]) / way};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/geometry/elementary.hpp"
 #include "scene/assembly.hpp"
 #include "scene/derived.hpp"
 #include "scene/shape.hpp"
@@ -18,7 +19,7 @@ constexpr int intervals = 12;          // an element, along which places on the 
 constexpr double along_gravity = 0.7;  // a beam this steep has its ground beyond its end, not below it
 
 Pair unit(Pair v) {
-  const double size = std::hypot(v[0], v[1]);
+  const double size = portable::hypot(v[0], v[1]);
   return size > 0 ? Pair{v[0] / size, v[1] / size} : Pair{};
 }
 double dot(Pair a, Pair b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -164,7 +165,9 @@ std::vector<Symbol> symbols_of(const RunFile& run, const std::vector<Configurati
 Symbol wheel_at(const Scene& scene, const Configuration& shape, Pair at, std::size_t across, std::size_t up,
                 std::size_t frame) {
   const std::vector<ShapePoint> points = points_along(scene, shape, intervals);
-  const auto far = [&](const ShapePoint& point) { return std::hypot(point.r[across] - at[0], point.r[up] - at[1]); };
+  const auto far = [&](const ShapePoint& point) {
+    return portable::hypot(point.r[across] - at[0], point.r[up] - at[1]);
+  };
   const auto nearest = std::ranges::min_element(points, {}, far);
   Pair outside{};
   if (nearest - points.begin() > 1 && points.end() - nearest > 2) {  // a node stands there twice

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/elementary.hpp"
+
 namespace vlbeam {
 namespace {
 
@@ -14,7 +16,7 @@ Line circle(double radius, Pair center, double from = 0, double to = 360) {
   constexpr int parts = 20;
   for (int i = 0; i <= parts; ++i) {
     const double angle = (from + (to - from) * i / parts) * std::numbers::pi / 180;
-    line.push_back({center[0] + radius * std::cos(angle), center[1] + radius * std::sin(angle)});
+    line.push_back({center[0] + radius * portable::cos(angle), center[1] + radius * portable::sin(angle)});
   }
   return line;
 }
