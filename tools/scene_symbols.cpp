@@ -15,7 +15,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-constexpr int intervals = 12;          // an element, along which places on the beam are looked up
+constexpr int fine_intervals = 12;     // an element, along which places on the beam are looked up
 constexpr double along_gravity = 0.7;  // a beam this steep has its ground beyond its end, not below it
 
 Pair unit(Pair v) {
@@ -31,7 +31,7 @@ class Picture {
           std::vector<Symbol>& symbols)
       : scene_(scene),
         shape_(shape),
-        points_(points_along(scene, shape, intervals)),
+        points_(points_along(scene, shape, fine_intervals)),
         across_(across),
         up_(up),
         frame_(frame),
@@ -164,7 +164,7 @@ std::vector<Symbol> symbols_of(const RunFile& run, const std::vector<Configurati
 
 Symbol wheel_at(const Scene& scene, const Configuration& shape, Pair at, std::size_t across, std::size_t up,
                 std::size_t frame) {
-  const std::vector<ShapePoint> points = points_along(scene, shape, intervals);
+  const std::vector<ShapePoint> points = points_along(scene, shape, fine_intervals);
   const auto far = [&](const ShapePoint& point) {
     return portable::hypot(point.r[across] - at[0], point.r[up] - at[1]);
   };

@@ -20,7 +20,7 @@ namespace {
 constexpr double warned_share = 0.1;      // of the largest strain energy
 constexpr double share_of_swing = 0.005;  // of a pendulum as long as the beam: a step that damps what is faster
 constexpr int damping_steps = 4;          // until fast vibrations have died out
-constexpr int most_steps = 40;            // where they have to be cut: else no such equilibrium is near
+constexpr int most_damping_steps = 40;    // where they have to be cut: else no such equilibrium is near
 
 double strain_energy(const Sample& sample) {
   return sample.energy.axial + sample.energy.bending + sample.energy.torsion;
@@ -58,7 +58,7 @@ double borne_by_the_stiff(const Scene& given) {
   scene.output = {.interval = scene.duration, .configurations = {}};
   try {
     int steps = 0;
-    const RunResult result = simulate(scene, [&steps](double) { return ++steps <= most_steps; });
+    const RunResult result = simulate(scene, [&steps](double) { return ++steps <= most_damping_steps; });
     if (result.status != RunStatus::completed) return 0;
     return strain_energy(result.samples.back()) - strain_energy(result.samples.front());
   } catch (const InvalidInput&) {
