@@ -1,15 +1,15 @@
 # How far printed numbers and ours, by default, are from the answer: a point a number.
-width = 1150; height = 700
+width = 900; height = 620
 load folder . "/../style.gp"
 set datafile columnheaders
-set title "Numbers that others print, and ours by default: how far they are from the answer" noenhanced
+set title "Errors of numbers that others print, and of ours by default"
 set logscale xy
 set format xy "10^{%T}"
 set xlabel "error of the printed number / answer [-]"
 set ylabel "error of ours / answer [-]"
 set xrange [3e-14:3]
 set yrange [3e-14:3e-2]
-set key outside right top Left reverse samplen 1 spacing 1.05 font ",12" noenhanced
+set key outside right top Left reverse samplen 0.5 spacing 0.95 width -1 font ",12.5" noenhanced
 communities = "EXUDYN VirtualBow AeroBeams BeamDyn SHARPy GXBeam Kynema Abaqus Chrono XC MoorPy MoorDyn MAP++ OrcaFlex FRyDoM Code_Aster OTLS"
 tints = "1f77b4 ff7f0e 2ca02c d62728 9467bd 8c564b e377c2 7f7f7f bcbd22 17becf 08306b fd8d3c 31a354 cb181d 54278f 252525 a6611a"
 n = words(communities)
