@@ -71,6 +71,13 @@ struct TableRow {
   }
 };
 
+/// A number > 0 of a row.
+double positive(const TableRow& row, const std::vector<std::string>& names) {
+  const double value = row.number(names);
+  if (value > 0) return value;
+  throw InvalidInput("line " + std::to_string(row.line) + ", " + names.front(), six_digits(value), "it must be > 0");
+}
+
 /// The tables of a file, by what their headlines say.
 struct Tables {
   std::vector<TableRow> types, points, lines, rods, bodies;
@@ -163,6 +170,9 @@ std::vector<Place> along_floor(const Place& a, const Place& b, double floor, dou
 Drawn drawn(const Place& a, const Place& b, double length, std::optional<double> floor, bool first_held, bool last_held,
             int line) {
   const double chord = distance(a, b);
+  if (chord <= same_place * length) {
+    throw InvalidInput("line " + std::to_string(line), "both ends at one place", "its points must be apart");
+  }
   if (length < chord) {
     if (last_held)
       return {{a, between(a, b, length / chord)},
@@ -212,6 +222,7 @@ class Import {
     read_types();
     read_points();
     if (tables_.lines.empty()) throw InvalidInput("the file", "no line", "there must be one under LINES");
+    if (points_.empty()) throw InvalidInput("the file", "no point", "lines need two under POINTS");
     lay_axes();
     Json scene{{"schema", "vlbeam.scene/1"}, {"title", "Lines of a MoorDyn input"}};
     if (!plane_) scene["dimension"] = 3;
@@ -263,8 +274,8 @@ class Import {
     for (const TableRow& row : tables_.types) {
       LineType type{};
       type.diameter = row.number({"diam", "diameter"});
-      type.mass = row.number({"massden", "massdeninair", "mass/m"});
-      type.stiffness = row.number({"ea"});
+      type.mass = positive(row, {"massden", "massdeninair", "mass/m"});
+      type.stiffness = positive(row, {"ea"});
       type.damping = row.number({"ba/-zeta", "ba", "ba/zeta", "cint", "c"}, 0);
       type.normal_drag = row.number({"cd", "cdn"}, 0);
       type.tangential_drag = row.number({"cdax", "cdt"}, 0);
@@ -351,8 +362,8 @@ class Import {
     const LineType& type = known->second;
     const std::array<std::size_t, 2> ends{point_at(row, {"attacha", "nodeanch", "nodea"}),
                                           point_at(row, {"attachb", "nodefair", "nodeb"})};
-    const double length = row.number({"unstrlen", "length"});
-    const int segments = static_cast<int>(row.number({"numsegs", "numseg"}));
+    const double length = positive(row, {"unstrlen", "length"});
+    const int segments = static_cast<int>(std::clamp(positive(row, {"numsegs", "numseg"}), 1.0, 1e6));
     const auto held = [&](std::size_t end) { return points_[ends[end]].kind != LinePoint::Kind::free; };
     const Drawn shape = drawn(points_[ends[0]].at, points_[ends[1]].at, length, floor_, held(0), held(1), row.line);
     const bool straight = shape.corners.size() == 2;

@@ -150,6 +150,12 @@ TEST(MoorDyn, WhatIsNotUnderstoodIsNamed) {
     return false;
   };
   EXPECT_TRUE(says("nothing", "LINE TYPES"));
+  EXPECT_TRUE(
+      says(std::string(one_line).substr(0, std::string(one_line).find("1 Fixed")) + "--- LINES\nID\n(-)\n1 main\n",
+           "no point"));
+  EXPECT_TRUE(says(with(one_line, "902.2", "-1"), "> 0"));
+  EXPECT_TRUE(says(with(one_line, "902.2 20", "902.2 0"), "> 0"));
+  EXPECT_TRUE(says(with(one_line, "2.6 4.5033 -70", "426.935 739.47 -320"), "apart"));
   EXPECT_TRUE(says(with(one_line, "1 main 902.2", "1 mian 902.2"), "the nearest is \"main\""));
   EXPECT_TRUE(says(with(one_line, " 1 2 p", " 1 3 p"), "\"3\""));
   EXPECT_TRUE(says(with(one_line, "384.243E6", "curve.txt"), "curve.txt"));
