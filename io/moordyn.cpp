@@ -267,7 +267,7 @@ class Import {
     floor_stiffness_ = option({"kbot", "kb"}, 3e6);
     floor_damping_ = option({"cbot", "cb"}, 3e5);
     const double friction = option({"frictioncoefficient", "mu_kt", "mu_ka"}, 0);
-    if (friction > 0) left_out_.push_back("friction of the seabed: see /ground/friction");
+    if (friction > 0) left_out_.push_back("friction of the seabed, which acts in a motion only: /ground/friction");
   }
 
   void read_types() {

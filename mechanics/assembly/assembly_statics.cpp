@@ -239,9 +239,8 @@ class Search {
 /// Eigenvalues of K x = l M x about a point, within what links allow.
 struct Spectrum {
   std::vector<double> nearest = {};  ///< to minus the shift, in their order
-  int below = 0;  ///< values below 0 that were seen, wherever they are; there may be more, for only those of the space
-                  ///< spanned are known, and never fewer
-  double lowest = 0;  ///< of those seen
+  int below = 0;                     ///< values below 0 that were seen, wherever they are: at least as many there are
+  double lowest = 0;                 ///< of those seen
 };
 
 template <int D>
