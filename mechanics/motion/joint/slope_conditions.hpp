@@ -22,6 +22,7 @@ class SlopeConditions {
   /// In space two components of r_x- x r_x+ = 0 imply the third. So the component along axis `omitted` is left out;
   /// r_x- must not vanish along that axis.
   SlopeConditions(JointSlopes slopes, int omitted) {
+    forms_.fill(Form::Zero());
     if (slopes == JointSlopes::equal_stretch) {
       Form& form = add();
       form.diagonal().template head<D>().setOnes();
@@ -44,11 +45,7 @@ class SlopeConditions {
   double rate(int i, const Slopes& z, const Slopes& z_rate) const { return z.dot(form(i) * z_rate); }
 
  private:
-  Form& add() {
-    Form& form = forms_[static_cast<std::size_t>(count_++)];
-    form.setZero();
-    return form;
-  }
+  Form& add() { return forms_[static_cast<std::size_t>(count_++)]; }
 
   int count_ = 0;
   std::array<Form, most> forms_;
