@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 here = os.path.dirname(os.path.abspath(__file__))
 program = os.path.abspath(sys.argv[1])
-with open(os.path.join(here, "..", "studies", "work_precision", "study.full.json")) as file:
+with open(os.path.join(here, "..", "studies", "work_precision", "study.json")) as file:
     study = json.load(file)
 
 
@@ -81,7 +81,7 @@ with ThreadPoolExecutor(2) as pool:
     finest = pool.submit(converged)
     first, second = study["reference_integrators"]
     result = {
-        "source": "reference/work_precision.py, from the scenes of studies/work_precision/study.full.json: states at the"
+        "source": "reference/work_precision.py, from the scenes of studies/work_precision/study.json: states at the"
         f" end of each run by {first} at the given tolerance; error is the difference to {second} at the same one."
         f" converged is the falling beam with {study['converged']['scene']['beam']['elements']} elements; its error is"
         f" the larger of the differences to the other element and to {study['converged']['coarser']} elements.",

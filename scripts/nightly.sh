@@ -30,7 +30,7 @@ trust() {  # all scenes of the study, of which its report has every fourth
   rm -rf $out/trust
   mkdir $out/trust
   cp -r studies reference $out/trust/
-  echo '{"every": 1, "fine_every": 12, "first": 2}' > $out/trust/studies/trust/study.full.json
+  echo '{"every": 1, "fine_every": 12, "first": 2}' > $out/trust/studies/trust/study.json
   build/vlbeam study trust --studies $out/trust/studies --out $out/trust/reports --jobs "$jobs"
 }
 

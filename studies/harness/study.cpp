@@ -102,6 +102,14 @@ bool is_completed(const std::filesystem::path& report) {
   }
 }
 
+/// A study's data hold its whole sweep, and under "ci" what the small one changes of it (a merge patch, RFC 7396).
+Json sweep_of(Profile profile, Json data) {
+  const Json small = data.value("ci", Json::object());
+  data.erase("ci");
+  if (profile == Profile::ci) data.merge_patch(small);
+  return data;
+}
+
 }  // namespace
 
 ProgressCallback StudyContext::until_interrupted() {
@@ -128,7 +136,7 @@ StudyVerdict run_study(const Study& study, const StudyRun& run) {
   context.folder = run.sources / study.name;
   context.jobs = study.measures_time ? 1 : run.jobs;
   const std::string profile_name(to_string(run.profile));
-  context.config = read_json(context.folder / ("study." + profile_name + ".json"));
+  context.config = sweep_of(run.profile, read_json(context.folder / "study.json"));
   const std::filesystem::path gates_file = context.folder / "gates.json";
   evaluate(gates_file, Json::object());  // a typing error should show before the runs, not after
   const ReportFiles files{.out = run.out, .study = study.name};

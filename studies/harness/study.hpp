@@ -21,8 +21,8 @@ constexpr auto names(Profile) { return std::to_array<Named<Profile>>({{Profile::
 struct StudyContext {
   std::string study;
   Profile profile = Profile::full;
-  std::filesystem::path folder;  ///< the study's sources: study.cpp, study.PROFILE.json, gates.json, *.gp
-  Json config;                   ///< study.PROFILE.json: the sweep as data
+  std::filesystem::path folder;  ///< the study's sources: study.cpp, study.json, gates.json, *.gp
+  Json config;                   ///< study.json for the profile: the sweep as data
   int jobs = 1;
 
   /// Runs independent cases on the study's threads; see harness/sweep.hpp. Results do not depend on the threads.

@@ -110,10 +110,10 @@ grep -qF 'a\u001b]0;owned\u0007\u000a  status' err.txt || failed "a title with c
 
 # Other files say where, too.
 mkdir -p studies/torsion
-printf '{\n "modes": 3,,}' > studies/torsion/study.ci.json
+printf '{\n "modes": 3,,}' > studies/torsion/study.json
 printf '{"schema": "vlbeam.gates/1", "gates": [{"name": "a", "name": "b"}]}' > studies/torsion/gates.json
 "$vlbeam" study torsion --profile ci --studies studies --out out 2> err.txt; code=$?
-[[ $code -eq 2 ]] && grep -qF 'studies/torsion/study.ci.json: line 2, column 13: ","' err.txt || failed "a study's data: $(cat err.txt)"
+[[ $code -eq 2 ]] && grep -qF 'studies/torsion/study.json: line 2, column 13: ","' err.txt || failed "a study's data: $(cat err.txt)"
 "$vlbeam" study torsion --profile ci --studies nowhere --out out 2> err.txt; code=$?
 [[ $code -eq 2 ]] && grep -qF 'looked for nowhere/torsion/gates.json' err.txt || failed "no studies: $(cat err.txt)"
 echo '{"study": "torsion"}' > report.json

@@ -40,7 +40,7 @@ StudyReport midpoint_study(const StudyContext& context) {
 class StudyFolder : public testing::Test {
  protected:
   StudyFolder() {
-    folder_.write("studies/midpoint/study.ci.json", R"({"intervals": [4, 8, 16, 32]})");
+    folder_.write("studies/midpoint/study.json", R"({"intervals": [4], "ci": {"intervals": [4, 8, 16, 32]}})");
     folder_.write("studies/midpoint/convergence.gp",
                   "set terminal svg\nset output output\nset datafile separator comma\nset logscale\n"
                   "plot data.'errors.csv' using 1:2 skip 1\n");
@@ -56,14 +56,29 @@ class StudyFolder : public testing::Test {
                       std::to_string(finest) + "}]}");
   }
 
-  StudyVerdict run(StudyReport (*body)(const StudyContext&), int jobs = 2) const {
+  StudyVerdict run(StudyReport (*body)(const StudyContext&), int jobs = 2, Profile profile = Profile::ci) const {
     return run_study({.name = "midpoint", .title = "", .run = body},
-                     {.profile = Profile::ci, .out = folder_ / "out", .sources = folder_ / "studies", .jobs = jobs});
+                     {.profile = profile, .out = folder_ / "out", .sources = folder_ / "studies", .jobs = jobs});
   }
   std::string text(const std::string& file) const { return read_text(folder_ / file); }
 
   TemporaryFolder folder_;
 };
+
+TEST_F(StudyFolder, TheSmallSweepIsAPatchOfTheWholeOne) {
+  folder_.write("studies/midpoint/study.json",
+                R"({"elements": [4, 8, 16], "scenes": {"a": {"step": 1}, "b": {"step": 2}},
+                    "ci": {"elements": [4], "scenes": {"a": {"step": 3}, "b": null}}})");
+  static Json seen;
+  const auto look = +[](const StudyContext& context) {
+    seen = context.config;
+    return StudyReport{};
+  };
+  run(look);
+  EXPECT_EQ(seen.dump(), R"({"elements":[4],"scenes":{"a":{"step":3}}})");
+  run(look, 1, Profile::full);
+  EXPECT_EQ(seen.dump(), R"({"elements":[4,8,16],"scenes":{"a":{"step":1},"b":{"step":2}}})");
+}
 
 TEST_F(StudyFolder, WritesReportTablesAndFigures) {
   const StudyVerdict verdict = run(midpoint_study);
@@ -136,7 +151,7 @@ StudyReport swinging_study(const StudyContext& context) {
 class StudyOfProcesses : public StudyFolder {
  protected:
   StudyOfProcesses() {
-    folder_.write("studies/swinging/study.ci.json", "{}");
+    folder_.write("studies/swinging/study.json", "{}");
     folder_.write("studies/swinging/gates.json", R"({"schema": "vlbeam.gates/1", "gates": [
       {"name": "tip", "kind": "exact", "quantity": "y", "reason": "the beam is 1 m long", "min": -1.1, "max": 0}]})");
   }
@@ -199,7 +214,7 @@ TEST_F(StudyFolder, AFigureThatCannotBeDrawnFailsTheStudy) {
 }
 
 TEST_F(StudyFolder, DataThatIsNotUnderstoodLeavesNoReport) {
-  folder_.write("studies/midpoint/study.ci.json", "{");
+  folder_.write("studies/midpoint/study.json", "{");
   EXPECT_THROW(run(midpoint_study), InvalidInput);
   folder_.write("studies/midpoint/gates.json", "{}");
   EXPECT_THROW(run(midpoint_study), InvalidInput);
