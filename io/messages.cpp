@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <new>
+#include <sstream>
 
 namespace vlbeam {
 
@@ -34,6 +35,13 @@ std::string explained(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) == nullptr) return error.what();
   return "out of memory: take fewer elements, samples (/output/interval), shapes (/output/configurations) or runs at a "
          "time (--jobs), or more memory";
+}
+
+std::string digits(double value, int count) {
+  std::ostringstream text;
+  text.precision(count);
+  text << value;
+  return text.str();
 }
 
 }  // namespace vlbeam

@@ -3,10 +3,8 @@
 #include <algorithm>
 
 namespace vlbeam {
-namespace {
 
-/// Letters to insert, remove, replace or swap until one word becomes the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+std::size_t letters_apart(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
   for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
@@ -21,11 +19,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-}  // namespace
-
 std::string nearest_of(std::string_view word, const std::vector<std::string>& known) {
   return *std::ranges::min_element(known, {},
-                                   [word](const std::string& candidate) { return edit_distance(word, candidate); });
+                                   [word](const std::string& candidate) { return letters_apart(word, candidate); });
 }
 
 std::string quoted_list(const std::vector<std::string>& words) {

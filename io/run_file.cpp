@@ -1,5 +1,8 @@
 #include "io/run_file.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.hpp"
 #include "io/scene_json.hpp"
 
@@ -61,6 +64,8 @@ auto understanding(const std::filesystem::path& path, const Function& function) 
 }
 
 }  // namespace
+
+bool at_same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(a)); }
 
 std::vector<double> RunFile::column(const Quantity& quantity) const {
   return understanding(path, [&] { return quantity.of(json.at("samples")); });

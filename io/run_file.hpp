@@ -11,6 +11,9 @@
 
 namespace vlbeam {
 
+/// Whether two times [s] of files are one: to 1e-9 s, or of themselves.
+bool at_same_time(double a, double b);
+
 /// The report of a run, read back.
 struct RunFile {
   std::filesystem::path path;

@@ -22,7 +22,6 @@
 #include "io/schema.hpp"
 #include "io/schema_text.hpp"
 #include "io/shapes.hpp"
-#include "io/trajectory.hpp"
 #include "io/vtk.hpp"
 #include "scene/names.hpp"
 #include "scene/simulate.hpp"
@@ -33,6 +32,7 @@
 #include "studies/harness/claims.hpp"
 #include "studies/harness/source_folder.hpp"
 #include "tools/checked_run.hpp"
+#include "tools/compare_runs.hpp"
 #include "tools/converge.hpp"
 #include "tools/influence.hpp"
 #include "tools/interrupt.hpp"
@@ -41,6 +41,7 @@
 #include "tools/plot.hpp"
 #include "tools/progress.hpp"
 #include "tools/scene_library.hpp"
+#include "tools/score.hpp"
 #include "tools/subprocess.hpp"
 #include "tools/sweep.hpp"
 
@@ -458,13 +459,27 @@ int compare_command(const CompareArguments& arguments) {
 }
 
 int score_command(const ScoreArguments& arguments) {
-  check_result_file(arguments.report, {arguments.csv});
-  const auto folder =
+  const auto cases =
       find_source_folder("reference", arguments.references, "cases/falling_beam_engineering.json").path / "cases";
-  check_result_file(arguments.report, {(folder / (arguments.name + ".json")).string()});
-  const Json score = score_trajectory(read_case(folder, arguments.name), arguments.csv, arguments.columns);
+  if (!arguments.kit.empty()) write_kit(cases, arguments.kit);
+  if (arguments.name.empty()) {
+    std::cout << cases_text(cases);
+    return done;
+  }
+  const bool is_folder = arguments.csv.empty();
+  if (is_folder && !std::filesystem::is_directory(arguments.name)) {
+    throw InvalidInput(
+        "score", "\"" + arguments.name + "\"",
+        "a case goes with a trajectory (CSV file), a folder holds several; vlbeam score lists the cases");
+  }
+  check_result_file(arguments.report, {is_folder ? arguments.name : arguments.csv});
+  if (!is_folder) check_result_file(arguments.report, {(cases / (arguments.name + ".json")).string()});
+  const Json score = is_folder ? score_folder(cases, arguments.name, arguments.columns)
+                               : score_trajectory(read_case(cases, arguments.name), arguments.csv, arguments.columns);
   if (!arguments.report.empty()) write_text(arguments.report, pretty(score));
-  if (arguments.report != "-") std::cout << printable(score_text(score), Lines::several);
+  if (arguments.report != "-") {
+    std::cout << printable(is_folder ? score_table(score) : score_text(score), Lines::several);
+  }
   return done;
 }
 

@@ -100,8 +100,9 @@ struct CompareArguments {
 };
 
 struct ScoreArguments {
-  std::string name;  ///< of the case
-  std::string csv;
+  std::string name;  ///< of the case, or a folder of trajectories; empty to list the cases
+  std::string csv;   ///< empty for a folder
+  std::string kit;   ///< folder to write scenes and answers into; empty for none
   std::vector<std::string> columns;  ///< "ours=theirs"
   std::string report;                ///< as of CompareArguments
   std::string references;            ///< empty: the folder beside the program, or it was built from

@@ -193,8 +193,10 @@ int dispatch(int argc, char** argv) {
 
   vlbeam::ScoreArguments score_arguments;
   CLI::App* score = app.add_subcommand("score", "The errors of another code's trajectory");
-  score->add_option("case", score_arguments.name, "Name of a case in reference/cases")->required();
-  score->add_option("trajectory", score_arguments.csv, "CSV file: t and any of the case's columns")->required();
+  score->add_option("case", score_arguments.name,
+                    "Name of a case, or a folder with trajectories CASE_METHOD_N40.csv; none lists the cases");
+  score->add_option("trajectory", score_arguments.csv, "CSV file: t and any of the case's columns");
+  score->add_option("--kit", score_arguments.kit, "Write scenes and answers of all cases into this folder");
   score->add_option("--column", score_arguments.columns, "A column that is called otherwise: ours=theirs");
   score->add_option("--report", score_arguments.report, "Write it (JSON) here; - is standard output");
   score->add_option("--reference", score_arguments.references,
@@ -273,9 +275,12 @@ int dispatch(int argc, char** argv) {
            "  vlbeam sweep sweep.json --case 3                          one of them, as a job of a cluster\n"
            "  vlbeam sweep sweep.json --collect                         join those that are there\n");
   examples(compare, "  vlbeam compare a.json b.json --tol 1e-6\n");
-  examples(score,
-           "  vlbeam score falling_beam_engineering their.csv\n"
-           "  vlbeam score falling_beam_engineering their.csv --column joint_position=s --column t=time\n");
+  examples(
+      score,
+      "  vlbeam score                                              the cases, and to what they are known\n"
+      "  vlbeam score falling_beam_engineering their.csv\n"
+      "  vlbeam score theirs/                                      errors and orders of all trajectories in a folder\n"
+      "  vlbeam score falling_beam_engineering their.csv --column joint_position=s --column t=time\n");
   examples(plot,
            "  vlbeam run scene.json --report r.json                     a plot is of a report, not of a scene\n"
            "  vlbeam plot r.json -o shapes.svg\n"

@@ -1,5 +1,5 @@
 // Comparing runs, and other codes' trajectories with certified ones.
-#include "io/trajectory.hpp"
+#include "tools/score.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include "io/files.hpp"
 #include "io/run_report.hpp"
 #include "io/scene_json.hpp"
-#include "tests/harness/temporary_folder.hpp"
-
 #include "scene/simulate.hpp"
+#include "tests/harness/temporary_folder.hpp"
+#include "tools/compare_runs.hpp"
 
 namespace vlbeam {
 namespace {
@@ -65,6 +65,51 @@ TEST_F(Score, LeavesOutWhatComesAfterTheCase) {
   const Json score = of("t,end_y\n0.2,2\n0.25,7\n0.3,8\n");
   EXPECT_EQ(score.at("rows_beyond_the_case"), 2);
   EXPECT_EQ(score.at("columns")[0].at("largest_error"), 0);
+}
+
+TEST_F(Score, LeavesOutTimesAtWhichTheCaseIsNotKnown) {
+  const Json score = of("t,end_y\n0.1,1\n0.15,7\n0.2,2\n");
+  EXPECT_EQ(score.at("rows_at_other_times"), 1);
+  EXPECT_EQ(score.at("rows"), 2);
+  EXPECT_EQ(score.at("columns")[0].at("largest_error"), 0);
+}
+
+TEST_F(Score, SaysInWordsWhetherAnErrorIsSeen) {
+  EXPECT_EQ(of("t,end_y\n0.1,1.005\n").at("columns")[0].at("verdict"), "no error seen: below what is known (0.01 m)");
+  EXPECT_EQ(of("t,end_y\n0.1,1.5\n").at("columns")[0].at("verdict"), "an error of 0.5 m");
+}
+
+TEST_F(Score, AColumnThatIsNearlyOneOfTheCaseIsRefused) {
+  EXPECT_TRUE(refuses("t,end.y\n0,0\n", "is \"end_y\" meant?"));
+  EXPECT_TRUE(refuses("t,other,edn_y\n0,0,0\n", "is \"end_y\" meant?"));
+  EXPECT_FALSE(refuses("t,end_y,end_x\n0,0,0\n", "meant?"));
+}
+
+TEST(ScoreFolder, FindsTheOrderOfSeveralMeshes) {
+  const TemporaryFolder folder;
+  folder.write("cases/line.json", R"({"title": "A line", "source": "made up", "t": [0, 0.1],
+      "columns": {"end_y": {"unit": "m", "values": [0, 1], "uncertainties": [1e-9, 1e-9]}}})");
+  folder.write("cases/line_steep.json", R"({"title": "A steep line", "source": "made up", "t": [0, 0.1],
+      "columns": {"end_y": {"unit": "m", "values": [0, 2], "uncertainties": [0.1, 0.1]}}})");
+  for (const auto& [n, error] : {std::pair{10, "16e-4"}, {20, "1e-4"}, {40, "0.0625e-4"}}) {
+    folder.write("theirs/line_cubic_N" + std::to_string(n) + ".csv",
+                 "t,end_y\n0.1," + std::to_string(1 + std::stod(error)) + "000000\n");
+  }
+  folder.write("theirs/line_cubic_N40.csv", "t,end_y\n0.1,1.00000625\n");
+  folder.write("theirs/line_steep.csv", "t,end_y\n0.1,2.05\n");
+  const Json scores = score_folder(folder / "cases", folder / "theirs", {});
+  EXPECT_EQ(scores.at("trajectories").size(), 4U);
+  ASSERT_EQ(scores.at("meshes").size(), 1U);
+  const Json& meshes = scores.at("meshes")[0];
+  EXPECT_EQ(meshes.at("elements"), Json::array({10, 20, 40}));
+  EXPECT_NEAR(meshes.at("order"), 4, 1e-3);
+  EXPECT_EQ(meshes.at("verdict"), "an error of 6.3e-06 m, of order 4");
+  const std::string table = score_table(scores);
+  EXPECT_NE(table.find("line_steep\n  end_y: no error seen"), std::string::npos) << table;
+  EXPECT_NE(table.find("line, cubic\n  end_y: 0.0016 (N = 10)"), std::string::npos) << table;
+  folder.write("theirs/lime.csv", "t,end_y\n0.1,2.05\n");
+  EXPECT_THROW(score_folder(folder / "cases", folder / "theirs", {}), InvalidInput);
+  EXPECT_THROW(score_folder(folder / "cases", folder / "cases", {}), InvalidInput);
 }
 
 TEST_F(Score, RefusesWithLineAndColumn) {
