@@ -5,7 +5,7 @@
 #   scripts/packages.sh python   that, and what `make python` needs
 #   scripts/packages.sh package  that, and what `make package` needs
 #   scripts/packages.sh api      that, and what `make api` needs
-#   scripts/packages.sh theory   that, and what `make theory` needs
+#   scripts/packages.sh theory   that, and what `make theory` and `make book` need
 #   scripts/packages.sh ci       that, and what .ci/run needs
 set -euo pipefail
 

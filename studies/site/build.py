@@ -43,6 +43,9 @@ DOCUMENTS = {
     "docs/what_comes_out.md": ("What comes out", "Every quantity of a run: name, unit, meaning; places, extremes over time."),
     "docs/from_moorpy.md": ("From MoorPy and MoorDyn", "Their words and ours, two lines of MoorPy's tests, when to stay."),
     "docs/from_exudyn.md": ("From EXUDYN", "Its words and ours, a cantilever, when to stay."),
+    "docs/from_chrono.md": ("From Chrono", "Its words and ours, the cable of its test, a bead on it, when to stay."),
+    "docs/from_abaqus.md": ("From Abaqus and ANSYS", "Their words and ours, a bend, a slip ring, a buckled bar, when to stay."),
+    "docs/judge_your_own_element.md": ("Judge your own element", "Twelve cases whose motion is known: compute them elsewhere, score the errors."),
     "docs/scene_keys.md": ("Keys of a scene", "Every key with its values, default, unit and meaning."),
     "docs/use.md": ("Program, library, Python", "Commands, exit codes, make, CMake, pip."),
     "docs/limits.md": ("Limits", "Where answers are wrong or get worse, the most dangerous first."),
@@ -190,9 +193,14 @@ class Site:
         path = ROOT / "studies" / name / "README.md"
         return documents.title(path.read_text(encoding="utf-8")) if path.exists() else words(name)
 
+    def lead(self, *leave_out):
+        """What the README says before its first section."""
+        leave_out += "#", "    ", "```"
+        lead = [p for p in re.split(r"\n\s*\n", dict(documents.sections(self.readme))[""]) if not p.startswith(leave_out)]
+        return self.render("\n\n".join(lead), "README.md")
+
     def front(self):
         parts = dict(documents.sections(self.readme))
-        lead = [p for p in re.split(r"\n\s*\n", parts[""]) if not p.startswith(("#", "!", "    ", "```"))]
         gates = [gate for report in self.reports.values() for gate in report["gates"]]
         counts = study_page.tally(gates)
         facts = [(len(self.reports), "studies"), (f"{sum(g['passed'] for g in gates)} of {len(gates)}", "gates hold"),
@@ -204,7 +212,7 @@ class Site:
         reference = [(document_page(file), title, line) for file, (title, line) in self.documents.items()]
         return self.page(
             "index.html", "vlbeam: beams along which something slides", "Variable-length beam finite elements: install, run, trust.",
-            "index.html", lead=self.render("\n\n".join(lead), "README.md"), picture=picture, facts=facts,
+            "index.html", lead=self.lead("!"), picture=picture, facts=facts,
             guide=[(name, self.render(parts[name], "README.md", 3, name)) for name in ("Install", "Five minutes") if name in parts],
             scenes=scenes, shown=[s for name in SHOWN for s in scenes if s["name"] == name],
             tutorials=[(document_page(file), title, line) for file, (title, line) in self.tutorials.items()],

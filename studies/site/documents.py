@@ -101,8 +101,8 @@ def _code(code):
 
 
 def inline(text, link=lambda target: target):
-    """HTML of one run of text."""
-    return re.sub(r"^<p>|</p>$", "", render(text.strip(), link))
+    """HTML of one run of text, which is no list where it begins with a number."""
+    return re.sub(r"^<p>|</p>$", "", render(re.sub(r"^(\d+)\.", r"\1\\.", text.strip()), link))
 
 
 def plain_html(made):

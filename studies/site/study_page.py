@@ -57,29 +57,36 @@ def files(site, name, report, folder):
     """What the study has read and written, with what each file is."""
     found = [(f"{name}.json", "the report: every case, number, fit and gate")]
     found += [(t["file"], t["caption"]) for t in report["tables"] if t.get("rows")]
-    for path, what in [(folder / f"study.{report['profile']}.json", "the sweep as data: scene, meshes, settings"),
+    for path, what in [(folder / "study.json", "the sweep as data: scene, meshes, settings"),
                        (folder / "gates.json", "the gates"), (folder / "study.cpp", "the driver"), (folder / "README.md", "the document")]:
         if path.exists():
             found.append((site.to(path), what))
     return found + [(site.to(scene), "the scene, to run and to copy") for scene in sorted((ROOT / "scenes").glob(f"{name}*.json"))]
 
 
-def page(site, name):
-    report, study, folder = site.reports[name], site.study(name), ROOT / "studies" / name
+def parts(site, name):
+    """What the page of a study shows of its document and its report, and so does its chapter of the book."""
+    report, study = site.reports[name], site.study(name)
     file = f"studies/{name}/README.md"
     text = site.text(file) if (ROOT / file).exists() else f"# {words(name)}\n"
-    parts = dict(documents.sections(text))
-    lead = re.sub(r"^# .*\n?", "", parts.pop("", "")).strip()
-    prose = [(re.sub(r"\W+", "-", heading.lower()), heading, site.render(body, file, 3, heading)) for heading, body in parts.items()]
-    contents = [(f"#{identifier}", heading) for identifier, heading, _ in prose]
+    sections = dict(documents.sections(text))
+    lead = re.sub(r"^# .*\n?", "", sections.pop("", "")).strip()
+    prose = [(re.sub(r"\W+", "-", heading.lower()), heading, site.render(body, file, 3, heading)) for heading, body in sections.items()]
+    return {
+        "s": study, "lead": site.render(lead, file, 2, study["title"]) if lead else "", "text": text, "prose": prose,
+        "figures": [site.figure(f) for f in report["figures"]],
+        "tables": [table(t["caption"], t["columns"], t["rows"], csv=t["file"]) for t in report["tables"] if t.get("rows")],
+        "curves": [t for t in report["tables"] if not t.get("rows")], "orders": orders(report),
+        "counts": ", ".join(f"{count} {kind}" for kind, count in study["tally"].items() if count)}
+
+
+def page(site, name):
+    given, report = parts(site, name), site.reports[name]
+    title = given["s"]["title"]
+    contents = [(f"#{identifier}", heading) for identifier, heading, _ in given["prose"]]
     contents += [("#figures", "Figures")] if report["figures"] else []
     contents += [("#tables", "Tables")] if report["tables"] else []
     contents += [("#gates", "Gates"), ("#files", "Files")]
-    site.remember(f"{name}.html", study["title"], text)
-    return site.page(
-        "study.html", f"{study['title']} · vlbeam", study["question"] or study["title"], f"{name}.html", s=study, contents=contents,
-        lead=site.render(lead, file, 2, study["title"]) if lead else "", prose=prose, figures=[site.figure(f) for f in report["figures"]],
-        tables=[table(t["caption"], t["columns"], t["rows"], csv=t["file"]) for t in report["tables"] if t.get("rows")],
-        curves=[t for t in report["tables"] if not t.get("rows")], orders=orders(report),
-        counts=", ".join(f"{count} {kind}" for kind, count in study["tally"].items() if count), files=files(site, name, report, folder),
-        measured=sorted(report["measured"].items()))
+    site.remember(f"{name}.html", title, given.pop("text"))
+    return site.page("study.html", f"{title} · vlbeam", given["s"]["question"] or title, f"{name}.html", contents=contents,
+                     files=files(site, name, report, ROOT / "studies" / name), measured=sorted(report["measured"].items()), **given)

@@ -6,8 +6,6 @@
 
 import os
 import re
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -15,6 +13,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import equations  # noqa: E402
 import documents  # noqa: E402
+import paper  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 INDEX = "docs/theory/README.md"
@@ -60,49 +59,24 @@ def figure(match):
             f"<figcaption>{match[2]}</figcaption></figure>")
 
 
-def printed():
-    """All chapters as one page. Links within it stay; those to other files of the repository become words."""
-    files = [INDEX, *chapters()]
-    of = {file: f"chapter-{k}" for k, file in enumerate(files)}
+def anchors(root=ROOT):
+    """Where each document of the theory stands, where it is printed."""
+    return {file: f"chapter-{k}" for k, file in enumerate([INDEX, *chapters(root)])}
 
-    def linker(file):
-        def link(target):
-            if re.match(r"^[a-z]+:", target):
-                return target
-            path, _, anchor = target.partition("#")
-            there = os.path.relpath(((ROOT / file).parent / path).resolve() if path else ROOT / file, ROOT)
-            if there in of:
-                return f"#{of[there]}"
-            return str(ROOT / there) if there.endswith(".svg") else ""
 
-        return link
-
-    parts = []
-    for file in files:
-        title, _, page = chapter(file, linker(file), lambda number, _: f"#eq-{number}", 2)
-        page = re.sub(r' id="(?!eq-)[^"]*"', "", page)
-        page = re.sub(r'<a [^>]*href="(?:|/[^"]*)"[^>]*>(.*?)</a>', r"\1", page, flags=re.S)
-        parts.append(f'<section id="{of[file]}"><h1>{documents.inline(title)}</h1>{page}</section>')
-    style = "\n".join((Path(__file__).parent / name).read_text(encoding="utf-8") for name in ("equations.css", "print.css"))
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>vlbeam: theory</title><style>{style}</style></head>\n'
-            f'<body>{"".join(parts)}</body></html>\n')
+def parts(of):
+    """(anchor, title, HTML) of all documents to print. `of` has what their links may lead to, their own anchors among it."""
+    for file, anchor in anchors().items():
+        title, _, page = chapter(file, paper.linker(file, of), lambda number, _: f"#eq-{number}", 2)
+        yield anchor, documents.inline(title), re.sub(r' id="(?!eq-)[^"]*"', "", page)
 
 
 def main():
     folder = Path(sys.argv[1]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    page, paper = folder / "theory.html", folder / "theory.pdf"
-    page.write_text(printed(), encoding="utf-8")
-    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if not browser:
-        sys.exit("Chromium prints the theory, and is not there: apt-get install chromium")
-    apart = ["--no-sandbox"] if os.geteuid() == 0 else []  # it refuses to be root in a sandbox
-    paper.unlink(missing_ok=True)
-    told = subprocess.run([browser, "--headless", *apart, "--disable-gpu", "--no-pdf-header-footer", f"--print-to-pdf={paper}",
-                           page.as_uri()], capture_output=True, text=True, timeout=300, check=False)
-    if not paper.exists():
-        sys.exit(f"{browser} printed nothing:\n{told.stderr}")
-    print(os.path.relpath(paper))
+    body = "".join(f'<section id="{anchor}"><h1>{title}</h1>{page}</section>' for anchor, title, page in parts(anchors()))
+    text = paper.document("vlbeam: theory", paper.linked(body), paper.style())
+    print(os.path.relpath(paper.printed(text, folder, "theory")))
 
 
 if __name__ == "__main__":

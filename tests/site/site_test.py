@@ -15,13 +15,16 @@ import tempfile
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
+from unittest import mock
 from urllib.parse import unquote, urldefrag
 
 sys.dont_write_bytecode = True
 SOURCES = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCES / "studies" / "site"))
+import book  # noqa: E402
 import documents  # noqa: E402
 import equations  # noqa: E402
+import paper  # noqa: E402
 import theory  # noqa: E402
 
 VOID = {"meta", "link", "img", "br", "hr", "input", "wbr"}
@@ -282,6 +285,66 @@ class Theory(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("mpmath"), "python3-mpmath is not there")
     def test_equations_hold(self):
         subprocess.run([sys.executable, SOURCES / "docs/theory/check.py"], check=True, stdout=subprocess.DEVNULL)
+
+
+class TheBook(unittest.TestCase):
+    """The page that `make book` prints, without its equations, which are those of the site."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.book = book.Book(SOURCES / "reports")
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(equations, "mathml", lambda tex, display: "<math></math>"):
+            path = Path(folder) / "book.html"
+            path.write_text(cls.book.page(), encoding="utf-8")
+            cls.page, text = Page(path), path.read_text(encoding="utf-8")
+        sections = re.split(r'<section id="([^"]*)">', text)
+        cls.chapters = {name: documents.html.unescape(body) for name, body in zip(sections[1::2], sections[2::2])}
+        cls.contents = re.findall(r'<b data-of="([^"]*)">', text)
+
+    def test_is_well_formed(self):
+        self.assertEqual([], self.page.problems)
+        self.assertEqual(len(self.page.ids), len(set(self.page.ids)), "ids are unique")
+
+    def test_leads_somewhere(self):
+        for link in self.page.links:
+            self.assertRegex(link, "^(#|https?:)")
+            if link.startswith("#"):
+                self.assertIn(link[1:], self.page.ids)
+        for source in self.page.shown:
+            self.assertTrue(Path(source).is_file(), source)
+
+    def test_has_all_chapters_in_its_contents(self):
+        self.assertEqual(list(self.chapters), self.contents)
+        studies = {f"study-{path.parent.name}" for path in SOURCES.glob("studies/*/gates.json")}
+        self.assertEqual({"findings", "studies"} | studies | set(theory.anchors().values()), set(self.contents))
+
+    def test_shows_what_reports_have(self):
+        for k, name in enumerate(self.book.order, 1):
+            report, chapter = self.book.reports[name], self.chapters[f"study-{name}"]
+            for figure in report["figures"]:
+                self.assertEqual(1, chapter.count(f"{figure['file']}\""), figure["file"])
+            for word, count in (("Figure", len(report["figures"])), ("Table", chapter.count("<caption>") - 1)):
+                found = [int(n) for n in re.findall(rf">{word} {k}\.(\d+)\. ", chapter)]
+                self.assertEqual(list(range(1, count + 1)), found, f"{name}: {word}")
+            for gate in report["gates"]:
+                self.assertIn(f">{gate['name']}<", chapter)
+                self.assertIn(gate["reason"] if gate.get("reason") else gate["guards"], chapter)
+            for of in report["fits"] + report.get("grid_convergence", []):
+                self.assertIn(f">{of['quantity']}<", chapter)
+            for table in report["tables"]:
+                printed = 0 < len(table.get("rows") or []) <= book.LONGEST
+                self.assertIn(f". {table['caption'][:1].upper()}{table['caption'][1:]}" if printed else f"reports/{table['file']}", chapter)
+
+    def test_names_what_it_is(self):
+        said = book.citation('title: "a: b"\nabstract: >\n  one\n  two\nauthors:\n  - given-names: A\n    family-names: B\n  - name: C\n')
+        self.assertEqual({"title": "a: b", "abstract": "one two", "authors": ["A B", "C"]}, said)
+
+    def test_pages_of_places_are_found(self):
+        with tempfile.NamedTemporaryFile() as file:
+            file.write(b"2 0 obj\n<</Type /Page\n>>\nendobj\n4 0 obj\n<</Type /Page\n>>\nendobj\n")
+            file.write(b"5 0 obj\n<</a [2 0 R /XYZ 6 8 0]\n/b-1.2 [4 0 R /XYZ 6 8 0]>>\nendobj\n")
+            file.flush()
+            self.assertEqual({"a": 1, "b-1.2": 2}, paper.places(Path(file.name)))
 
 
 class Equations(unittest.TestCase):
