@@ -2,6 +2,7 @@
 
 #include <array>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -89,6 +90,11 @@ void RunOutputs::attempt(const std::string& name, const std::function<void()>& w
   } catch (const std::exception& error) {
     problems_.push_back(explained(error));
   }
+}
+
+void RunOutputs::tell() const {
+  for (const std::string& file : written_) std::cerr << "  written     " << printable(file) << '\n';
+  for (const std::string& problem : problems_) std::cerr << "vlbeam: " << printable(problem) << '\n';
 }
 
 }  // namespace vlbeam

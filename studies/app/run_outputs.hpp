@@ -37,6 +37,8 @@ class RunOutputs {
   /// What became of them, a line each.
   const std::vector<std::string>& written() const { return written_; }
   const std::vector<std::string>& problems() const { return problems_; }
+  /// Says that on standard error.
+  void tell() const;
 
  private:
   bool force_;
