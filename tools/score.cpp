@@ -1,7 +1,6 @@
 #include "tools/score.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "io/files.hpp"
 #include "io/messages.hpp"
 #include "io/nearest.hpp"
+#include "io/number_table.hpp"
 #include "io/run_file.hpp"
 #include "scene/options.hpp"
 #include "tools/observed_order.hpp"
@@ -20,68 +20,6 @@ namespace vlbeam {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Columns {
-  std::vector<std::string> names, units;
-  std::vector<std::vector<double>> rows;  ///< NaN where a cell is empty
-  std::vector<std::size_t> lines;         ///< of the file, from 1
-};
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\r' && c != '"') {
-      cells.back() += c;
-    }
-  }
-  for (std::string& cell : cells) {
-    while (!cell.empty() && cell.back() == ' ') cell.pop_back();
-    cell.erase(0, std::min(cell.find_first_not_of(' '), cell.size()));
-  }
-  return cells;
-}
-
-Columns read_table(const std::filesystem::path& file) {
-  Columns table;
-  std::istringstream text(read_text(file));
-  std::string line;
-  for (std::size_t number = 1; std::getline(text, line); ++number) {
-    if (line.empty() || line == "\r" || line.front() == '#') continue;
-    const auto cells = cells_of(line);
-    const std::string where = file.string() + ", line " + std::to_string(number);
-    if (table.names.empty()) {
-      for (const std::string& cell : cells) {
-        const auto bracket = cell.find(" [");
-        table.names.push_back(cell.substr(0, bracket));
-        table.units.push_back(bracket == std::string::npos ? "" : cell.substr(bracket + 2, cell.size() - bracket - 3));
-      }
-      continue;
-    }
-    if (cells.size() != table.names.size()) {
-      throw InvalidInput(where, std::to_string(cells.size()) + " cells",
-                         "every line must have " + std::to_string(table.names.size()) + ", as the first");
-    }
-    std::vector<double> row;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      double value = nan;
-      const char* end = cells[i].data() + cells[i].size();
-      const auto result = std::from_chars(cells[i].data(), end, value);
-      const bool number_there = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
-      if (!cells[i].empty() && !number_there) {
-        throw InvalidInput(where + ", " + table.names[i], "\"" + cells[i] + "\"",
-                           "it must be a finite number, or empty where there is none");
-      }
-      row.push_back(cells[i].empty() ? nan : value);
-    }
-    table.rows.push_back(std::move(row));
-    table.lines.push_back(number);
-  }
-  if (table.rows.empty())
-    throw InvalidInput(file.string(), "no numbers", "it must have a line of names and lines of numbers");
-  return table;
-}
 
 std::vector<std::string> case_names(const fs::path& folder) {
   std::vector<std::string> names;
@@ -98,7 +36,7 @@ std::vector<std::string> column_names(const CertifiedCase& known) {
   return names;
 }
 
-void rename(Columns& table, const std::vector<std::string>& renamed) {
+void rename(NumberTable& table, const std::vector<std::string>& renamed) {
   for (const std::string& pair : renamed) {
     const auto equals = pair.find('=');
     const std::string theirs = equals == std::string::npos ? "" : pair.substr(equals + 1);
@@ -112,7 +50,7 @@ void rename(Columns& table, const std::vector<std::string>& renamed) {
 }
 
 /// A name with a mistake in it would be a column that nobody looks at.
-void check_names(const std::string& file, const Columns& table, const CertifiedCase& known) {
+void check_names(const std::string& file, const NumberTable& table, const CertifiedCase& known) {
   const auto ours = column_names(known);
   const auto is_there = [&](const std::string& name) {
     return std::ranges::find(table.names, name) != table.names.end();
@@ -131,7 +69,7 @@ struct Matched {
   std::size_t beyond = 0, between = 0;  ///< rows after its last time, and at others
 };
 
-Matched match(const std::string& file, const Columns& table, std::size_t time, const CertifiedCase& known) {
+Matched match(const std::string& file, const NumberTable& table, std::size_t time, const CertifiedCase& known) {
   Matched matched;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const double t = table.rows[row][time];
@@ -166,7 +104,7 @@ std::string verdict(const Json& column, const std::string& order = "") {
   return "an error of " + digits(column.at("largest_seen"), 2) + unit + (order.empty() ? "" : ", " + order);
 }
 
-Json errors_of(const Columns& table, std::size_t c, const CertifiedCase::Column& known, const Matched& matched,
+Json errors_of(const NumberTable& table, std::size_t c, const CertifiedCase::Column& known, const Matched& matched,
                const std::vector<double>& times) {
   double sum = 0, most = 0, seen = 0, at_time = 0, its_uncertainty = 0, most_uncertainty = 0;
   std::size_t count = 0, gaps = 0, within = 0;
@@ -324,7 +262,7 @@ void write_kit(const fs::path& cases, const fs::path& folder) {
 }
 
 Json score_trajectory(const CertifiedCase& known, const fs::path& csv, const std::vector<std::string>& renamed) {
-  Columns table = read_table(csv);
+  NumberTable table = read_numbers(csv);
   rename(table, renamed);
   check_names(csv.string(), table, known);
   const auto index_of = [&](const std::string& name) {
