@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/geometry/elementary.hpp"
 #include "io/json.hpp"
-#include "io/quantity.hpp"
 #include "io/scene_json.hpp"
 #include "scene/automatic_integrator.hpp"
 #include "scene/derived.hpp"
@@ -21,6 +20,7 @@
 #include "scene/validate.hpp"
 #include "tools/converge_setting.hpp"
 #include "tools/interrupt.hpp"
+#include "tools/sought.hpp"
 #include "tools/sweep.hpp"
 
 namespace vlbeam {
@@ -57,9 +57,7 @@ double coarser(const Scene& scene, double accuracy) { return accuracy * (has_ste
 class Converger {
  public:
   Converger(const Scene& scene, const ConvergeOptions& options)
-      : options_(options),
-        scene_(keeping(scene, options.quantity)),
-        quantity_(find_quantity(scene_, options.quantity)) {
+      : options_(options), scene_(scene), sought_(scene_, options.quantity) {
     if (!in_time() && (options.at || options.horizon)) {
       throw InvalidInput(options.at ? "--at" : "--horizon", "this option", "an equilibrium has no time: leave it out");
     }
@@ -77,8 +75,8 @@ class Converger {
     scene_.output.configurations.clear();
     const Setting own = setting_of(scene_);
     found_.answer = found_.uncertainty = nan;  // until something is known
-    found_.quantity = quantity_.name;
-    found_.unit = quantity_.unit;
+    found_.quantity = sought_.name();
+    found_.unit = sought_.unit();
     found_.t = in_time() ? scene_.duration : full_load;
     now_ = own;
     if (in_time()) now_.accuracy = std::min(own.accuracy, has_step(scene_) ? scene_.duration / 40 : 1e-6);
@@ -123,13 +121,13 @@ class Converger {
     const std::size_t evaluations = in_time() ? result.solver.rhs_evaluations : result.solver.newton.iterations;
     level.work = static_cast<double>(evaluations) * setting.elements * setting.points;
     level.events = result.events.size();
-    for (const Sample& sample : result.samples) level.series.push_back(quantity_.of(sample));
+    level.series = sought_.values(result);
     if (result.status == RunStatus::failed) {
       level.failure = result.failure;
     } else if (result.status == RunStatus::interrupted) {
       level.failure = interrupted() ? "interrupted" : no_time;
     } else {
-      level.value = level.series.back();
+      level.value = level.series.empty() ? nan : level.series.back();
       if (!std::isfinite(level.value)) level.failure = absent;
     }
     return level;
@@ -221,7 +219,7 @@ class Converger {
       levels.push_back(level_of(refined, setting));
       values.push_back(!sample ? level->value : *sample < level->series.size() ? level->series[*sample] : nan);
     }
-    return grid_convergence(quantity_.name, levels, values,
+    return grid_convergence(sought_.name(), levels, values,
                             {.expected_order = expected_order(refined), .floor = floor});
   }
 
@@ -406,9 +404,10 @@ class Converger {
     const RunResult result = simulate(scene, [this](double) { return !interrupted() && !late(); });
     if (result.status == RunStatus::interrupted) return;
     work_ += finest.work;
+    const std::vector<double> disturbed = sought_.values(result);
     double until = 0;
-    for (std::size_t i = 0; i < std::min(result.samples.size(), finest.series.size()); ++i) {
-      const double gap = std::abs(quantity_.of(result.samples[i]) - finest.series[i]);
+    for (std::size_t i = 0; i < std::min(disturbed.size(), finest.series.size()); ++i) {
+      const double gap = std::abs(disturbed[i] - finest.series[i]);
       if (!(gap <= found_.error)) break;
       until = result.samples[i].t;
     }
@@ -448,7 +447,7 @@ class Converger {
 
   ConvergeOptions options_;
   Scene scene_;
-  Quantity quantity_;
+  Sought sought_;
   Setting now_;
   Convergence found_;
   Clock::time_point started_ = Clock::now();

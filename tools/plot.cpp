@@ -14,6 +14,7 @@
 #include "scene/derived.hpp"
 #include "scene/options.hpp"
 #include "scene/shape.hpp"
+#include "tools/link_symbols.hpp"
 #include "tools/scene_symbols.hpp"
 
 namespace vlbeam {
@@ -223,6 +224,8 @@ Diagram shape_diagram(const RunFile& run, const std::vector<Configuration>& shap
     for (const BodySpec& body : run.scene.assembly->bodies) {
       diagram.series.push_back(body_at(run, body.name, shapes, across, up));
     }
+    const std::vector<Symbol> links = link_symbols(run, shapes, across, up);
+    diagram.symbols.insert(diagram.symbols.end(), links.begin(), links.end());
   }
   return diagram;
 }

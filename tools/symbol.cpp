@@ -77,11 +77,39 @@ std::vector<Line> drawn(Symbol::Kind kind) {
           {{arc.back()[0] + 0.45, arc.back()[1] + 0.05}, arc.back(), {arc.back()[0] + 0.2, arc.back()[1] - 0.4}});
       break;
     }
+    case Symbol::Kind::hinge:
+      lines.push_back(circle(0.2, {0, 0}));
+      break;
+    case Symbol::Kind::block:
+      lines.push_back({{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.2}, {-0.2, 0.2}, {-0.2, -0.2}});
+      break;
+    case Symbol::Kind::rail:
+      lines.push_back({{-2.5, 0}, {2.5, 0}});
+      for (const double side : {-0.35, 0.35}) lines.push_back({{-0.6, side}, {0.6, side}});
+      break;
     case Symbol::Kind::hanger:
     case Symbol::Kind::floor:
+    case Symbol::Kind::coil:
+    case Symbol::Kind::rod:
       break;
   }
   return lines;
+}
+
+/// A spring between two places, with coils of `size`.
+Line coil_between(Pair from, Pair to, Pair size) {
+  const Pair way{to[0] - from[0], to[1] - from[1]}, in_sizes{way[0] / size[0], way[1] / size[1]};
+  const double length = portable::hypot(in_sizes[0], in_sizes[1]);
+  const auto at = [&](double part, double aside) {
+    const Pair across = length > 0 ? Pair{-in_sizes[1] / length, in_sizes[0] / length} : Pair{};
+    return Pair{from[0] + part * way[0] + aside * across[0] * size[0],
+                from[1] + part * way[1] + aside * across[1] * size[1]};
+  };
+  Line line{from, at(0.2, 0)};
+  constexpr int turns = 10;
+  for (int i = 0; i < turns; ++i) line.push_back(at(0.2 + 0.6 * (i + 0.5) / turns, i % 2 == 0 ? 0.25 : -0.25));
+  line.insert(line.end(), {at(0.8, 0), to});
+  return line;
 }
 
 }  // namespace
@@ -102,6 +130,8 @@ std::vector<std::vector<std::array<double, 2>>> lines_of(const Symbol& symbol, s
     lines.push_back({symbol.at, symbol.other});
     return lines;
   }
+  if (symbol.kind == Symbol::Kind::rod) return {{symbol.at, symbol.other}};
+  if (symbol.kind == Symbol::Kind::coil) return {coil_between(symbol.at, symbol.other, size)};
   lines = drawn(symbol.kind);
   for (Line& line : lines) {
     for (Pair& point : line) {

@@ -19,11 +19,16 @@ struct Symbol {
     force,   ///< an arrow whose head is at the place
     moment,  ///< a round arrow
     floor,   ///< a hatched line through the whole picture
+    coil,    ///< a spring to another place
+    rod,     ///< a line to another place
+    hinge,   ///< a small circle
+    block,   ///< a small square
+    rail,    ///< a line along the way through the place
   };
   Kind kind = Kind::pin;
   std::array<double, 2> at{};     ///< on the axes of the picture
   std::array<double, 2> way{};    ///< where its ground is, or an arrow points; a unit vector
-  std::array<double, 2> other{};  ///< of a hanger: its place
+  std::array<double, 2> other{};  ///< of what leads to another place: that
   std::size_t frame = 0;          ///< which of the times it belongs to
 };
 

@@ -93,6 +93,27 @@ TEST(Converge, KnowsAnEquilibrium) {
   EXPECT_THROW(converge(scene, {.quantity = "end.y", .error = 1e-6, .at = 1.0}), InvalidInput);
 }
 
+TEST(Converge, KnowsNaturalFrequencies) {
+  Scene scene = scene_from_json(Json::parse(R"({"analysis": "statics", "gravity": [0, 0],
+    "beam": {"curve": {"type": "line", "end": [1, 0]}, "elements": 4,
+             "section": {"type": "stiffness", "EA": 1e7, "EI": 2, "rhoA": 3}},
+    "supports": [{"at": "start", "type": "pin"}, {"at": "end", "type": "pin"}]})"));
+  const double pi = std::acos(-1.0);
+  for (const int mode : {1, 2}) {
+    const std::string name = "frequencies." + std::to_string(mode - 1);
+    const Convergence found = converge(scene, {.quantity = name, .error = 1e-5, .relative = true});
+    const double exact = pi / 2 * mode * mode * std::sqrt(2.0 / 3);  // of a beam between two pins [Hz]
+    EXPECT_TRUE(found.reached) << found.reason;
+    EXPECT_EQ(found.unit, "Hz");
+    EXPECT_NEAR(found.answer, exact, found.uncertainty);
+    EXPECT_LE(found.uncertainty, 1e-5 * exact);
+  }
+  EXPECT_THROW(converge(scene, {.quantity = "frequencies.first", .error = 1e-3}), InvalidInput);
+  scene.analysis = Analysis::dynamics;
+  scene.duration = 1;
+  EXPECT_THROW(converge(scene, {.quantity = "frequencies.0", .error = 1e-3}), InvalidInput);
+}
+
 TEST(Converge, TheCheapestSettingKeepsTheError) {
   Scene scene = library_scene("pendulum");
   scene.beam.axial_strain = AxialStrain::full;  // the other needs no finer mesh
