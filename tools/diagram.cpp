@@ -141,7 +141,7 @@ Box box_of(const Diagram& diagram) {
     for (std::size_t i = 0; i < series.x.size(); ++i) hold(series.x[i], series.y[i]);
   }
   for (const Symbol& symbol : diagram.symbols) {
-    if (symbol.kind == Symbol::Kind::hanger) hold(symbol.other[0], symbol.other[1]);
+    if (symbol.leads()) hold(symbol.other[0], symbol.other[1]);
     if (symbol.kind == Symbol::Kind::floor) hold(box[0], symbol.at[1]);
   }
   return box;
@@ -189,9 +189,13 @@ std::string symbol_data(const Diagram& diagram, std::optional<std::size_t> frame
   std::string data;
   for (const Symbol& symbol : diagram.symbols) {
     if (frame && symbol.frame != *frame && symbol.kind != Symbol::Kind::floor) continue;
+    const double reach = symbol.is_small() ? one_place / 3 : one_place;
+    const auto near = [&](const std::array<double, 2>& a, const std::array<double, 2>& b) {
+      return std::abs(a[0] - b[0]) < reach * sizes[0] && std::abs(a[1] - b[1]) < reach * sizes[1];
+    };
     const bool again = std::ranges::any_of(drawn, [&](const Symbol* other) {
-      return other->kind == symbol.kind && std::abs(other->at[0] - symbol.at[0]) < one_place * sizes[0] &&
-             std::abs(other->at[1] - symbol.at[1]) < one_place * sizes[1];
+      return other->kind == symbol.kind && near(other->at, symbol.at) &&
+             (!symbol.leads() || near(other->other, symbol.other));
     });
     if (again) continue;
     drawn.push_back(&symbol);

@@ -30,6 +30,9 @@ struct Symbol {
   std::array<double, 2> way{};    ///< where its ground is, or an arrow points; a unit vector
   std::array<double, 2> other{};  ///< of what leads to another place: that
   std::size_t frame = 0;          ///< which of the times it belongs to
+
+  bool is_small() const { return kind == Kind::hinge || kind == Kind::block; }
+  bool leads() const { return kind == Kind::hanger || kind == Kind::coil || kind == Kind::rod; }
 };
 
 /// Lines that draw a symbol of `size`, in lengths of both axes, in a picture that reaches from `left` to `right`.

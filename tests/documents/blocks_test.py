@@ -59,7 +59,8 @@ class Blocks(unittest.TestCase):
         ran = {}
         for path in DOCUMENTS:
             with tempfile.TemporaryDirectory() as folder, self.subTest(document=path.name):
-                (Path(folder) / "scenes").symlink_to(SOURCES / "scenes")
+                for beside in ("scenes", "reference"):
+                    (Path(folder) / beside).symlink_to(SOURCES / beside)
                 printed, names = "", {"__name__": "document"}
                 for language, code, before in blocks(path.read_text(encoding="utf-8")):
                     ran[language] = ran.get(language, 0) + 1
@@ -109,6 +110,8 @@ class Blocks(unittest.TestCase):
                 shutil.copyfile(folder / "r.json", folder / run)
         if command.startswith("score"):
             (folder / "their.csv").write_text("t,s\n0.1,0.13\n")
+            (folder / "theirs").mkdir(exist_ok=True)
+            (folder / "theirs" / "falling_beam_ours_N10.csv").write_text("t,joint_position\n0.1,0.13\n")
 
     def scene(self, code, before, folder):
         given = json.loads(code)
