@@ -12,8 +12,7 @@ namespace vlbeam {
 namespace {
 
 TEST(LinkSymbols, StandWhereLinksAndArmsAre) {
-  const Scene scene =
-      parse_scene(R"({"gravity": [0, -9.81], "duration": 0.02,
+  const Scene scene = parse_scene(R"({"gravity": [0, -9.81], "duration": 0.02,
     "output": {"interval": 0.01, "configurations": [0]},
     "beams": [{"name": "girder", "curve": {"type": "line", "start": [0, 0], "end": [10, 0]}, "elements": 10,
                "section": {"type": "stiffness", "EA": 1e8, "EI": 1e6, "rhoA": 10},
