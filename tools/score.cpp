@@ -158,7 +158,7 @@ Entry entry_of(const fs::path& file, const std::vector<std::string>& names) {
   if (entry.name.empty()) {
     throw InvalidInput(file.string(), "this name", "it must begin with a case: " + quoted_list(names));
   }
-  static const std::regex form("(?:_(.*?))?(?:_?N(\\d+))?");
+  static const std::regex form("(?:_(.*?))?(?:_?N(\\d{1,9}))?");
   std::smatch parts;
   const std::string rest = stem.substr(entry.name.size());
   if (std::regex_match(rest, parts, form)) {
@@ -242,6 +242,9 @@ std::string cases_text(const fs::path& folder) {
 }
 
 void write_kit(const fs::path& cases, const fs::path& folder) {
+  if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
+    throw InvalidInput("--kit", "\"" + folder.string() + "\"", "it must be a new folder or an empty one");
+  }
   fs::create_directories(folder);
   const auto cell = [](double value) { return "," + (std::isnan(value) ? "" : number_text(value)); };
   for (const std::string& name : case_names(cases)) {

@@ -26,6 +26,7 @@ CertifiedCase read_case(const std::filesystem::path& folder, const std::string& 
 std::string cases_text(const std::filesystem::path& folder);
 
 /// Writes the scene of each case, NAME.json, and its answers, NAME.csv: t, columns, and the uncertainty of each.
+/// Throws InvalidInput where the folder holds something.
 void write_kit(const std::filesystem::path& cases, const std::filesystem::path& folder);
 
 /// The errors of another code's trajectory, a CSV file with columns t and any of the case's, units in brackets or none.

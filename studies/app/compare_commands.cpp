@@ -98,26 +98,28 @@ Command compare_command() {
 }
 
 Command score_command() {
-  return {.name = "score",
-          .help = "The errors of another code's trajectory",
-          .options = [](CLI::App& app) -> std::function<int()> {
-            const auto arguments = std::make_shared<ScoreArguments>();
-            app.add_option("case", arguments->name,
-                           "Name of a case, or a folder with trajectories CASE_METHOD_N40.csv; none lists the cases");
-            app.add_option("trajectory", arguments->csv, "CSV file: t and any of the case's columns");
-            app.add_option("--kit", arguments->kit, "Write scenes and answers of all cases into this folder");
-            app.add_option("--column", arguments->columns, "A column that is called otherwise: ours=theirs");
-            app.add_option("--report", arguments->report, "Write it (JSON) here; - is standard output");
-            app.add_option("--reference", arguments->references,
-                           "Folder reference/ (default: beside the program, else where it was built)");
-            return [arguments] { return carry_out(*arguments); };
-          },
-          .examples =
-              "  vlbeam score                                              the cases, and to what they are known\n"
-              "  vlbeam score falling_beam_engineering their.csv\n"
-              "  vlbeam score theirs/                                      errors and orders of all trajectories in a "
-              "folder\n"
-              "  vlbeam score falling_beam_engineering their.csv --column joint_position=s --column t=time\n"};
+  return {
+      .name = "score",
+      .help = "The errors of another code's trajectory",
+      .options = [](CLI::App& app) -> std::function<int()> {
+        const auto arguments = std::make_shared<ScoreArguments>();
+        app.add_option("case", arguments->name,
+                       "Name of a case, or a folder with trajectories CASE_METHOD_N40.csv; none lists the cases");
+        app.add_option("trajectory", arguments->csv, "CSV file: t and any of the case's columns");
+        app.add_option("--kit", arguments->kit, "Write scenes and answers of all cases into this folder");
+        app.add_option("--column", arguments->columns, "A column that is called otherwise: ours=theirs");
+        app.add_option("--report", arguments->report, "Write it (JSON) here; - is standard output");
+        app.add_option("--reference", arguments->references,
+                       "Folder reference/ (default: beside the program, else where it was built)");
+        return [arguments] { return carry_out(*arguments); };
+      },
+      .examples =
+          "  vlbeam score                                              the cases, and to what they are known\n"
+          "  vlbeam score --kit kit                                    their scenes and answers, to compute elsewhere\n"
+          "  vlbeam score falling_beam_engineering their.csv\n"
+          "  vlbeam score theirs/                                      errors and orders of all trajectories in a "
+          "folder\n"
+          "  vlbeam score falling_beam_engineering their.csv --column joint_position=s --column t=time\n"};
 }
 
 }  // namespace vlbeam

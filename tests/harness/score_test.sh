@@ -8,6 +8,7 @@ score() { exit_of "$vlbeam" score "$@"; }
 "$vlbeam" score > cases.txt
 check "eleven cases of the judge, one of the program" 12 "$(grep -c '^  by ' cases.txt)"
 check "the kit" 0 "$(score --kit kit)"
+check "a kit over something" 2 "$(score --kit kit)"
 check "a scene and answers of each" 24 "$(ls kit | wc -l)"
 
 # The answers themselves have no error.
